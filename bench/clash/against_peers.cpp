@@ -1,36 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench_clash_peers [meshes|ship] [OBJECTS] [straight|turned] [PEER...]: a generated ship, as
-// meshes or with its primitives, through Strake and through Embree, FCL and CGAL on the same
-// triangles. Strake's classes must be those of the ship's truth, and every peer must have found
-// what its question asks for, before a time is printed: CPU seconds, medians of several runs, and
-// the ratio to Strake's, which answers with class, distance or depth and witness in that time.
+// bench_clash_peers [meshes|ship] [OBJECTS] [straight|turned] [--limit SECONDS] [--scenes FOLDER]
+// [--json FILE] [PEER...]: a generated ship, as meshes or with its primitives, through Strake and
+// through Embree, FCL, CGAL, Bullet and IfcOpenShell on the same triangles. Strake's classes must
+// be those of the ship's truth, and every peer must have found what its question asks for, before a
+// time is printed: CPU seconds, medians of several runs, and the ratio to Strake's, which answers
+// with class, distance or depth and witness in that time.
+//
+// --scenes keeps the triangles as OBJ and GLB; --json is for 'strake evaluate --peers'. The limit
+// is that of peers which are programs of their own.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
-#include <map>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "cli/evaluate/peers/peer_rows.hpp"
 #include "clocks.hpp"
+#include "peer_support/run_options.hpp"
+#include "peer_support/work_folder.hpp"
+#include "peers/known_pairs.hpp"
 #include "peers/peer.hpp"
+#include "peers/peer_scene.hpp"
 #include "ship_truth.hpp"
 #include "strake/clash/overlaps.hpp"
-#include "strake/geometry/grid.hpp"
+#include "strake/core/version.hpp"
 #include "strake/parallel/team.hpp"
 
 namespace {
 
 using namespace strake;
+using bench::FoundPairs;
+using bench::KnownPairs;
+using bench::PairQuestion;
 using bench::PeerAnswer;
 using bench::PeerObject;
-using clash::Class;
 
 constexpr int kRuns = 3;
 /// Above this the slow peers run once.
@@ -45,82 +56,6 @@ Number median(std::vector<Number> all) {
   return all[all.size() / 2];
 }
 
-/// The triangles of the scene, as every object's own.
-std::vector<PeerObject> peer_objects(const model::Scene& scene) {
-  std::vector<PeerObject> objects(scene.model->objects.size());
-  for (const model::GridBody& body : scene.bodies) {
-    PeerObject& o = objects[model::index(body.object)];
-    for (const geometry::Part& part : scene.shapes[body.grid_shape].parts) {
-      const auto base = static_cast<std::uint32_t>(o.points.size());
-      if (part.kind == geometry::PartKind::wire) continue;
-      for (const geometry::Vec3i& v : part.vertices) {
-        o.points.push_back(to_mm(body.origin + v.as<std::int64_t>()));
-        o.box.include(o.points.back());
-      }
-      for (const geometry::Triangle& t : part.triangles)
-        o.triangles.push_back({t[0] + base, t[1] + base, t[2] + base});
-    }
-  }
-  return objects;
-}
-
-/// The same objects as a file of plain meshes would hold them: nothing shared, no primitives.
-model::Model as_meshes(const model::Model& from, const std::vector<PeerObject>& objects) {
-  model::Model meshes;
-  meshes.files = from.files;
-  meshes.objects = from.objects;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    model::Object& o = meshes.objects[i];
-    o.first_body = static_cast<std::uint32_t>(meshes.bodies.size());
-    o.body_count = 1;
-    model::Body body;
-    body.shape = model::ShapeId{static_cast<std::uint32_t>(meshes.shapes.size())};
-    // About the object's own corner, as a placement in a file would have it.
-    const geometry::Vec3d corner =
-        objects[i].triangles.empty() ? geometry::Vec3d{} : objects[i].box.lo;
-    body.placement.translation = corner;
-    geometry::TriangleMesh mesh;
-    for (const geometry::Vec3d& p : objects[i].points) mesh.vertices.push_back(p - corner);
-    mesh.triangles = objects[i].triangles;
-    meshes.shapes.emplace_back(std::move(mesh));
-    meshes.bodies.push_back(body);
-  }
-  return meshes;
-}
-
-/// What is known of the pairs: Strake's report, once the truth has confirmed it.
-struct Known {
-  std::set<geometry::IndexPair> crossing;  ///< surfaces cross, deeper than rounding could hide
-  std::set<geometry::IndexPair> touching;  ///< at about 0
-  std::set<geometry::IndexPair> nested;    ///< one wholly inside the other
-  std::set<geometry::IndexPair> near;      ///< apart by less than kPeerReach_mm, but for rounding
-};
-
-Known known_from(const clash::Report& report) {
-  constexpr double kRounding_mm = 0.01;
-  Known known;
-  for (const clash::Pair& p : report.pairs) {
-    const geometry::IndexPair pair{model::index(p.a), model::index(p.b)};
-    const bool nested =
-        p.relation == clash::Relation::a_in_b || p.relation == clash::Relation::b_in_a;
-    if (nested)
-      known.nested.insert(pair);
-    else if (p.relation == clash::Relation::interfere && p.d_mm < -kRounding_mm)
-      known.crossing.insert(pair);
-    else if (p.d_mm <= kRounding_mm)
-      known.touching.insert(pair);
-    else if (p.d_mm < kPeerReach_mm - kRounding_mm)
-      known.near.insert(pair);
-  }
-  return known;
-}
-
-std::size_t count_in(const std::vector<geometry::IndexPair>& found,
-                     const std::set<geometry::IndexPair>& known) {
-  return static_cast<std::size_t>(
-      std::count_if(found.begin(), found.end(), [&](const auto& p) { return known.contains(p); }));
-}
-
 /// The same question as the peers', of parts that stand on the grid already.
 PeerAnswer strake_overlaps(const model::Scene& scene, const parallel::Context& context) {
   const clash::Sets sets = clash::one_set(scene);
@@ -128,6 +63,7 @@ PeerAnswer strake_overlaps(const model::Scene& scene, const parallel::Context& c
   bench::CpuLap cpu;
   const auto overlaps = clash::overlapping_pairs(scene, sets, kOptions, context).value();
   PeerAnswer answer;
+  answer.version = fmt::format("Strake {}", version());
   answer.query_s = cpu();
   answer.wall_s = lap();
   for (const clash::ObjectPair& p : overlaps)
@@ -137,111 +73,223 @@ PeerAnswer strake_overlaps(const model::Scene& scene, const parallel::Context& c
 
 struct Peer {
   std::string name;
-  bool distances = false;
+  unsigned threads = 1;
+  PairQuestion question;
   std::function<PeerAnswer()> ask;
+
+  /// The first word, as the command line has it.
+  [[nodiscard]] std::string key() const {
+    std::string key = maker();
+    std::ranges::transform(key, key.begin(), [](char c) {
+      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    return key;
+  }
+  [[nodiscard]] std::string maker() const { return name.substr(0, name.find(' ')); }
 };
 
-struct Bench {
-  const Known& known;
-  double strake_cpu_s = 0, strake_wall_s = 0;
+/// What several runs of a peer took; the answer is that of the last.
+struct Timed {
+  PeerAnswer answer;
+  std::vector<double> build, query, wall;
 
-  [[nodiscard]] bool right(const Peer& peer, const PeerAnswer& answer) const {
-    const std::size_t crossing = count_in(answer.pairs, known.crossing);
-    const std::size_t near = count_in(answer.pairs, known.near);
-    return crossing == known.crossing.size() && (!peer.distances || near == known.near.size());
+  [[nodiscard]] double cpu_s() const { return median(build) + median(query); }
+};
+
+/// Peers on one scene, beside Strake.
+class Bench {
+ public:
+  Bench(const KnownPairs& known, cli::PeerRow ours, cli::PeerRowFile& file)
+      : known_(known), ours_(std::move(ours)), file_(file) {}
+
+  /// Asks a peer, and prints and keeps what became of it; false where its result is wrong.
+  bool run(const Peer& peer) {
+    Timed timed;
+    for (int i = 0; i < kRuns; ++i) {
+      timed.answer = peer.ask();
+      const PeerAnswer& answer = timed.answer;
+      if (answer.outcome != cli::kMeasured) return without_answer(peer, answer);
+      const FoundPairs found(answer.pairs, known_, peer.question);
+      if (!found.right()) return wrong(peer, answer, found);
+      timed.build.push_back(answer.build_s);
+      timed.query.push_back(answer.query_s);
+      timed.wall.push_back(answer.wall_s);
+      if (answer.load_s + answer.wall_s > kLongRun_s) break;
+    }
+    return right(peer, timed);
   }
 
-  bool run(const Peer& peer) const {
-    std::vector<double> build, query, wall;
-    PeerAnswer answer;
-    for (int i = 0; i < kRuns; ++i) {
-      answer = peer.ask();
-      if (!right(peer, answer)) {
-        fmt::print("  {:<18}ERROR: {} of {} crossing pairs, {} of {} near ones\n", peer.name,
-                   count_in(answer.pairs, known.crossing), known.crossing.size(),
-                   count_in(answer.pairs, known.near), known.near.size());
-        return false;
-      }
-      build.push_back(answer.build_s);
-      query.push_back(answer.query_s);
-      wall.push_back(answer.wall_s);
-      if (answer.wall_s > kLongRun_s) break;
-    }
-    const double cpu = median(build) + median(query);
+ private:
+  [[nodiscard]] cli::PeerRow row_of(const Peer& peer, const PeerAnswer& answer) const {
+    cli::PeerRow row = ours_;
+    row.who = peer.maker();
+    row.version = answer.version;
+    row.threads = peer.threads;
+    row.answers = peer.question.text;
+    return row;
+  }
+  /// Keeps a row; false where that cannot be done.
+  bool keep(cli::PeerRow row, std::string_view outcome, std::string result) {
+    row.outcome = outcome;
+    row.result = std::move(result);
+    const Status status = file_.add(std::move(row));
+    if (!status) fmt::print(stderr, "{}\n", status.error().text());
+    return status.has_value();
+  }
+
+  bool right(const Peer& peer, const Timed& timed) {
+    const FoundPairs found(timed.answer.pairs, known_, peer.question);
     fmt::print(
         "  {:<18}{:>8.2f} s build {:>8.2f} s query {:>8.2f} s wall  {:>6.2f} times Strake's CPU; "
-        "{} of {} touches called overlaps, {} of {} nested found\n",
-        peer.name, median(build), median(query), median(wall), cpu / strake_cpu_s,
-        count_in(answer.pairs, known.touching), known.touching.size(),
-        count_in(answer.pairs, known.nested), known.nested.size());
+        "{}\n",
+        peer.name, median(timed.build), median(timed.query), median(timed.wall),
+        timed.cpu_s() / ours_.ours_cpu_s, found.beside());
     std::fflush(stdout);
-    return true;
+    cli::PeerRow row = row_of(peer, timed.answer);
+    row.cpu_s = timed.cpu_s();
+    row.wall_s = median(timed.wall);
+    return keep(std::move(row), cli::kMeasured, found.text());
   }
+  bool wrong(const Peer& peer, const PeerAnswer& answer, const FoundPairs& found) {
+    fmt::print("  {:<18}ERROR: {}\n", peer.name, found.fault());
+    (void)keep(row_of(peer, answer), cli::kDisagrees, found.fault());
+    return false;
+  }
+  bool without_answer(const Peer& peer, const PeerAnswer& answer) {
+    fmt::print("  {:<18}{}\n", peer.name, answer.why);
+    return keep(row_of(peer, answer), answer.outcome, answer.why);
+  }
+
+  const KnownPairs& known_;
+  cli::PeerRow ours_;
+  cli::PeerRowFile& file_;
 };
 
 struct Wanted {
   bool meshes = true, turned = false;
   std::uint64_t objects = 10'000;
   std::vector<std::string_view> peers;
+  bench::RunOptions run;
 
   [[nodiscard]] bool peer(std::string_view name) const {
     return peers.empty() || std::ranges::find(peers, name) != peers.end();
   }
+  /// Whether the scene is to be a file: to be kept, or for a peer that reads one.
+  [[nodiscard]] bool file_is_needed() const { return !run.scenes.empty() || peer("ifcopenshell"); }
+  [[nodiscard]] std::string scene() const {
+    return fmt::format("ship of {} objects{}{}", objects, turned ? ", turned" : "",
+                       meshes ? "" : ", with primitives");
+  }
+  [[nodiscard]] std::string file() const {
+    return fmt::format("pairs-{}{}", objects, turned ? "-turned" : "");
+  }
 };
 
-bool measure(const Wanted& wanted) {
-  parallel::Team team(parallel::default_workers());
-  const parallel::Context context{.team = &team, .stop = {}};
-  const auto ship = generate::generate_ship({wanted.objects, 1, wanted.turned}, context).value();
-  std::vector<PeerObject> objects;
-  {
-    const auto scene =
-        model::make_scene(ship.model, clash::scene_options(kOptions), context).value();
-    objects = peer_objects(scene);
-  }
-  const model::Model model = wanted.meshes ? as_meshes(ship.model, objects) : ship.model;
-  std::size_t triangles = 0;
-  for (const PeerObject& o : objects) triangles += o.triangles.size();
-  std::vector<double> cpu_s, wall_s;
+/// Strake's own runs.
+struct Ours {
   clash::Report report;
+  double cpu_s = 0, wall_s = 0;
+};
+
+Ours strake_all(const model::Model& model, const parallel::Context& context) {
+  std::vector<double> cpu_s, wall_s;
+  Ours ours;
   for (int i = 0; i < kRuns; ++i) {
     bench::Lap lap;
     bench::CpuLap cpu;
     const auto scene = model::make_scene(model, clash::scene_options(kOptions), context).value();
-    report = clash::detect(scene, clash::one_set(scene), kOptions, context).value();
+    ours.report = clash::detect(scene, clash::one_set(scene), kOptions, context).value();
     cpu_s.push_back(cpu());
     wall_s.push_back(lap());
   }
-  fmt::print("{} objects{} as {}, {} triangles, {} threads\n", wanted.objects,
-             wanted.turned ? ", turned," : "", wanted.meshes ? "meshes" : "a ship", triangles,
-             team.size());
-  if (const std::size_t wrong = bench::wrong_pairs(report, ship.truth); wrong > 0) {
-    fmt::print("  Strake            ERROR: {} wrong pairs\n", wrong);
-    return false;
-  }
-  const Known known = known_from(report);
-  const Bench bench{known, median(cpu_s), median(wall_s)};
+  ours.cpu_s = median(cpu_s);
+  ours.wall_s = median(wall_s);
+  return ours;
+}
+
+void print(const Ours& ours) {
+  const clash::Report& report = ours.report;
   fmt::print(
       "  {:<18}{:>8.2f} s CPU {:>29.2f} s wall; {} pairs: {} hits, {} contacts, {} nearer than {} "
       "mm; classes as in the truth\n",
-      "Strake, all", bench.strake_cpu_s, bench.strake_wall_s, report.pairs.size(), report.count_hit,
+      "Strake, all", ours.cpu_s, ours.wall_s, report.pairs.size(), report.count_hit,
       report.count_contact, report.count_clearance, kOptions.tolerances.clearance_mm);
   std::fflush(stdout);
+}
+
+/// What peers are asked about: the scene on Strake's grid, and its triangles.
+struct Subject {
+  const model::Scene& scene;
+  const std::vector<PeerObject>& objects;
+  std::filesystem::path file;  ///< OBJ; empty: not written
+  double limit_s = 0;
+};
+
+std::vector<Peer> peers_of(const Subject& s, const parallel::Context& context) {
+  const unsigned team = context.team->size();
+  const PairQuestion overlap{"pairs that overlap"};
+  // What it takes for touching is said where it is asked (peer.hpp).
+  const PairQuestion loosely{"pairs that overlap, and pairs that may", false, 100};
+  const PairQuestion near{fmt::format("pairs nearer than {} mm", kPeerReach_mm), true};
+  std::vector<Peer> peers{
+      {"Strake overlap", team, overlap, [&, s] { return strake_overlaps(s.scene, context); }},
+      {"Embree overlap", team, overlap,
+       [&, s] { return bench::embree_overlaps(s.objects, context); }},
+      {"CGAL overlap", team, overlap, [&, s] { return bench::cgal_overlaps(s.objects, context); }},
+      {"FCL overlap", 1, overlap, [s] { return bench::fcl_overlaps(s.objects); }},
+      {"FCL to 20 mm", 1, near, [s] { return bench::fcl_within(s.objects, kPeerReach_mm); }},
+      {"Bullet overlap", 1, loosely, [s] { return bench::bullet_overlaps(s.objects); }},
+      {"IfcOpenShell", team, PairQuestion{"pairs of which one protrudes into the other"},
+       [s, team] { return bench::ifc_tree_overlaps(s.file, team, s.limit_s); }}};
+  return peers;
+}
+
+/// The row that all of a scene begin with.
+cli::PeerRow row_of(const Wanted& wanted, const std::vector<PeerObject>& objects,
+                    const Ours& ours) {
+  cli::PeerRow row;
+  row.scene = wanted.scene();
+  row.objects = objects.size();
+  for (const PeerObject& o : objects) row.triangles += o.triangles.size();
+  row.ours_cpu_s = ours.cpu_s;
+  row.ours_wall_s = ours.wall_s;
+  return row;
+}
+
+/// Says that Strake itself is wrong.
+void complain(cli::PeerRow row, std::size_t wrong, cli::PeerRowFile& file) {
+  fmt::print("  Strake            ERROR: {} wrong pairs\n", wrong);
+  row.who = "Strake";
+  row.outcome = cli::kDisagrees;
+  row.result = fmt::format("{} pairs are not those of the ship's truth", wrong);
+  (void)file.add(std::move(row));
+}
+
+bool measure(const Wanted& wanted, const bench::WorkFolder& folder, cli::PeerRowFile& file) {
+  parallel::Team team(parallel::default_workers());
+  const parallel::Context context{.team = &team, .stop = {}};
+  const auto ship = generate::generate_ship({wanted.objects, 1, wanted.turned}, context).value();
+  const std::vector<PeerObject> objects = bench::peer_objects(
+      model::make_scene(ship.model, clash::scene_options(kOptions), context).value());
+  const model::Model meshes = bench::as_meshes(ship.model, objects);
+  const model::Model& model = wanted.meshes ? meshes : ship.model;
+  const Ours ours = strake_all(model, context);
+  const cli::PeerRow row = row_of(wanted, objects, ours);
+  fmt::print("{} objects{} as {}, {} triangles, {} threads\n", wanted.objects,
+             wanted.turned ? ", turned," : "", wanted.meshes ? "meshes" : "a ship", row.triangles,
+             team.size());
+  if (const std::size_t wrong = bench::wrong_pairs(ours.report, ship.truth); wrong > 0)
+    return complain(row, wrong, file), false;
+  print(ours);
+  const KnownPairs known = bench::known_from(ours.report, kPeerReach_mm);
   const auto scene = model::make_scene(model, clash::scene_options(kOptions), context).value();
-  const std::vector<Peer> peers{
-      {"Strake overlap", false, [&] { return strake_overlaps(scene, context); }},
-      {"Embree overlap", false, [&] { return bench::embree_overlaps(objects, context); }},
-      {"CGAL overlap", false, [&] { return bench::cgal_overlaps(objects, context); }},
-      {"FCL overlap", false, [&] { return bench::fcl_overlaps(objects); }},
-      {"FCL to 20 mm", true, [&] { return bench::fcl_within(objects, kPeerReach_mm); }}};
+  Result<std::filesystem::path> obj{std::filesystem::path()};
+  if (wanted.file_is_needed()) obj = folder.write_scene(meshes, wanted.file(), context);
+  if (!obj) return fmt::print(stderr, "{}\n", obj.error().text()), false;
+  Bench bench(known, row, file);
   bool right = true;
-  for (const Peer& peer : peers) {
-    std::string name = peer.name.substr(0, peer.name.find(' '));
-    std::ranges::transform(name, name.begin(), [](char c) {
-      return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    if (wanted.peer(name)) right = bench.run(peer) && right;
-  }
+  for (const Peer& peer : peers_of({scene, objects, *obj, wanted.run.limit_s}, context))
+    if (wanted.peer(peer.key())) right = bench.run(peer) && right;
   return right;
 }
 
@@ -252,7 +300,9 @@ int main(int argc, char** argv) {
   bool both = true;
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
-    if (word == "meshes" || word == "ship")
+    if (i + 1 < argc && wanted.run.take(word, argv[i + 1]))
+      ++i;
+    else if (word == "meshes" || word == "ship")
       wanted.meshes = word == "meshes";
     else if (word == "straight" || word == "turned")
       both = false, wanted.turned = word == "turned";
@@ -261,12 +311,14 @@ int main(int argc, char** argv) {
     else
       wanted.peers.push_back(word);
   }
+  const bench::WorkFolder folder(wanted.run.scenes, "clash_peers");
+  cli::PeerRowFile file(wanted.run.json);
   bool right = true;
   for (const bool turned : {false, true}) {
     if (!both && turned != wanted.turned) continue;
     Wanted each = wanted;
     each.turned = turned;
-    right = measure(each) && right;
+    right = measure(each, folder, file) && right;
   }
   return right ? 0 : 1;
 }

@@ -7,7 +7,7 @@ import sys
 
 record = json.load(open(sys.argv[1], encoding='utf-8'))
 record['machine'].update(processor='', system='', program='', memory_bytes=0)
-record['studies'] = []
+record['studies'] = record['peers'] = []
 for case in record['cases']:
     for stage in case['stages']:
         stage['contenders'] = [c for c in stage['contenders'] if c['name'] == 'sequential']

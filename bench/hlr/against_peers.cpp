@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench_hidden_lines_peers [SCENE[@X,Y,Z]]... [--limit SECONDS] [--rays N]
-// [--peer occt|line_art|line_art_edges|tech_draw|none]...: the hidden lines of one view through
-// Strake, and through OCCT's PolyAlgo, Blender's Line Art and FreeCAD's TechDraw on the same
-// triangles out of the same OBJ file. A scene is ship:OBJECTS, boxes:SIDE, pipes:SIDE or an OBJ
-// file; X,Y,Z points to the viewer. Without a scene those that each peer can finish, with the
-// ratios that are asked for.
+// bench_hidden_lines_peers [SCENE[@X,Y,Z]]... [--limit SECONDS] [--rays N] [--scenes FOLDER]
+// [--json FILE] [--peer occt|line_art|line_art_edges|tech_draw|none]...: the hidden lines of one
+// view through Strake, and through OCCT's PolyAlgo, Blender's Line Art and FreeCAD's TechDraw on
+// the same triangles out of the same OBJ file. A scene is ship:OBJECTS, boxes:SIDE, pipes:SIDE or
+// an OBJ file; X,Y,Z points to the viewer. Without a scene those that each peer can finish, with
+// the ratios that are asked for.
 //
 // Seconds are of hiding alone: every program has the scene in memory before. Strake's are medians
 // of several runs, with the kinds of lines that the peer has; peers run once. Before a time counts
 // exact rays through Strake's pieces must find none wrong, and the peer's lines must lie where
 // Strake's do, but for a share of their length that is stated with each (Asked).
+//
+// --scenes keeps the scenes as OBJ and GLB; --json is for 'strake evaluate --peers'.
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -25,15 +26,17 @@
 #include <utility>
 #include <vector>
 
+#include "cli/evaluate/peers/peer_rows.hpp"
 #include "clocks.hpp"
 #include "hlr/line_coverage.hpp"
 #include "hlr/peers/peer.hpp"
 #include "hlr/synthetic_scenes.hpp"
 #include "hlr/view/projection.hpp"
+#include "peer_support/run_options.hpp"
+#include "peer_support/work_folder.hpp"
 #include "strake/generate/ship.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/io/reader.hpp"
-#include "strake/io/writer.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/ray_check.hpp"
@@ -64,7 +67,7 @@ struct Subject {
   std::string scene;
   /// Not an isometric one, in which whole families of edges lie on each other on paper.
   Vec3l direction{5, -7, 4};
-  std::vector<Asked> asked{{"occt"}, {"line_art_edges"}, {"line_art"}, {"tech_draw"}};
+  std::vector<Asked> asked{{"occt"}, {"line_art_edges"}, {"line_art"}, {"tech_draw", 0, 0, 10}};
 };
 
 std::vector<Subject> usual_subjects() {
@@ -79,8 +82,8 @@ std::vector<Subject> usual_subjects() {
 struct Arguments {
   std::vector<Subject> subjects;
   std::vector<std::string> peers;  ///< empty: all
-  double limit_s = 900;
   std::uint64_t rays = 2000;
+  bench::RunOptions run;
 
   [[nodiscard]] bool wants(std::string_view peer) const {
     return peers.empty() || std::ranges::find(peers, peer) != peers.end();
@@ -102,10 +105,10 @@ std::optional<Arguments> parse(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string key = argv[i];
     const auto value = [&] { return i + 1 < argc ? argv[++i] : "0"; };
-    if (key == "--peer")
+    if (i + 1 < argc && a.run.take(key, argv[i + 1]))
+      ++i;
+    else if (key == "--peer")
       a.peers.emplace_back(value());
-    else if (key == "--limit")
-      a.limit_s = std::atof(value());
     else if (key == "--rays")
       a.rays = std::strtoull(value(), nullptr, 10);
     else
@@ -119,33 +122,14 @@ std::optional<Arguments> parse(int argc, char** argv) {
   return a;
 }
 
-/// A folder that goes when this does.
-class Scratch {
- public:
-  Scratch() : path_(fs::temp_directory_path() / fmt::format("hidden_lines_peers.{}", getpid())) {
-    fs::create_directory(path_);
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  [[nodiscard]] const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-/// The OBJ file of a scene: made in `folder`, or what the word names.
-Result<fs::path> file_of(const std::string& scene, const fs::path& folder,
+/// The OBJ file of a scene: made in the folder, or what the word names.
+Result<fs::path> file_of(const std::string& scene, const bench::WorkFolder& folder,
                          const parallel::Context& context) {
   const std::size_t colon = scene.find(':');
   if (colon == std::string::npos) return fs::path(scene);
   const std::string kind = scene.substr(0, colon);
   const auto number =
       static_cast<std::uint32_t>(std::strtoul(scene.c_str() + colon + 1, nullptr, 10));
-  const fs::path path = folder / (kind + ".obj");
   constexpr std::uint32_t kLayers = 50, kLengths = 2;
   model::Model model;
   if (kind == "ship") {
@@ -159,9 +143,7 @@ Result<fs::path> file_of(const std::string& scene, const fs::path& folder,
   } else {
     return Error{ErrorCode::usage, "no such scene", scene, "ship:N, boxes:N, pipes:N or a file"};
   }
-  const auto written = io::write_obj(model, path, {}, context);
-  if (!written) return written.error();
-  return path;
+  return folder.write_scene(model, fmt::format("drawing-{}-{}", kind, number), context);
 }
 
 template <class Number>
@@ -243,6 +225,8 @@ struct Ours {
   std::vector<PaperLine> visible;
   test::RayCheck check;
 
+  /// An exact ray found a wrong piece, or none could be asked.
+  [[nodiscard]] bool is_wrong() const { return check.wrong > 0 || check.rays == 0; }
   [[nodiscard]] double ns_per_face_test() const {
     return one.cpu * 1e9 / static_cast<double>(std::max<std::uint64_t>(1, counters.face_tests));
   }
@@ -290,16 +274,15 @@ class Drawn {
   std::uint64_t rays_;
 };
 
-/// False where an exact ray found a wrong piece.
-bool print(const Ours& ours, const bench::MoreLines& with) {
+void print(const Ours& ours, const bench::MoreLines& with) {
   std::string more;
   if (with.intersections != hlr::Intersections::off) more += ", intersections too";
   if (with.smooth != hlr::Smooth::off) more += ", smooth too";
   if (!with.hidden) more += ", visible only";
-  if (ours.check.wrong > 0 || ours.check.rays == 0) {
+  if (ours.is_wrong()) {
     fmt::print("  Strake{:<35}ERROR: {} of {} rays wrong: {}\n", more, ours.check.wrong,
                ours.check.rays, ours.check.first_wrong);
-    return false;
+    return;
   }
   fmt::print(
       "  Strake{:<35}{:>9.3f} s CPU {:>9.3f} s wall on 1 thread, {:.3f} s CPU {:.3f} s wall on {}\n"
@@ -308,81 +291,196 @@ bool print(const Ours& ours, const bench::MoreLines& with) {
       ours.counters.feature_edges, ours.pieces, ours.counters.face_tests, ours.ns_per_face_test(),
       lengths_of(ours.visible), ours.check.wrong, ours.check.rays);
   std::fflush(stdout);
-  return true;
 }
 
 std::string asked_for(double times) {
   return times > 0 ? fmt::format(" (asked: {})", times) : std::string();
 }
 
+/// A peer's lines beside Strake's.
 struct Compared {
   const Peer& peer;
   const Asked& asked;
   const Ours& ours;
   const PeerAnswer& theirs;
+  bench::Common common;
+
+  [[nodiscard]] double percent() const { return 100 / common.ours; }
+  [[nodiscard]] bool same() const {
+    return std::max(common.missing, common.extra) * percent() <= asked.tolerance_percent;
+  }
+  [[nodiscard]] std::string text() const {
+    return fmt::format(
+        "of the kinds in common, each place once, {:.1f} m for {:.1f} m: {:.2f} % are missing, "
+        "{:.2f} % too many",
+        common.theirs / 1000, common.ours / 1000, common.missing * percent(),
+        common.extra * percent());
+  }
+  /// Returns how much may be, where it is more.
+  [[nodiscard]] std::string known() const {
+    return fmt::format(", {} % are known", asked.tolerance_percent);
+  }
+  void print(const std::vector<PaperLine>& visible) const {
+    const bench::ProgramReply& r = theirs.reply;
+    fmt::print(
+        "  {:<41}{:>9.2f} s CPU {:>9.2f} s wall; {}, loaded in {:.1f} s\n"
+        "    {} lines, visible: {}; {}{}\n",
+        peer.title, r.cpu_s, r.wall_s, r.version, r.load_s, visible.size(), lengths_of(visible),
+        text(), same() ? "" : ": ERROR" + known());
+    if (same())
+      fmt::print("    times Strake's: {:.0f} CPU{}, {:.0f} wall{}\n", r.cpu_s / ours.one.cpu,
+                 asked_for(asked.cpu), r.wall_s / ours.team.wall, asked_for(asked.wall));
+  }
 };
 
-/// False where the peer's lines are not Strake's, so that its time says nothing.
-bool print(const Compared& c, const Paper& paper, const parallel::Context& context) {
-  const std::vector<PaperLine> visible = paper.visible(c.theirs);
-  const bench::Common common = bench::compare(of_kinds(c.ours.visible, c.peer.compared),
-                                              of_kinds(visible, c.peer.compared), context);
-  const Seconds& s = c.theirs.hide;
-  const double percent = 100 / common.ours;
-  const bool same = std::max(common.missing, common.extra) * percent <= c.asked.tolerance_percent;
-  fmt::print(
-      "  {:<41}{:>9.2f} s CPU {:>9.2f} s wall; {}, loaded in {:.1f} s\n"
-      "    {} lines, visible: {}; of the kinds in common, each place once, {:.1f} m for {:.1f} m: "
-      "{:.2f} % are missing, {:.2f} % too many{}\n",
-      c.peer.title, s.cpu, s.wall, c.theirs.version, c.theirs.load_s, visible.size(),
-      lengths_of(visible), common.theirs / 1000, common.ours / 1000, common.missing * percent,
-      common.extra * percent,
-      same ? "" : fmt::format(": ERROR, {} % are known", c.asked.tolerance_percent));
-  if (same)
-    fmt::print("    times Strake's: {:.0f} CPU{}, {:.0f} wall{}\n", s.cpu / c.ours.one.cpu,
-               asked_for(c.asked.cpu), s.wall / c.ours.team.wall, asked_for(c.asked.wall));
-  return same;
+/// "ship:1000" as a reader has it.
+std::string title_of(const std::string& scene) {
+  const std::size_t colon = scene.find(':');
+  if (colon == std::string::npos) return fs::path(scene).filename().string();
+  return fmt::format("{} of {}{}", scene.substr(0, colon), scene.substr(colon + 1),
+                     scene.starts_with("ship:") ? " objects" : " a side");
 }
 
-bool run(const Subject& subject, const Arguments& a) {
+/// What a peer draws, beside visible sharp edges and contours.
+std::string answers_of(const Peer& peer) {
+  std::string text = peer.draws.hidden ? "visible and hidden lines" : "visible lines";
+  if (peer.draws.intersections != hlr::Intersections::off) text += ", intersections";
+  if (peer.draws.smooth != hlr::Smooth::off) text += ", smooth edges";
+  return text;
+}
+
+/// One scene beside its peers.
+class Bench {
+ public:
+  Bench(const model::Scene& scene, fs::path file, const Subject& subject,
+        const Arguments& arguments, const bench::WorkFolder& folder, cli::PeerRowFile& rows,
+        const parallel::Context& context)
+      : subject_(subject),
+        arguments_(arguments),
+        folder_(folder),
+        rows_(rows),
+        context_(context),
+        file_(std::move(file)),
+        drawn_(scene, subject.direction, arguments.rays),
+        paper_(subject.direction) {
+    scene_row_.scene = title_of(subject.scene);
+    scene_row_.objects = scene.model->objects.size();
+    for (const model::GridBody& body : scene.bodies)
+      for (const geometry::Part& part : scene.shapes[body.grid_shape].parts)
+        scene_row_.triangles += part.triangles.size();
+  }
+
+  bool run() {
+    const Vec3l& d = subject_.direction;
+    fmt::print("{}: {} objects, {} triangles, seen from {},{},{}\n", subject_.scene,
+               scene_row_.objects, scene_row_.triangles, d.x, d.y, d.z);
+    const Result<Ours> plain = ours({});
+    if (!plain) return complain(plain.error());
+    if (plain->is_wrong()) return false;
+    bool right = true;
+    for (const Peer& peer : bench::peers()) {
+      const auto asked = std::ranges::find(subject_.asked, peer.name, &Asked::peer);
+      if (asked == subject_.asked.end() || !arguments_.wants(peer.name)) continue;
+      const Result<Ours> same = peer.draws == bench::MoreLines{} ? plain : ours(peer.draws);
+      if (!same) return complain(same.error());
+      if (same->is_wrong()) return false;
+      right = ask(peer, *asked, *same) && right;
+      std::fflush(stdout);
+    }
+    return right;
+  }
+
+ private:
+  static bool complain(const Error& error) {
+    return fmt::print(stderr, "{}\n", error.text()), false;
+  }
+  bool keep(cli::PeerRow row, std::string_view outcome, std::string result) {
+    row.outcome = outcome;
+    row.result = std::move(result);
+    const Status status = rows_.add(std::move(row));
+    return status || complain(status.error());
+  }
+
+  /// Strake's drawing with the same kinds of lines, printed.
+  Result<Ours> ours(const bench::MoreLines& with) {
+    Result<Ours> ours = drawn_.ours(with);
+    if (!ours) return ours;
+    print(*ours, with);
+    if (!ours->is_wrong()) return ours;
+    cli::PeerRow row = scene_row_;
+    row.who = "Strake";
+    (void)keep(row, cli::kDisagrees,
+               fmt::format("{} of {} rays wrong: {}", ours->check.wrong, ours->check.rays,
+                           ours->check.first_wrong));
+    return ours;
+  }
+
+  /// Asks a peer, and prints and keeps what became of it; false where its lines are not Strake's.
+  bool ask(const Peer& peer, const Asked& asked, const Ours& ours) {
+    const PeerAnswer answer = bench::ask(peer, {file_, subject_.direction, kSharp_deg, kThreads,
+                                                arguments_.run.limit_s, folder_.path()});
+    const cli::PeerRow row = row_of(peer, answer, ours);
+    if (answer.reply.outcome != cli::kMeasured) return without_answer(row, answer.reply);
+    const std::vector<PaperLine> visible = paper_.visible(answer);
+    const Compared compared{peer, asked, ours, answer,
+                            bench::compare(of_kinds(ours.visible, peer.compared),
+                                           of_kinds(visible, peer.compared), context_)};
+    compared.print(visible);
+    return judge(row, compared);
+  }
+
+  [[nodiscard]] cli::PeerRow row_of(const Peer& peer, const PeerAnswer& answer,
+                                    const Ours& ours) const {
+    cli::PeerRow row = scene_row_;
+    row.who = peer.title;
+    row.version = answer.reply.version;
+    row.answers = answers_of(peer);
+    row.threads = peer.name.starts_with("line_art") ? kThreads : 1;
+    row.ours_cpu_s = ours.one.cpu;
+    row.ours_wall_s = ours.team.wall;
+    return row;
+  }
+  bool without_answer(const cli::PeerRow& row, const bench::ProgramReply& reply) {
+    fmt::print("  {:<41}{}\n", row.who, reply.why);
+    const bool absent = reply.outcome == cli::kNotThere;
+    return keep(
+        row, reply.outcome,
+        reply.why + (absent ? ": './run bench --build hidden_lines_peers' installs it" : ""));
+  }
+  /// A time counts where the lines are the same, but for what is stated.
+  bool judge(cli::PeerRow row, const Compared& compared) {
+    if (!compared.same()) {
+      (void)keep(std::move(row), cli::kDisagrees, compared.text() + compared.known());
+      return false;
+    }
+    row.cpu_s = compared.theirs.reply.cpu_s;
+    row.wall_s = compared.theirs.reply.wall_s;
+    return keep(std::move(row), cli::kMeasured, compared.text());
+  }
+
+  const Subject& subject_;
+  const Arguments& arguments_;
+  const bench::WorkFolder& folder_;
+  cli::PeerRowFile& rows_;
+  const parallel::Context& context_;
+  fs::path file_;
+  Drawn drawn_;
+  Paper paper_;
+  cli::PeerRow scene_row_;  ///< that all of the scene begin with
+};
+
+bool run(const Subject& subject, const Arguments& a, const bench::WorkFolder& folder,
+         cli::PeerRowFile& rows) {
   parallel::Team team(parallel::default_workers());
   const parallel::Context context{.team = &team, .stop = {}};
-  const Scratch scratch;
   const auto complain = [](const Error& e) { return fmt::print(stderr, "{}\n", e.text()), false; };
-  const auto file = file_of(subject.scene, scratch.path(), context);
+  const auto file = file_of(subject.scene, folder, context);
   if (!file) return complain(file.error());
   const auto model = io::read_models(std::vector<fs::path>{*file}, {}, context);
   if (!model) return complain(model.error());
   const auto scene = model::make_scene(*model, {}, context);
   if (!scene) return complain(scene.error());
-  std::size_t triangles = 0;
-  for (const model::GridBody& body : scene->bodies)
-    for (const geometry::Part& part : scene->shapes[body.grid_shape].parts)
-      triangles += part.triangles.size();
-  const Vec3l& d = subject.direction;
-  fmt::print("{}: {} objects, {} triangles, seen from {},{},{}\n", subject.scene,
-             model->objects.size(), triangles, d.x, d.y, d.z);
-  const Drawn drawn(*scene, d, a.rays);
-  const auto plain = drawn.ours({});
-  if (!plain) return complain(plain.error());
-  if (!print(*plain, {})) return false;
-  bool right = true;
-  for (const Peer& peer : bench::peers()) {
-    const auto asked = std::ranges::find(subject.asked, peer.name, &Asked::peer);
-    if (asked == subject.asked.end() || !a.wants(peer.name)) continue;
-    const bool same_lines = peer.draws == bench::MoreLines{};
-    const auto ours = same_lines ? plain : drawn.ours(peer.draws);
-    if (!ours) return complain(ours.error());
-    if (!same_lines && !print(*ours, peer.draws)) return false;
-    const auto answer =
-        bench::ask(peer, {*file, d, kSharp_deg, kThreads, a.limit_s, scratch.path()});
-    if (answer)
-      right = print({peer, *asked, *ours, *answer}, Paper(d), context) && right;
-    else
-      fmt::print("  {:<41}{}\n", peer.title, answer.error().message);
-    std::fflush(stdout);
-  }
-  return right;
+  return Bench(*scene, *file, subject, a, folder, rows, context).run();
 }
 
 }  // namespace
@@ -390,7 +488,10 @@ bool run(const Subject& subject, const Arguments& a) {
 int main(int argc, char** argv) {
   const std::optional<Arguments> arguments = parse(argc, argv);
   if (!arguments) return 2;
+  const bench::WorkFolder folder(arguments->run.scenes, "hidden_lines_peers");
+  cli::PeerRowFile rows(arguments->run.json);
   bool right = true;
-  for (const Subject& subject : arguments->subjects) right = run(subject, *arguments) && right;
+  for (const Subject& subject : arguments->subjects)
+    right = run(subject, *arguments, folder, rows) && right;
   return right ? 0 : 1;
 }

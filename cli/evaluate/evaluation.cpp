@@ -11,6 +11,7 @@
 #include "cli/evaluate/cases.hpp"
 #include "cli/evaluate/contender.hpp"
 #include "cli/evaluate/measure.hpp"
+#include "cli/evaluate/peers/peer_runs.hpp"
 #include "cli/evaluate/placed_model.hpp"
 #include "cli/evaluate/statistics.hpp"
 #include "cli/evaluate/studies/studies.hpp"
@@ -38,12 +39,18 @@ class Evaluation {
       : record_(record), stop_(stop), hooks_(hooks), wanted_(names.begin(), names.end()) {
     for (const CaseRecord& one : record.cases) wanted_.erase(one.name);
     for (const StudyRecord& study : record.studies) wanted_.erase(study.name);
+    std::erase_if(record.peers, [&](const PeerRecord& peer) {
+      return wanted_.contains(peer.name) && hooks.peers && may_be_asked_again(peer);
+    });
+    for (const PeerRecord& peer : record.peers) wanted_.erase(peer.name);
     for (const ViewCase& view : view_cases())
       if (wanted_.contains(std::string(view.name))) to_do_ += weight_of(view);
     for (const ShipCase& ship : ship_cases())
       if (wanted_.contains(std::string(ship.name))) to_do_ += kShipWeight;
     for (const StudyCase& study : study_cases())
       if (wanted_.contains(std::string(study.name))) to_do_ += kStudyWeight;
+    for (const PeerCase& peer : peer_cases())
+      if (hooks.peers && wanted_.contains(std::string(peer.name))) to_do_ += kPeerWeight;
   }
 
   Status run() {
@@ -55,12 +62,15 @@ class Evaluation {
     for (const StudyCase& study : study_cases())
       if (wanted_.contains(std::string(study.name)))
         if (const Status status = run_study(study); !status) return status;
+    for (const PeerCase& peer : peer_cases())
+      if (hooks_.peers && wanted_.contains(std::string(peer.name)))
+        if (const Status status = ask(peer); !status) return status;
     return {};
   }
 
  private:
   // How much of the time a case takes, for the time to go; of a view of the whole ship: 1.
-  static constexpr double kShipWeight = 6, kStudyWeight = 3, kPartWeight = 0.4;
+  static constexpr double kShipWeight = 6, kStudyWeight = 3, kPartWeight = 0.4, kPeerWeight = 6;
   static double weight_of(const ViewCase& view) { return view.limits ? kPartWeight : 1; }
 
   Status views_of(ViewedShip which) {
@@ -124,6 +134,20 @@ class Evaluation {
     return hooks_.save("study " + std::string(study.name) + " done", record_);
   }
 
+  Status ask(const PeerCase& peer) {
+    narrate(fmt::format("{}: {}, {} objects", peer.name, peer.title,
+                        peer_objects(peer, record_.settings.scale)));
+    Result<PeerRecord> answer = run_peer(peer, *hooks_.peers, record_.settings.scale, stop_);
+    if (!answer) return answer.error();
+    done_ += kPeerWeight;
+    const std::string line = outcome_line(*answer);
+    record_.peers.push_back(std::move(*answer));
+    std::ranges::sort(record_.peers, {}, [](const PeerRecord& one) {
+      return std::ranges::find(peer_cases(), one.name, &PeerCase::name) - peer_cases().begin();
+    });
+    return hooks_.save(line, record_);
+  }
+
   /// Adds a case to the record in its place, and saves.
   Status finish(CaseRecord one, double weight) {
     done_ += weight;
@@ -155,10 +179,11 @@ class Evaluation {
 }  // namespace
 
 std::vector<CaseGroup> case_groups() {
-  std::vector<CaseGroup> groups{{"views", {}}, {"ships", {}}, {"studies", {}}};
+  std::vector<CaseGroup> groups{{"views", {}}, {"ships", {}}, {"studies", {}}, {kPeersGroup, {}}};
   for (const ViewCase& view : view_cases()) groups[0].cases.emplace_back(view.name);
   for (const ShipCase& ship : ship_cases()) groups[1].cases.emplace_back(ship.name);
   for (const StudyCase& study : study_cases()) groups[2].cases.emplace_back(study.name);
+  for (const PeerCase& peer : peer_cases()) groups[3].cases.emplace_back(peer.name);
   return groups;
 }
 

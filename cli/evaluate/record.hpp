@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/evaluate/chart.hpp"
+#include "cli/evaluate/peers/peer_row.hpp"
 #include "strake/parallel/report.hpp"
 
 namespace strake::cli {
@@ -71,11 +72,18 @@ struct StudyRecord {
   std::vector<std::string> differences;  ///< as of a StageRecord
 };
 
+/// What one peer did, on each scene that it was asked about.
+struct PeerRecord {
+  std::string name;
+  std::vector<PeerRow> rows;
+};
+
 struct EvaluationRecord {
   Machine machine;
   EvaluationSettings settings;
   std::vector<CaseRecord> cases;
   std::vector<StudyRecord> studies;
+  std::vector<PeerRecord> peers;
 };
 
 }  // namespace strake::cli

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "cli/evaluate/peers/peer_row_members.hpp"
 #include "io/source/input_file.hpp"
 
 // The members of the document are those of the records.
@@ -28,7 +29,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BarChart::Level, label, value)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BarChart, title, unit, names, series, levels)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StudyRecord, name, title, question, columns, rows, charts,
                                    differences)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EvaluationRecord, machine, settings, cases, studies)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PeerRecord, name, rows)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EvaluationRecord, machine, settings, cases, studies, peers)
 
 namespace {
 
@@ -48,11 +50,13 @@ std::string evaluation_json(const EvaluationRecord& record) {
 }
 
 Result<EvaluationRecord> parse_evaluation(std::string_view text, const std::string& name) {
-  const nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
+  nlohmann::json document = nlohmann::json::parse(text, nullptr, false);
   if (document.is_discarded()) return damaged(name, "its text is no JSON, or ends early");
   try {
     if (document.at("schema_version") != kSchemaVersion)
       return damaged(name, "its schema_version is another");
+    // Counters that were kept before there were peers have none.
+    if (!document.contains("peers")) document["peers"] = nlohmann::json::array();
     return document.get<EvaluationRecord>();
   } catch (const nlohmann::json::exception& error) {
     return damaged(name, error.what());

@@ -18,7 +18,9 @@
 #include "cli/evaluate/machine.hpp"
 #include "cli/evaluate/pages/bar_chart.hpp"
 #include "cli/evaluate/pages/pages.hpp"
+#include "cli/evaluate/pages/peer_table.hpp"
 #include "cli/evaluate/pages/tables.hpp"
+#include "cli/evaluate/peers/peer_runs.hpp"
 #include "cli/evaluate/record_json.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/number.hpp"
@@ -32,7 +34,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct EvaluateOptions {
-  std::string folder, scale, threads, repeat, limit, only, compare;
+  std::string folder, scale, threads, repeat, limit, only, compare, peers, peer_limit;
   bool fresh = false;
 };
 
@@ -82,7 +84,8 @@ Result<std::vector<unsigned>> team_sizes(const std::string& text) {
   return sizes;
 }
 
-Result<std::vector<std::string>> chosen_cases(const std::string& only) {
+/// Returns the cases that are asked for: without --only all that can be measured.
+Result<std::vector<std::string>> chosen_cases(const std::string& only, bool has_peers) {
   const std::vector<CaseGroup> groups = case_groups();
   std::vector<std::string> chosen, known;
   for (const CaseGroup& group : groups) {
@@ -97,9 +100,16 @@ Result<std::vector<std::string>> chosen_cases(const std::string& only) {
   }
   std::vector<std::string> cases;
   for (const CaseGroup& group : groups) {
-    const bool whole = only.empty() || std::ranges::find(chosen, group.name) != chosen.end();
-    for (const std::string& one : group.cases)
-      if (whole || std::ranges::find(chosen, one) != chosen.end()) cases.push_back(one);
+    const bool needs_peers = group.name == kPeersGroup && !has_peers;
+    const bool whole =
+        only.empty() ? !needs_peers : std::ranges::find(chosen, group.name) != chosen.end();
+    for (const std::string& one : group.cases) {
+      if (!whole && std::ranges::find(chosen, one) == chosen.end()) continue;
+      if (needs_peers)
+        return Error{ErrorCode::usage, "'" + one + "' needs programs of its own", "--only",
+                     "give --peers the folder of the programs that './run bench --build' builds"};
+      cases.push_back(one);
+    }
   }
   return cases;
 }
@@ -134,6 +144,25 @@ Result<EvaluationSettings> settings_of(const EvaluateOptions& given) {
   return settings;
 }
 
+/// Returns where peers are, if they are asked for.
+Result<std::optional<PeerPrograms>> peer_programs(const EvaluateOptions& given,
+                                                  const EvaluationSettings& settings,
+                                                  const fs::path& folder) {
+  constexpr double kLongestLimitSeconds = 1e6, kLimitAtFullScaleSeconds = 900, kLeastSeconds = 60;
+  PeerPrograms programs{given.peers, folder / kPeersGroup,
+                        std::max(kLeastSeconds, kLimitAtFullScaleSeconds * settings.scale)};
+  if (const Status s =
+          positive_number(programs.limit_s, given.peer_limit, "--peer-limit", kLongestLimitSeconds);
+      !s)
+    return s.error();
+  if (given.peers.empty()) return std::optional<PeerPrograms>();
+  std::error_code failure;
+  if (!fs::is_directory(programs.folder, failure))
+    return Error{ErrorCode::usage, "there is no such folder", given.peers,
+                 "give --peers the folder of the programs that './run bench --build' builds"};
+  return std::optional(std::move(programs));
+}
+
 bool is_of(const Machine& x, const Machine& y) {
   return x.processor == y.processor && x.system == y.system && x.compiler == y.compiler &&
          x.version == y.version && x.program == y.program &&
@@ -166,6 +195,7 @@ Result<EvaluationRecord> begun_record(const EvaluateOptions& given, const fs::pa
   };
   std::erase_if(record->cases, is_asked_for);
   std::erase_if(record->studies, is_asked_for);
+  std::erase_if(record->peers, is_asked_for);
   return record;
 }
 
@@ -200,6 +230,9 @@ Status write_pages(Session& session, const fs::path& folder, const EvaluationRec
         return status;
     }
   if (const Status status = write("evaluation.csv", evaluation_csv(record)); !status) return status;
+  if (!record.peers.empty())
+    if (const Status status = write("evaluation-peers.csv", peers_csv(record)); !status)
+      return status;
   if (const Status status = write("evaluation.md", evaluation_markdown(record)); !status)
     return status;
   return write("evaluation.html", evaluation_html(record));
@@ -225,9 +258,11 @@ bool print_comparison(Console& console, const Comparison& comparison, const std:
 Result<ExitCode> run_evaluate(Session& session, const EvaluateOptions& given) {
   const Result<EvaluationSettings> settings = settings_of(given);
   if (!settings) return settings.error();
-  const Result<std::vector<std::string>> names = chosen_cases(given.only);
+  const Result<std::vector<std::string>> names = chosen_cases(given.only, !given.peers.empty());
   if (!names) return names.error();
   const fs::path folder = given.folder.empty() ? "evaluation" : given.folder;
+  const Result<std::optional<PeerPrograms>> peers = peer_programs(given, *settings, folder);
+  if (!peers) return peers.error();
   const fs::path state = folder / "evaluation.json";
   const Result<std::optional<EvaluationRecord>> before = earlier_record(given, state, *settings);
   if (!before) return before.error();
@@ -246,7 +281,8 @@ Result<ExitCode> run_evaluate(Session& session, const EvaluateOptions& given) {
                                 session.console().note(done);
                                 session.will_write(state);
                                 return write_file(state, evaluation_json(now));
-                              }};
+                              },
+                              *peers};
   if (const Status status = evaluate(*names, *record, session.context().stop, hooks); !status)
     return status.error();
   if (const Status status = write_pages(session, folder, *record); !status) return status.error();
@@ -305,6 +341,16 @@ Verb add_evaluate(CLI::App& program, CommonOptions& common) {
           "less at smaller ones)")
       ->type_name("SECONDS");
   command
+      ->add_option("--peers", options->peers,
+                   "The folder of bench_clash_peers and bench_hidden_lines_peers, which run other "
+                   "programs on the same triangles; scenes stay in the output folder's 'peers'")
+      ->type_name("FOLDER");
+  command
+      ->add_option("--peer-limit", options->peer_limit,
+                   "Seconds after which a peer is stopped (default 900 at scale 1, less at smaller "
+                   "ones, 60 at least)")
+      ->type_name("SECONDS");
+  command
       ->add_option("--compare", options->compare,
                    "An evaluation.json from before: says what takes more work or time since, and "
                    "which results are others; exit code 1 for work and results")
@@ -316,12 +362,14 @@ Verb add_evaluate(CLI::App& program, CommonOptions& common) {
       ->group("Output");
   command->footer(R"(
 Every result is compared with that of the sequential run, byte by byte; a difference is exit code 1.
+So is a peer whose result is not Strake's, but for what is stated of it.
 An interrupted evaluation goes on where it was. docs/evaluation.md explains the tables.
 
 Examples:
   strake evaluate --scale 0.02
   strake evaluate --threads 1,2,4,8,16 -o sixteen
-  strake evaluate --scale 0.02 --only iso,dense --compare before/evaluation.json)");
+  strake evaluate --scale 0.02 --only iso,dense --compare before/evaluation.json
+  strake evaluate --scale 0.02 --only peers --peers build/bench/bin)");
   return {command, [options](Session& session) { return run_evaluate(session, *options); }};
 }
 

@@ -4,6 +4,7 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
+#include <CGAL/version_macros.h>
 
 #include <algorithm>
 #include <deque>
@@ -75,6 +76,7 @@ PeerAnswer cgal_overlaps(std::span<const PeerObject> objects, const parallel::Co
                      .value();
   answer.query_s = cpu();
   answer.wall_s = lap();
+  answer.version = "CGAL " CGAL_VERSION_STR;
   return answer;
 }
 

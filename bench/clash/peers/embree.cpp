@@ -167,6 +167,7 @@ PeerAnswer embree_overlaps(std::span<const PeerObject> objects, const parallel::
           .value();
   answer.query_s = cpu();
   answer.wall_s = lap();
+  answer.version = "Embree " RTC_VERSION_STRING;
   return answer;
 }
 

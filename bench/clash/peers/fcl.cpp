@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/config.h>
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
@@ -79,6 +80,7 @@ PeerAnswer ask(std::span<const PeerObject> objects, double distance_mm) {
   std::sort(answer.pairs.begin(), answer.pairs.end());
   answer.query_s = cpu();
   answer.wall_s = lap();
+  answer.version = "FCL " FCL_VERSION;
   return answer;
 }
 

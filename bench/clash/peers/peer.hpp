@@ -2,10 +2,13 @@
 // Other programs at the question that Strake answers: which objects' surfaces share a point.
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "cli/evaluate/peers/peer_row.hpp"
 #include "geometry/bvh/scene_bvh.hpp"
 #include "strake/geometry/mesh.hpp"
 #include "strake/parallel/context.hpp"
@@ -20,9 +23,13 @@ struct PeerObject {
 };
 
 struct PeerAnswer {
+  std::string_view outcome = cli::kMeasured;
+  std::string why;  ///< there is no answer; empty: there is
+  std::string version;
   std::vector<geometry::IndexPair> pairs;  ///< ascending
   double build_s = 0, query_s = 0;         ///< CPU seconds of all threads
   double wall_s = 0;
+  double load_s = 0;  ///< before: of reading files, by a peer that reads some
 };
 
 /// rtcCollide finds the boxes that meet, a test of separating axes the triangles that do: with
@@ -39,5 +46,15 @@ struct PeerAnswer {
 /// Exact predicates: a tree over each object's triangles, asked about those of its smaller partner.
 [[nodiscard]] PeerAnswer cgal_overlaps(std::span<const PeerObject> objects,
                                        const parallel::Context& context);
+
+/// Bullet's boxes in a dynamic tree, and GImpact's trees of triangles; double precision, no margin.
+/// Made for physics: it takes two triangles for touching where each reaches behind the plane of the
+/// other and their boxes meet, which holds for more pairs than cross. One thread.
+[[nodiscard]] PeerAnswer bullet_overlaps(std::span<const PeerObject> objects);
+
+/// IfcOpenShell's tree of triangles, in a process of its own: what protrudes into what. `scene` is
+/// an OBJ file with an `o` for each object; what the process writes lies beside it.
+[[nodiscard]] PeerAnswer ifc_tree_overlaps(const std::filesystem::path& scene, unsigned threads,
+                                           double limit_s);
 
 }  // namespace strake::bench

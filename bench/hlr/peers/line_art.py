@@ -94,8 +94,8 @@ def main():
     hidden, hidden_cpu = time.time(), time.process_time()
     write_lines(drawing, kinds, lines)
     print('RESULT ' + json.dumps({
-        'version': 'Blender ' + bpy.app.version_string, 'load_s': loaded - begin, 'hide_s': hidden - loaded,
-        'hide_cpu_s': hidden_cpu - cpu}))
+        'version': 'Blender ' + bpy.app.version_string, 'load_s': loaded - begin, 'wall_s': hidden - loaded,
+        'cpu_s': hidden_cpu - cpu}))
 
 
 main()

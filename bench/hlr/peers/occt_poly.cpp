@@ -257,9 +257,8 @@ int run(const Task& task) {
   std::ofstream out(task.lines);
   write_lines(out, "sharp", sharp, view);
   write_lines(out, "contour", contours, view);
-  fmt::print(
-      "RESULT {{\"version\": \"OCCT {}\", \"load_s\": {}, \"hide_s\": {}, \"hide_cpu_s\": {}}}\n",
-      OCC_VERSION_COMPLETE, load_s, hide_s, hide_cpu_s);
+  fmt::print("RESULT {{\"version\": \"OCCT {}\", \"load_s\": {}, \"wall_s\": {}, \"cpu_s\": {}}}\n",
+             OCC_VERSION_COMPLETE, load_s, hide_s, hide_cpu_s);
   return out.flush() ? 0 : 1;
 }
 

@@ -4,18 +4,9 @@
 #include <fmt/core.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <utility>
-
-#include "hlr/peers/process.hpp"
 
 namespace strake::bench {
 namespace {
-
-/// What a script exits with where its program is not installed.
-constexpr int kNotInstalled = 77;
-constexpr std::string_view kMark = "RESULT ";
 
 std::vector<std::string> command_of(const Peer& peer, const Question& q, const std::string& lines) {
   const std::string scene = q.scene, scripts = STRAKE_PEER_SCRIPTS;
@@ -40,20 +31,6 @@ std::vector<std::string> command_of(const Peer& peer, const Question& q, const s
           sharp,
           lines,
           kinds};
-}
-
-/// What the line with the result says.
-std::optional<PeerAnswer> answer_in(std::string_view output) {
-  const std::size_t begin = output.find(kMark);
-  if (begin == std::string_view::npos) return std::nullopt;
-  const std::string_view line = output.substr(begin + kMark.size());
-  const auto json = nlohmann::json::parse(line.substr(0, line.find('\n')), nullptr, false);
-  if (json.is_discarded()) return std::nullopt;
-  PeerAnswer answer;
-  answer.version = json.at("version");
-  answer.hide = {json.at("hide_cpu_s"), json.at("hide_s")};
-  answer.load_s = json.at("load_s");
-  return answer;
 }
 
 std::vector<PeerLine> read_lines(const std::filesystem::path& path) {
@@ -87,27 +64,13 @@ const std::vector<Peer>& peers() {
   return all;
 }
 
-Result<PeerAnswer> ask(const Peer& peer, const Question& question) {
+PeerAnswer ask(const Peer& peer, const Question& question) {
   const std::filesystem::path stem = question.scratch / peer.name;
   const std::string lines = stem.string() + ".lines";
-  const Ended ended =
-      run_to_end(command_of(peer, question, lines), question.limit_s, stem.string() + ".log");
-  const auto fault = [](std::string message) {
-    return Error{ErrorCode::input, std::move(message), {}, {}};
-  };
-  if (ended.how == Ended::How::not_found ||
-      (ended.how == Ended::How::exited && ended.code == kNotInstalled))
-    return fault("not installed");
-  if (ended.how == Ended::How::over_limit)
-    return fault(fmt::format("gave up after {} s", question.limit_s));
-  auto answer = answer_in(ended.output);
-  if (ended.how == Ended::How::exited && ended.code == 0 && answer) {
-    answer->lines = read_lines(lines);
-    return std::move(*answer);
-  }
-  constexpr std::size_t kTail = 300;
-  const std::size_t size = ended.output.size();
-  return fault("failed: " + ended.output.substr(size > kTail ? size - kTail : 0));
+  PeerAnswer answer{
+      ask_program(command_of(peer, question, lines), question.limit_s, stem.string() + ".log"), {}};
+  if (answer.reply.outcome == cli::kMeasured) answer.lines = read_lines(lines);
+  return answer;
 }
 
 }  // namespace strake::bench

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "strake/core/result.hpp"
+#include "peer_support/peer_program.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
 
@@ -53,13 +53,10 @@ struct PeerLine {
 };
 
 struct PeerAnswer {
-  std::string version;
-  Seconds hide;  ///< of hiding alone, the scene in memory
-  double load_s = 0;
+  ProgramReply reply;  ///< of hiding alone, the scene in memory
   std::vector<PeerLine> lines;
 };
 
-/// Error: "not installed", "gave up after … s", or what went wrong.
-[[nodiscard]] Result<PeerAnswer> ask(const Peer& peer, const Question& question);
+[[nodiscard]] PeerAnswer ask(const Peer& peer, const Question& question);
 
 }  // namespace strake::bench

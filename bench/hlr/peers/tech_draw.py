@@ -69,8 +69,8 @@ def main():
     hidden, hidden_cpu = time.time(), time.process_time()
     write_lines(sharp, direction, lines)
     print('RESULT ' + json.dumps({
-        'version': 'FreeCAD ' + '.'.join(FreeCAD.Version()[:3]), 'load_s': loaded - begin, 'hide_s': hidden - loaded,
-        'hide_cpu_s': hidden_cpu - cpu}))
+        'version': 'FreeCAD ' + '.'.join(FreeCAD.Version()[:3]), 'load_s': loaded - begin, 'wall_s': hidden - loaded,
+        'cpu_s': hidden_cpu - cpu}))
 
 
 main()

@@ -53,7 +53,7 @@ std::string verdict(const EvaluationRecord& record) {
                       : fmt::format(" {} runs were stopped before they had a result.", unfinished));
 }
 
-/// Says how far this machine can tell.
+/// Says how far this machine can tell; nothing where nothing was measured twice.
 std::string resolution(const EvaluationRecord& record) {
   double worst = 0;
   std::string where;
@@ -63,6 +63,7 @@ std::string resolution(const EvaluationRecord& record) {
         worst = noise;
         where = one.name + ", " + stage.name;
       }
+  if (where.empty()) return {};
   return fmt::format(
       "The same contender twice differed by up to {:.1f} % ({}): a speed-up that is "
       "nearer to another than that is not told from it.",
@@ -77,8 +78,8 @@ void put_table(const Table& table, std::string& out) {
   for (const std::vector<std::string>& row : table.rows) {
     out += "<tr>";
     for (const std::string& cell : row)
-      out +=
-          (cell == "NO" ? "<td class=\"wrong\">" : "<td>") + drawing::xml_escaped(cell) + "</td>";
+      out += (cell == "NO" || cell.starts_with("NO: ") ? "<td class=\"wrong\">" : "<td>") +
+             drawing::xml_escaped(cell) + "</td>";
     out += "</tr>\n";
   }
   out += "</tbody></table></div>\n";

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "cli/evaluate/pages/peer_table.hpp"
 #include "cli/evaluate/statistics.hpp"
 
 namespace strake::cli {
@@ -283,6 +284,7 @@ std::vector<Section> sections_of(const EvaluationRecord& record) {
   for (const StudyRecord& study : record.studies)
     sections.push_back(
         {study.name, {study.title, study.question, study.columns, study.rows}, study.charts});
+  sections.push_back(peer_section(record));
   sections.push_back(memory(record));
   sections.push_back(work(record));
   sections.push_back(machine(record));
@@ -299,6 +301,10 @@ std::vector<std::string> differences_of(const EvaluationRecord& record) {
   for (const StudyRecord& study : record.studies)
     for (const std::string& difference : study.differences)
       lines.push_back(fmt::format("{}: {}", study.name, difference));
+  for (const PeerRecord& peer : record.peers)
+    for (const PeerRow& row : peer.rows)
+      if (row.outcome == kDisagrees)
+        lines.push_back(fmt::format("{}, {}: {}: {}", peer.name, row.scene, row.who, row.result));
   return lines;
 }
 

@@ -1,17 +1,34 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""evaluate_test.py STRAKE SCHEMAS: an evaluation of two cases, as a user runs, resumes and compares it."""
+"""evaluate_test.py STRAKE SCHEMAS: an evaluation of two cases, as a user runs, resumes and compares it, and of peers that
+scripts play."""
 import csv
 import json
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
 import jsonschema
 
 STRAKE = SCHEMAS = None
+# Plays a program with peers: writes the rows that lie beside it, and ends with the status that does.
+PLAYER = """#!/bin/sh
+for word; do [ "$before" = --json ] && json=$word; before=$word; done
+[ -e "$0.sleep" ] && sleep 60
+cp "$0.rows" "$json"
+exit "$(cat "$0.status")"
+"""
+
+
+def peer_row(**more):
+    """What a peer says that agrees."""
+    return {'scene': 'ship of 500 objects', 'objects': 500, 'triangles': 9000, 'threads': 1, 'who': 'Embree',
+            'version': 'Embree 3', 'answers': 'pairs that overlap', 'cpu_s': 3.0, 'wall_s': 2.0, 'ours_cpu_s': 0.5,
+            'ours_wall_s': 0.25, 'outcome': 'measured', 'result': 'all 4 crossing pairs found', **more}
 
 
 class Evaluate(unittest.TestCase):
@@ -154,6 +171,130 @@ class Evaluate(unittest.TestCase):
         for chart in study['charts']:
             self.assertEqual(len(chart['names']), 7)
             self.assertEqual([len(series['values']) for series in chart['series']], [7, 7])
+
+
+class Peers(unittest.TestCase):
+    def setUp(self):
+        self.keep = tempfile.TemporaryDirectory(prefix='strake-peers-')
+        self.folder = Path(self.keep.name)
+        (self.folder / 'programs').mkdir()
+
+    def tearDown(self):
+        self.keep.cleanup()
+
+    def play(self, rows, status=0, hangs=False, name='bench_clash_peers'):
+        program = self.folder / 'programs' / name
+        program.write_text(PLAYER, encoding='utf-8')
+        program.chmod(0o755)
+        text = json.dumps({'schema_version': 1, 'rows': rows}) if isinstance(rows, list) else rows
+        Path(f'{program}.rows').write_text(text, encoding='utf-8')
+        Path(f'{program}.status').write_text(str(status), encoding='utf-8')
+        if hangs:
+            Path(f'{program}.sleep').touch()
+
+    def start(self, *arguments, only='pairs-embree'):
+        return subprocess.Popen([STRAKE, 'evaluate', '--scale', '0.001', '--peers', 'programs', '--only', only, '-o', 'out',
+                                 *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=self.folder)
+
+    def evaluate(self, *arguments, expect=0, **more):
+        process = self.start(*arguments, **more)
+        _, errors = process.communicate(timeout=100)
+        self.assertEqual(process.returncode, expect, errors)
+        return errors
+
+    def rows(self):
+        record = json.loads((self.folder / 'out/evaluation.json').read_text(encoding='utf-8'))
+        schema = json.loads((SCHEMAS / 'evaluation.schema.json').read_text(encoding='utf-8'))
+        jsonschema.validate(record, schema)
+        return {peer['name']: peer['rows'] for peer in record['peers']}
+
+    def test_rows_stand_in_all_files(self):
+        self.play([peer_row(), peer_row(scene='ship of 500 objects, turned')])
+        self.evaluate()
+        self.assertEqual(len(self.rows()['pairs-embree']), 2)
+        self.assertIn('| ship of 500 objects, turned | 500 | 9000 | Embree |',
+                      (self.folder / 'out/evaluation.md').read_text(encoding='utf-8'))
+        self.assertIn('all 4 crossing pairs found', (self.folder / 'out/evaluation.html').read_text(encoding='utf-8'))
+        with (self.folder / 'out/evaluation-peers.csv').open(encoding='utf-8', newline='') as file:
+            self.assertEqual([row['cpu_s'] for row in csv.DictReader(file)], ['3', '3'])
+
+    def test_what_was_measured_is_not_asked_again_and_what_was_not_there_is(self):
+        self.play([peer_row()])
+        self.evaluate(only='pairs-embree,drawing-occt')
+        self.assertEqual(self.rows()['drawing-occt'][0]['outcome'], 'not there')
+        self.play([peer_row(cpu_s=4.0)])
+        self.play([peer_row(who='OCCT PolyAlgo')], name='bench_hidden_lines_peers')
+        self.evaluate(only='pairs-embree,drawing-occt')
+        self.assertEqual(self.rows()['pairs-embree'][0]['cpu_s'], 3.0)
+        self.assertEqual(self.rows()['drawing-occt'][0]['outcome'], 'measured')
+
+    def test_a_result_that_is_not_ours_is_exit_code_1(self):
+        self.play([peer_row(outcome='disagrees', result='3 of 4 crossing pairs', cpu_s=0, wall_s=0)], status=1)
+        self.assertIn('3 of 4 crossing pairs', self.evaluate(expect=1))
+        self.assertIn('NO: 3 of 4', (self.folder / 'out/evaluation.md').read_text(encoding='utf-8'))
+
+    def test_what_goes_wrong_is_a_row(self):
+        for rows, status, outcome in (([], 0, 'failed'), ('{', 0, 'failed'), ([], 3, 'failed'),
+                                      ([peer_row(outcome='no such')], 0, 'failed')):
+            self.play(rows, status)
+            self.evaluate('--fresh')
+            self.assertEqual([row['outcome'] for row in self.rows()['pairs-embree']], [outcome], rows)
+        self.play([peer_row()], hangs=True)
+        self.evaluate('--fresh', '--peer-limit', '0.1')
+        self.assertEqual(self.rows()['pairs-embree'][0]['outcome'], 'over limit')
+
+    def test_ctrl_c_ends_the_peer(self):
+        self.play([peer_row()], hangs=True)
+        process = self.start()
+        player = self.player_of(process)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=20)
+        self.assertEqual(process.returncode, 130)
+        self.assertTrue(self.wait_for(lambda: not self.runs(player)))
+
+    @staticmethod
+    def wait_for(condition):
+        until = time.monotonic() + 20
+        while time.monotonic() < until:
+            value = condition()
+            if value:
+                return value
+            time.sleep(0.01)
+        return None
+
+    def player_of(self, process):
+        """The process of the peer program, once the script has begun to sleep."""
+        def found():
+            for path in Path('/proc').glob('[0-9]*/stat'):
+                try:
+                    fields = path.read_text().rsplit(')', 1)[1].split()
+                    words = (path.parent / 'cmdline').read_bytes()
+                except OSError:
+                    continue
+                if int(fields[1]) == process.pid and b'bench_clash_peers' in words:
+                    return int(path.parent.name)
+            return None
+        player = self.wait_for(found)
+        self.assertIsNotNone(player)
+        return player
+
+    @staticmethod
+    def runs(pid):
+        """Whether it runs; one that ended and that nobody has waited for does not."""
+        try:
+            return Path(f'/proc/{pid}/stat').read_text().rsplit(')', 1)[1].split()[0] != 'Z'
+        except OSError:
+            return False
+
+    def test_peers_need_their_programs(self):
+        for arguments, word in ((('--only', 'peers'), '--peers'), (('--only', 'pairs-fcl'), '--peers'),
+                                (('--only', 'peers', '--peers', 'nowhere'), 'nowhere'),
+                                (('--peers', 'programs', '--peer-limit', '0'), '--peer-limit')):
+            done = subprocess.run([STRAKE, 'evaluate', '-o', 'wrong', *arguments], capture_output=True, text=True,
+                                  cwd=self.folder)
+            self.assertEqual(done.returncode, 2, arguments)
+            self.assertIn(word, done.stderr)
+        self.assertFalse((self.folder / 'wrong').exists())
 
 
 if __name__ == '__main__':

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace strake::cli {
+
+/// Which processes end with a child that is killed.
+enum class KilledWith : std::uint8_t {
+  its_group,  ///< all that it started: it leads a group of its own, which Ctrl-C does not reach
+  nothing,    ///< it alone: it belongs to our group, and ends with us
+};
+
+/// Another program, run without a shell.
+struct ChildProgram {
+  std::vector<std::string> words;  ///< the first is searched in PATH where it has no slash
+  double limit_s = 0;              ///< after which it is killed
+  std::filesystem::path log;       ///< takes all that it writes, and stays
+  KilledWith killed_with = KilledWith::its_group;
+};
+
+/// How a child ended.
+struct ChildEnd {
+  enum class How : std::uint8_t {
+    exited,
+    not_started,  ///< it is not there, or no program
+    over_limit,   ///< killed for its time
+    stopped,      ///< killed because the run was stopped
+    killed,       ///< by a signal that is not ours
+  } how = How::exited;
+  int code = 0;        ///< exit status, or the signal of `killed`
+  std::string output;  ///< what the log holds
+};
+
+/// Runs a program to its end, to its limit or until `stop` is requested. It reads nothing, and no
+/// signal is blocked or ignored for it.
+[[nodiscard]] ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop);
+
+/// Returns the end of an output in so many bytes at most, from the beginning of a line where there
+/// is one.
+[[nodiscard]] std::string tail_of(const std::string& output, std::size_t bytes);
+
+}  // namespace strake::cli
