@@ -16,7 +16,8 @@ namespace strake::io::gltf {
 /// The JSON of a glTF file: its nodes as text, in pieces, and an index of all the rest.
 ///
 /// Most of the text of a large model is nodes. Each is looked at once, so that a piece is indexed,
-/// read and forgotten by one worker; an index of all of them was the largest thing in memory.
+/// read and forgotten by one worker; an index of all of them was the largest thing in memory
+/// (decision 0067).
 class Document {
  public:
   /// The index of a piece of this size stays in the cache of its worker.
