@@ -144,7 +144,17 @@ Status read_bucketing(const std::string& text, std::int32_t& bucketing) {
   return {};
 }
 
-Result<hlr::Options> engine_options(const DrawOptions& given) {
+/// Whether any output shows hidden lines, or holds them whatever is shown of them.
+bool keeps_hidden_lines(const DrawOptions& given, bool json) {
+  if (given.visible_only) return false;
+  if (json || (!given.hidden.empty() && given.hidden != "off")) return true;
+  return std::ranges::any_of(given.outputs, [](const std::string& file) {
+    const Result<drawing::DrawingWriter> writer = find_writer(drawing::drawing_writers(), file);
+    return writer && !writer->needs_ink;
+  });
+}
+
+Result<hlr::Options> engine_options(const DrawOptions& given, bool json) {
   hlr::Options options;
   if (given.stage == "none") options.stage = hlr::Stage::none;
   if (given.stage == "local") options.stage = hlr::Stage::local;
@@ -152,7 +162,7 @@ Result<hlr::Options> engine_options(const DrawOptions& given) {
   if (given.global == "push") options.solver = hlr::Solver::push;
   options.culling = given.culling != "off";
   if (const Status s = read_bucketing(given.bucketing, options.bucketing); !s) return s.error();
-  options.hidden = !given.visible_only;
+  options.hidden = keeps_hidden_lines(given, json);
   if (given.visible_only && !given.hidden.empty() && given.hidden != "off")
     return Error{ErrorCode::usage, "hidden lines cannot be drawn and left out", "--visible-only",
                  "leave out --hidden or --visible-only"};
@@ -269,12 +279,12 @@ struct DrawRequest {
   bool sag_for_paper = true;
 };
 
-Result<DrawRequest> request_of(const DrawOptions& given, Console& console) {
+Result<DrawRequest> request_of(const DrawOptions& given, Session& session) {
   const Result<model::SceneOptions> scene = scene_options(given.scene, kSagMm);
   if (!scene) return scene.error();
-  const Result<hlr::View> view = view_of(given, console);
+  const Result<hlr::View> view = view_of(given, session.console());
   if (!view) return view.error();
-  const Result<hlr::Options> options = engine_options(given);
+  const Result<hlr::Options> options = engine_options(given, session.json());
   if (!options) return options.error();
   const Result<drawing::LayoutOptions> layout = layout_options(given);
   if (!layout) return layout.error();
@@ -313,7 +323,7 @@ Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& req
 Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
   if (given.input.files.empty())
     return Error{ErrorCode::usage, "no model file is given", {}, "'strake draw --help' tells more"};
-  const Result<DrawRequest> request = request_of(given, session.console());
+  const Result<DrawRequest> request = request_of(given, session);
   if (!request) return request.error();
   if (!given.sheet.empty())
     return draw_sheet(

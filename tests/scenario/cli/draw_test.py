@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """draw_test.py STRAKE: drawings do not depend on order or threads; selections and limits."""
 import json
+import re
 import struct
 
 from scenario import Scenario, cube, main
@@ -109,6 +110,15 @@ class Draw(Scenario):
             self.assertEqual(drawing['counts']['edges_left_out'] > 0, bool(more))
         self.assertEqual(found[0], found[1])
         self.assertEqual(found[0], found[2])
+        # What no output shows is not computed, and the lines that are shown are the same.
+        for more, kept in (((), False), (('--hidden', 'dashed'), True), (('-o', 'x.view'), True), (('--json',), True)):
+            done = self.run_strake('draw', 'a.obj', 'b.obj', '-o', 'x.svg', *more)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            metadata, ink = (self.folder / 'x.svg').read_text().split('</metadata>')
+            counts = re.search('hidden-by-self="([0-9]+)" hidden-by-other="([0-9]+)"', metadata)
+            self.assertEqual(counts.groups() != ('0', '0'), kept)
+            if '--hidden' not in more:
+                self.assertEqual(ink, found[0][2])
         done = self.run_strake('draw', 'a.obj', '--visible-only', '--hidden', 'dashed', '-o', 'y.svg')
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn('--visible-only', done.stderr)
