@@ -11,7 +11,7 @@
 namespace strake::report {
 namespace {
 
-constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+constexpr std::size_t kNoFile = static_cast<std::size_t>(-1);
 
 /// Returns labels as a list for a person.
 std::string listed(const RunFiles& run) {
@@ -22,16 +22,16 @@ std::string listed(const RunFiles& run) {
 
 std::size_t find_file(const RunFiles& run, std::string_view label) {
   const auto at = std::ranges::find(run.files, label, &FileContents::label);
-  return at == run.files.end() ? kNone : static_cast<std::size_t>(at - run.files.begin());
+  return at == run.files.end() ? kNoFile : static_cast<std::size_t>(at - run.files.begin());
 }
 
 /// A file of one run while it is looked for in the other.
 struct SoughtFile {
-  std::size_t partner = kNone;      ///< the file of the other run that it is
+  std::size_t partner = kNoFile;    ///< the file of the other run that it is
   bool is_part = false;             ///< it is a part of a file of the other run, or made of such
   std::vector<std::size_t> rivals;  ///< files of the other run between which nothing decides
 
-  [[nodiscard]] bool is_free() const { return partner == kNone && !is_part && rivals.empty(); }
+  [[nodiscard]] bool is_free() const { return partner == kNoFile && !is_part && rivals.empty(); }
 };
 
 /// Two files that may be one.
@@ -63,7 +63,7 @@ class FileMatcher {
     for (std::size_t x = 0; x < sought_before_.size(); ++x) {
       if (!sought_before_[x].is_free()) continue;
       const std::size_t y = find_file(after_, before_.files[x].label);
-      if (y != kNone && sought_after_[y].is_free()) take(x, y, FileRelation::same_label);
+      if (y != kNoFile && sought_after_[y].is_free()) take(x, y, FileRelation::same_label);
     }
   }
 
@@ -109,7 +109,7 @@ class FileMatcher {
  private:
   /// The file of the other run of which another is a part.
   struct PartOf {
-    std::size_t whole = kNone;
+    std::size_t whole = kNoFile;
     std::uint64_t common = 0;
     std::vector<std::size_t> rivals;
   };
@@ -117,7 +117,7 @@ class FileMatcher {
   static Result<std::size_t> asked_file(const RunFiles& run, const std::vector<SoughtFile>& sought,
                                         const std::string& label, const std::string& which) {
     const std::size_t file = find_file(run, label);
-    if (file == kNone)
+    if (file == kNoFile)
       return Error{ErrorCode::usage, "the " + which + " run has no file '" + label + "'",
                    "--match-files", "it has " + listed(run)};
     if (!sought[file].is_free())
@@ -170,7 +170,7 @@ class FileMatcher {
       if (!sought[w].rivals.empty()) continue;
       const auto moved = [&](const std::string& id) {
         return has_object(other, other.files[w], id) &&
-               (sought[w].partner == kNone || !has_object(own, own.files[sought[w].partner], id));
+               (sought[w].partner == kNoFile || !has_object(own, own.files[sought[w].partner], id));
       };
       const auto count =
           static_cast<std::uint64_t>(std::ranges::count_if(own.files[part].ids, moved));
@@ -189,7 +189,7 @@ class FileMatcher {
   void take_part(const PartOf& part, SoughtFile& sought, std::size_t x, std::size_t y,
                  bool of_after) {
     sought.rivals = part.rivals;
-    if (part.whole == kNone) return;
+    if (part.whole == kNoFile) return;
     sought.is_part = true;
     (of_after ? sought_before_[x] : sought_after_[y]).is_part = true;
     const bool known = std::ranges::any_of(result_.matches, [&](const FileMatch& m) {
@@ -246,7 +246,7 @@ Result<std::vector<FilePair>> parse_file_pairs(std::span<const std::string> text
     for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1)) {
       FilePair read{text.substr(0, at), text.substr(at + 1)};
       const bool known =
-          find_file(before, read.before) != kNone && find_file(after, read.after) != kNone;
+          find_file(before, read.before) != kNoFile && find_file(after, read.after) != kNoFile;
       // What names no file of the runs is read at the first sign, for the error.
       if (known || !pair) pair = std::move(read);
       if (known) break;

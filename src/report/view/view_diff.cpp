@@ -41,7 +41,11 @@ std::vector<ViewSettingChange> setting_changes(const ViewDocument& before,
 
 /// Numbers the objects of both drawings, those of the older one by what they are in the newer.
 void number_objects(ViewDiff& diff) {
-  const DrawnIds drawn_before(*diff.before), drawn_after(*diff.after);
+  DrawnIds drawn_before, drawn_after;
+  if (!diff.files.by_label_alone()) {
+    drawn_before.add(*diff.before);
+    drawn_after.add(*diff.after);
+  }
   const FileMap files(
       diff.files, [&](auto file, auto id) { return drawn_before.has(file, id); },
       [&](auto file, auto id) { return drawn_after.has(file, id); });

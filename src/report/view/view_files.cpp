@@ -56,7 +56,7 @@ RunFiles files_of(const ViewDocument& drawing, const std::vector<std::string>& l
 
 }  // namespace
 
-DrawnIds::DrawnIds(const ViewDocument& drawing) {
+void DrawnIds::add(const ViewDocument& drawing) {
   for (const ViewObject& o : drawing.objects) ids_.emplace(o.file, o.id);
 }
 

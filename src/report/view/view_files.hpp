@@ -9,10 +9,10 @@
 
 namespace strake::report {
 
-/// The objects of a drawing, which must outlive this and stay where it is.
+/// The objects of a drawing, none at first; it must outlive this and stay where it is.
 class DrawnIds {
  public:
-  explicit DrawnIds(const ViewDocument& drawing);
+  void add(const ViewDocument& drawing);
   [[nodiscard]] bool has(std::string_view file, std::string_view id) const {
     return ids_.contains({file, id});
   }
