@@ -3,6 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "strake/report/file_match.hpp"
 
@@ -28,14 +31,19 @@ struct FileLikeness {
 /// Whether a file of a run has an object of this id.
 [[nodiscard]] bool has_object(const RunFiles& run, const FileContents& file, std::string_view id);
 
+/// Whether another file may have more than half of the ids of a file: it has one of some that are
+/// spread over them. It spares counting the ids of files that have nothing to do with each other.
+[[nodiscard]] bool may_have_most(const RunFiles& run, const FileContents& file,
+                                 const std::vector<std::string>& ids);
+
 /// Whether `some` is more than half of `all`, which is not none.
 [[nodiscard]] constexpr bool is_most(std::uint64_t some, std::uint64_t all) {
   return 2 * some > all;
 }
 
-/// The fewest ids in common that tell by themselves that files are one: one or two that are alike
-/// may be chance (`cube`).
-inline constexpr std::uint64_t kFewestIds = 3;
+/// Whether so many ids in common are too many for chance.
+[[nodiscard]] bool is_no_chance(std::uint64_t ids, const FileContents& file,
+                                const FileContents& other);
 
 /// Whether a count is so much larger than that of a rival that it is no chance.
 [[nodiscard]] constexpr bool is_clearly_more(std::uint64_t count, std::uint64_t rival) {

@@ -140,11 +140,18 @@ class FileMatcher {
     result_.matches.push_back(std::move(match));
   }
 
+  /// Whether two files are worth comparing: they share ids, or have none.
+  [[nodiscard]] bool may_be_one(const FileContents& old_file, const FileContents& new_file) const {
+    return (old_file.ids.empty() && new_file.ids.empty()) ||
+           may_have_most(after_, new_file, old_file.ids) ||
+           may_have_most(before_, old_file, new_file.ids);
+  }
+
   [[nodiscard]] std::vector<Candidate> candidates() const {
     std::vector<Candidate> found;
     for (std::size_t x = 0; x < sought_before_.size(); ++x)
       for (std::size_t y = 0; sought_before_[x].is_free() && y < sought_after_.size(); ++y) {
-        if (!sought_after_[y].is_free()) continue;
+        if (!sought_after_[y].is_free() || !may_be_one(before_.files[x], after_.files[y])) continue;
         const FileLikeness l = likeness(before_, before_.files[x], after_, after_.files[y]);
         if (l.is_one_file()) found.push_back({x, y, l});
       }
@@ -168,13 +175,15 @@ class FileMatcher {
     std::vector<std::pair<std::uint64_t, std::size_t>> wholes;
     for (std::size_t w = 0; w < sought.size(); ++w) {
       if (!sought[w].rivals.empty()) continue;
+      if (!may_have_most(other, other.files[w], own.files[part].ids)) continue;
       const auto moved = [&](const std::string& id) {
         return has_object(other, other.files[w], id) &&
                (sought[w].partner == kNoFile || !has_object(own, own.files[sought[w].partner], id));
       };
       const auto count =
           static_cast<std::uint64_t>(std::ranges::count_if(own.files[part].ids, moved));
-      if (count >= kFewestIds && is_most(count, own.files[part].ids.size()))
+      if (is_most(count, own.files[part].ids.size()) &&
+          is_no_chance(count, own.files[part], other.files[w]))
         wholes.emplace_back(count, w);
     }
     std::ranges::sort(wholes, std::greater<>());

@@ -204,7 +204,7 @@ class Schemas(unittest.TestCase):
     def test_comparisons_of_renamed_files(self):
         for name, y in (('port', 0), ('starboard', 5000), ('new', 2500)):
             (self.folder / f'{name}.obj').write_text(
-                ''.join(cube(f'c{n}', n, (90 * n, y, 0), 100) for n in range(4)), encoding='utf-8')
+                ''.join(cube(f'c{n}', n, (90 * n, y, 0), 100) for n in range(24)), encoding='utf-8')
         for run, schema in ((['clash', '--self'], 'clash-diff'), (['draw'], 'view-diff')):
             for name, files in (('old', ('port.obj', 'starboard.obj')), ('new', ('new.obj',))):
                 self.run_strake(*run, *files, '--unit', 'mm', '-o', f'{name}.json')

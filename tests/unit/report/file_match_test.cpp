@@ -90,6 +90,17 @@ TEST(FileMatch, OneOrTwoIdsNeedPlacesBesides) {
             (std::vector<FileMatch>{{"a", "b", FileRelation::renamed, 1, 1}}));
 }
 
+TEST(FileMatch, AHandfulOfIdsElsewhereMayBeChance) {
+  const auto renamed = [](int count, const Places& before, const Places& after) {
+    return !matched({file("a", ids(0, count), before)}, {file("b", ids(0, count), after)})
+                .matches.empty();
+  };
+  EXPECT_FALSE(renamed(19, {1, 2}, {3, 4}));
+  EXPECT_TRUE(renamed(20, {1, 2}, {3, 4})) << "a model that moved";
+  EXPECT_TRUE(renamed(3, {1, 2}, {2, 4}));
+  EXPECT_TRUE(renamed(3, {1, 2}, {})) << "all of it was mended";
+}
+
 TEST(FileMatch, PlacesDecideWhereNeitherHasLastingIds) {
   const FileMatches files =
       matched({file("a", {}, {1, 2, 3}), file("b", {}, {4, 5, 6})},
@@ -203,7 +214,7 @@ TEST(FileMatch, APairAsItIsWritten) {
   EXPECT_EQ(read("a=b"), "a|b");
   EXPECT_EQ(read("a=1=b"), "a=1|b");
   EXPECT_EQ(read("x=y=z"), "x|y=z");
-  for (const std::string text : {"a", "=b", "a=", "="})
+  for (const char* const text : {"a", "=b", "a=", "="})
     EXPECT_NE(read(text).find("names no two files"), std::string::npos) << text;
 }
 
