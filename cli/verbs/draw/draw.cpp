@@ -233,8 +233,8 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
                            drawing.sheet.height_mm));
   if (visible > 0) return;
   console.note(of(drawing::LineState::clipped) > 0
-                   ? "warning empty-sheet: nothing lies within the limits, the field of view and "
-                     "before the sections"
+                   ? "warning empty-sheet: nothing is left to draw inside the limits, the field of "
+                     "view and the sections"
                    : "warning empty-sheet: the model has nothing to draw");
 }
 

@@ -19,7 +19,7 @@ std::string words(hlr::Fate fate) {
 }  // namespace
 
 void print_drawing_diagnostics(Console& console, const Diagnostics& diagnostics) {
-  print_diagnostics(console, diagnostics, {"object-degenerate", "object-failed", "object-in-part"});
+  print_diagnostics(console, diagnostics);
 }
 
 std::string object_summary_line(const hlr::Account& account, const model::Model& model) {

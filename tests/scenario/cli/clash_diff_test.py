@@ -182,7 +182,7 @@ class ClashDiff(Scenario):
             done = self.run_strake('clash', 'u.gltf', '-o', name)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(done.stderr.count('object-id-positional'), 1, done.stderr)
-            self.assertIn(f'u.gltf: {len(places)} objects have no lasting id', done.stderr)
+            self.assertIn(f'u.gltf: {len(places)} objects have no stable id', done.stderr)
             return json.loads((self.folder / name).read_text())
 
         old = run([0, .09], 'old.json')

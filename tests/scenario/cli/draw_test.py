@@ -349,7 +349,7 @@ class Draw(Scenario):
         self.two_files()
         done = self.run_strake('draw', 'a.obj', '-o', 'x.svg', '--limits', '1e6,1e6,1e6,2e6,2e6,2e6')
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn('nothing lies within the limits', done.stderr)
+        self.assertIn('nothing is left to draw inside the limits', done.stderr)
 
 
 if __name__ == '__main__':
