@@ -70,7 +70,7 @@ Result<geometry::Vec3l> direction_of(const std::string& text, const std::string&
 }
 
 Result<geometry::Box3l> limits_of(const std::string& text) {
-  const auto n = number_list(text, 6, "--limits", "xmin,ymin,zmin,xmax,ymax,zmax in millimetres");
+  const auto n = coordinates_option(text, 6, "--limits", "xmin,ymin,zmin,xmax,ymax,zmax");
   if (!n) return n.error();
   const auto lo = geometry::snap(geometry::Vec3d{(*n)[0], (*n)[1], (*n)[2]});
   const auto hi = geometry::snap(geometry::Vec3d{(*n)[3], (*n)[4], (*n)[5]});
@@ -369,14 +369,15 @@ void add_view(CLI::App& command, DrawOptions& options) {
       ->group("View");
   command
       .add_option("--limits", options.limits,
-                  "Draw this box of the model only: xmin,ymin,zmin,xmax,ymax,zmax in mm")
+                  "Draw this box of the model only: xmin,ymin,zmin,xmax,ymax,zmax in mm or with "
+                  "units, as 4.5m. What it cuts stays open; --section closes it")
       ->type_name("BOX")
       ->group("View");
   command
       .add_option("--section", options.sections,
                   "Cut away what lies beyond a plane: 'z>4500mm' above, 'z<4500mm' below, z=4500mm "
-                  "what is nearer to the viewer; for z also x, y or a normal, '1,2,0>4500mm'; may "
-                  "be repeated")
+                  "what is nearer to the viewer; for z also x, y or a normal, '1,2,0>4500mm'. "
+                  "Solids are closed by a hatched face where it cuts them; may be repeated")
       ->type_name("PLANE")
       ->expected(1)
       ->allow_extra_args(false)

@@ -287,7 +287,10 @@ class Draw(Scenario):
         self.assertTrue(all(a[0] == b[0] and a[0] % 20 == 0 for _, a, b in some))
         self.assertGreater(len(hatch()), 10)
         self.assertEqual(hatch('--hatch', 'off'), [])
-        for wrong in ('200deg', '-1mm', '0mm', '30furlongs', '', '30deg,', '1nm', '45deg: nobody', '45deg: ((', 'nan'):
+        self.assertEqual(hatch('--hatch', '80mm,30deg'), hatch('--hatch', '30deg,80mm'))
+        self.assertEqual(hatch('--hatch', '30'), hatch('--hatch', '30deg'))
+        for wrong in ('200deg', '-1mm', '0mm', '30furlongs', '', '30deg,', '1nm', '30,80', '30deg,80', '30deg,40deg', '80mm,90mm', '80mm,30', '1,5mm', '1e300mm',
+                      '45deg: nobody', '45deg: ((', 'nan'):
             done = self.run_strake('draw', 'a.obj', '--section', 'z>50mm', '--hatch', wrong, '-o', 'x.json')
             self.assertEqual(done.returncode, 2, (wrong, done.stderr))
             self.assertIn('--hatch', done.stderr, wrong)
@@ -295,7 +298,7 @@ class Draw(Scenario):
     def test_sections_that_make_no_sense_are_told(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
         for plane, words in (('0,0,0>1mm', 'neither an axis nor the normal'), ('z', 'no section plane'),
-                             ('z>nan', 'nan'), ('z>12', 'unit'), ('nan,0,1>1mm', 'neither an axis'),
+                             ('z>nan', 'nan'), ('z>12furlong', 'unit'), ('z>4,5m', 'write 4.5m'), ('nan,0,1>1mm', 'neither an axis'),
                              ('w>1mm', 'neither an axis'), ('z>1e300km', '--section'),
                              ('x=10mm', 'edge-on'), ('z>', '--section')):
             done = self.run_strake('draw', 'a.obj', '--view', 'top', '--section', plane, '-o', 'x.svg')

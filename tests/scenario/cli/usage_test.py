@@ -35,7 +35,7 @@ class Usage(Scenario):
                 (['info', 'a.obj', '--threads', 'many'], 'many'),
                 (['info', 'a.obj', '--unit', 'cubit'], 'um, mm'),
                 (['info', 'a.obj', '--up-axis', 'q'], 'x|y|z'),
-                (['info', 'a.obj', '--sag', '0'], 'positive'),
+                (['info', 'a.obj', '--sag', '0'], '1um or more'),
                 (['clash', 'a.obj', '--clearance', '25'], '25mm'),
                 (['clash', 'a.obj', '--clearance', '-1mm'], 'negative'),
                 (['clash', 'a.obj', '--touch-gap', 'nan'], 'nan'),

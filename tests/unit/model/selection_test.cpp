@@ -254,7 +254,7 @@ TEST_F(SelectionTest, FaultsNameTheColumnAndTheMend) {
       {"name ~ '('", "column 8: no regular expression"},
       {"inside(1,2,3)", "column 13: ',' is missing"},
       {"inside(0,0,0,1,-1,1)", "column 1: the box ends before it begins"},
-      {"inside(0,0,0,1,1,nan)", "column 18: no length"},
+      {"inside(0,0,0,1,1,nan)", "column 18: 'nan' is not a coordinate"},
       {std::string(100000, '('), "nested too deeply"},
   };
   for (const auto& [text, fault] : faults)
