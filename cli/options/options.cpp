@@ -263,7 +263,7 @@ Result<std::vector<double>> coordinates_option(const std::string& text, std::siz
     const std::size_t comma = std::min(text.find(',', at), text.size());
     const Result<double> one =
         quantity_option(text.substr(at, comma - at), option, parse_coordinate_mm);
-    if (!one) return usage(one.error().message + " in '" + text + "'", option, mend);
+    if (!one) return usage(one.error().message + " of '" + text + "'", option, one.error().mend);
     coordinates.push_back(*one);
     at = comma + 1;
   }

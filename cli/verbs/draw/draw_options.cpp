@@ -8,7 +8,9 @@
 
 #include "cli/options/options.hpp"
 #include "cli/run/object_selection.hpp"
+#include "core/text_encoding.hpp"
 #include "core/units.hpp"
+#include "hlr/view/view_frustum.hpp"
 #include "strake/drawing/hatching.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/geometry/grid.hpp"
@@ -95,7 +97,7 @@ Result<std::vector<HatchRule>> parse_hatches(const std::vector<std::string>& tex
     if (!hatch) return hatch.error();
     rules.push_back({*hatch, std::nullopt});
     if (colon == std::string::npos) continue;
-    auto selections = parse_selections({text.substr(colon + 1)}, "--hatch");
+    auto selections = parse_selections({std::string(trimmed(text.substr(colon + 1)))}, "--hatch");
     if (!selections) return selections.error();
     rules.back().selection = std::move(selections->front());
   }
@@ -166,6 +168,25 @@ void add_perspective_options(CLI::App& command, PerspectiveOptions& options, CLI
       ->group("View");
 }
 
+namespace {
+
+/// Checks the perspective before a model is read; an error names the option that is at fault: the
+/// one that would be right with its default, or else the eye.
+Status check_in_options(const hlr::View& view) {
+  const Status status = hlr::check_perspective(view);
+  if (status) return {};
+  hlr::View with_field = view, with_near = view;
+  with_field.perspective->field_of_view_deg = hlr::Perspective{}.field_of_view_deg;
+  with_near.perspective->near_mm = hlr::Perspective{}.near_mm;
+  Error error = status.error();
+  error.where = hlr::check_perspective(with_field)  ? "--field-of-view"
+                : hlr::check_perspective(with_near) ? "--near"
+                                                    : "--eye";
+  return error;
+}
+
+}  // namespace
+
 Status set_perspective(const PerspectiveOptions& given, hlr::View& view, Console& console) {
   if (given.eye.empty()) return {};
   hlr::Perspective perspective;
@@ -195,7 +216,7 @@ Status set_perspective(const PerspectiveOptions& given, hlr::View& view, Console
         fmt::format("the paper is square to {},{},{}, off the way to --target by {:.1e} rad", d.x,
                     d.y, d.z, direction->rounding_error));
   }
-  return {};
+  return check_in_options(view);
 }
 
 }  // namespace strake::cli

@@ -267,7 +267,7 @@ class ClashDiff(Scenario):
         self.write('cut.json', good[:-40])
         self.write('first.json', good.replace('"schema_version": 2', '"schema_version": 1'))
         for file, word in (('cut.json', 'ends too soon'), ('first.json', 'version 1'), ('a.obj', 'no JSON'),
-                           ('nowhere.json', 'cannot be opened'), ('.', 'folder')):
+                           ('nowhere.json', 'there is no such file'), ('.', 'folder')):
             with self.subTest(file):
                 done = self.run_strake('clash', 'diff', 'good.json', file)
                 self.assertEqual(done.returncode, 3, done.stderr)
