@@ -192,6 +192,13 @@ MODELS = [
     ('lost.gltf', gltf(buffers=[{'byteLength': 36, 'uri': 'lost.bin'}])[1], 'lost.bin'),
     ('far.gltf', gltf(buffers=[{'byteLength': 36, 'uri': '../../etc/passwd'}])[1], 'passwd'),
     ('head.rvm', WHOLE_RVM[:40], 'HEAD'), ('first.rvm', WHOLE_RVM[:10], 'no HEAD chunk'),
+    ('first.rev', b'CNTB\n', 'no HEAD chunk'), ('half.rev', b'HEAD\n    1     2\n', 'END chunk'),
+    ('lone.att', b'ATTRIBUTES', 'unsupported format'),
+    ('none.obj', b'f 1 2 3\n', 'refers to vertex 1'), ('far.obj', b'v 0 0 0\nf 1 1 9\n', 'refers to vertex 9'),
+    ('flat.obj', b'v 0 0\nf 1 1 1\n', 'no readable place'), ('nan.obj', b'v nan 0 0\nf 1 1 1\n', 'no readable place'),
+    ('word.stl', b'solid a\nfacet normal 0 0 0\nouter loop\nvertex 0 0 x\n', 'three finite numbers'),
+    ('none.stl', b'solid a\nendsolid a\n', 'no faces'), ('cut.stl', b'x' * 80 + struct.pack('<I', 5) + bytes(60), 'of the 5 facets'),
+    ('short.stl', b'x' * 30, '84 bytes'),
 ]
 RESULTS = [
     ('missing.json', None, 'cannot be read'), ('empty.json', '', 'empty'), ('letter.json', 'Dear reader,\n', 'JSON'),
@@ -209,8 +216,8 @@ RULES = [
     ('[defaults]\nclearance = "1,5mm"\n', 'line 2', '1.5mm'), ('[defaults]\nclearance = "2km"\n', 'line 2', 'kilometre'),
     ('[defaults]\nclearence = "2mm"\n', 'line 2', 'clearance'), ('[default]\n', 'line 1', 'defaults'),
     ('[[tests]]\n', 'line 1', 'test'), ('[[test]]\n', 'line 1', 'name'), ('[[test]]\nname = ""\n', 'line 1', 'name'),
-    ('[[test]]\nname = 3\n', 'line 2', 'text in quotes'), (TEST.replace('"*"', '"name ="', 1), 'line', 'column 7'),
-    (TEST.replace('"*"', '"set(x)"', 1), 'line', "no set is called 'x'"), (TEST + TEST, 'line', 'twice'),
+    ('[[test]]\nname = 3\n', 'line 2', 'text in quotes'), (TEST.replace('"*"', '"name ="', 1), 'line 3', 'column 7'),
+    (TEST.replace('"*"', '"set(x)"', 1), 'line 3', "no set is called 'x'"), (TEST + TEST, 'line 5', 'twice'),
     ('[[allowed]]\nname = "x"\n', 'line 1', "'a'"), ('[sets]\nx = "set(x)"\n' + TEST, 'line 2', 'itself'),
     ('a = 1\na = 2\n', 'line 2', 'a'), ('\0', 'line 1', ''), ('[sets]\nx = 3\n' + TEST, 'line 2', 'selection'),
 ]
@@ -228,6 +235,16 @@ SHEETS = [
     ('[sheet]\nsize = "A9"\n', 'line 2', 'A3'), ('[sheet]\ntemplate = "t.svg"\n' + VIEW, 't.svg', 'cannot be read'),
     ('[sheet]\ntemplate = "letter.txt"\n' + VIEW, 'letter.txt', 'SVG'), ('arrangement = "second-angle"\n', 'line 1', 'first-angle'),
     ('[arrangement]\nviews = ["tip"]\n', 'line 1', 'top'),
+]
+
+SIZE = "<svg xmlns='http://www.w3.org/2000/svg' width='420mm' height='297mm'"
+BOX = SIZE + " viewBox='0 0 420 297'"
+TEMPLATES = [
+    ('', 'there is no element'), ('<html/>', 'not <svg>'), ('<svg/>', 'does not say its size'), (SIZE + '/>', 'viewBox'),
+    (BOX.replace('420mm', 'wide') + '/>', '297mm'), (BOX + '><text>', '<text> is not closed'), (BOX + '></text>', 'svg'),
+    (BOX + '><script/></svg>', '<script> has no place'), (BOX + " onload='x()'/>", "'onload' has no place"),
+    (BOX + "><image href='http://x/y.png'/></svg>", 'http://x/y.png'), (BOX + '><text>{{x</text></svg>', 'write {{name}}'),
+    ('<!DOCTYPE svg><svg/>', 'document type'), (BOX + '><g a=1/></svg>', "not in quotes"), ('<!-- ', 'does not end'),
 ]
 
 
@@ -297,13 +314,18 @@ class WrongInputs(Scenario):
             for text, place, said in files:
                 self.write(name, text)
                 verb, flag = option
+                where = f'{name}, {place}' if place.startswith('line ') else place or name
                 with self.subTest(text=text):
-                    self.refused([verb, 'a.obj', flag, name, '-o', output], 3, name if place.startswith('line') or not place
-                                 else place, said)
-                    if place.startswith('line'):
-                        self.refused([verb, 'a.obj', flag, name, '-o', output], 3, place, said)
+                    self.refused([verb, 'a.obj', flag, name, '-o', output], 3, where, said)
             self.refused([option[0], 'a.obj', option[1], 'missing.toml', '-o', output], 3, 'missing.toml', 'cannot be read')
             self.refused([option[0], 'a.obj', option[1], 'folder', '-o', output], 3, 'folder', 'file')
+
+    def test_templates(self):
+        self.write('w.toml', '[sheet]\ntemplate = "t.svg"\n' + VIEW)
+        for text, said in TEMPLATES:
+            self.write('t.svg', text)
+            with self.subTest(text=text):
+                self.refused(['draw', 'a.obj', '--sheet', 'w.toml', '-o', 'x.svg'], 3, 't.svg, line 1', said)
 
     def test_there_is_a_row_for_every_option(self):
         named = ' '.join(line for line, _, _ in USAGE + OUTPUT) + ' --rules --sheet'
