@@ -348,6 +348,40 @@ class Draw(Scenario):
         same = self.run_strake('draw', 'diff', 'x.json', 'y.view', '--fail-on', 'any')
         self.assertEqual(same.returncode, 0, same.stderr)
 
+    def test_the_brute_force_says_what_it_costs(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
+        run = ['draw', 'a.obj', '--solver', 'brute-force', '-o', 'x.svg']
+        done = self.run_strake(*run, '--threads', 1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = 'brute-force: 12 edges and 12 triangles, 144 tests: less than a second with 1 worker'
+        self.assertIn(told, done.stderr)
+        self.assertLess(done.stderr.index(told), done.stderr.index('visible of'))
+        self.assertNotIn('brute-force', self.run_strake(*run[:2], *run[4:]).stderr)
+        self.assertEqual(self.run_strake(*run, '--quiet').stderr, '')
+
+    def test_what_limits_cut_stays_open_and_sections_close_it(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
+        kinds = []
+        for cut in (['--limits', '-1m,-1m,-1m,1m,1m,5cm'], ['--section', 'z=50']):
+            done = self.run_strake('draw', 'a.obj', '--view', 'top', *cut, '-o', 'x.json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            kinds.append({p['kind'] for p in json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))['pieces']})
+        self.assertNotIn('section', kinds[0])
+        self.assertIn('section', kinds[1])
+        help_text = ' '.join(self.text('draw', '--help').split())
+        self.assertIn('What it cuts stays open; --section closes it', help_text)
+
+    def test_coordinates_are_millimetres_or_have_units(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
+        def drawn(*options):
+            done = self.run_strake('draw', 'a.obj', *options, '-o', 'x.json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))['pieces']
+        for plain, units in ((['--limits', '-10,-10,-10,1000,1000,50'], ['--limits', '-1cm,-10mm,-10,1m,1m,0.05m']),
+                             (['--section', 'z=50'], ['--section', 'z=5cm']),
+                             (['--eye', '500,-1000,500', '--target', '0,0,0'], ['--eye', '0.5m,-1m,500', '--target', '0mm,0,0'])):
+            self.assertEqual(drawn(*plain), drawn(*units), units)
+
     def test_an_empty_sheet_is_not_silent(self):
         self.two_files()
         done = self.run_strake('draw', 'a.obj', '-o', 'x.svg', '--limits', '1e6,1e6,1e6,2e6,2e6,2e6')
