@@ -320,7 +320,7 @@ Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& req
     return hlr::draw(scene, *drawn, request.view, options, session.context());
   }();
   if (!lines) return lines.error();
-  print_drawing_diagnostics(session.console(), lines->diagnostics);
+  print_diagnostics(session.console(), lines->diagnostics);
   const auto timer = session.step("layout");
   return drawing::lay_out(*lines, *scene.model, request.layout, session.context());
 }
@@ -390,8 +390,9 @@ void add_view(CLI::App& command, DrawOptions& options) {
       ->group("View");
   command
       .add_option("--hatch", options.hatches,
-                  "How sections are hatched: angle, distance of lines in the model, or both, or "
-                  "off, and of which objects: '30deg,80mm: PIPE*'; may be repeated, the first that "
+                  "How sections are hatched: angle, distance of lines in the model, or both with "
+                  "their units, or off, and of which objects: '30deg,80mm: PIPE*'; may be "
+                  "repeated, the first that "
                   "picks an object counts (default: neighbours differ in angle, colours in "
                   "distance)")
       ->type_name("PATTERN")
