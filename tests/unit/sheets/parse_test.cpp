@@ -107,7 +107,8 @@ TEST(SheetFileText, FaultsNamePlaceAndMend) {
        "'area' of [sheet] is no box of paper"},
       {"[sheet]\nkeep_free = [3]", "line 2, column 14: 'keep_free' of [sheet] has something that"},
       {"[sheet]\ntemplate = \"no.svg\"",
-       "s.toml, line 2, column 12: the template 'no.svg' cannot be read: there is no such file (check the path)"},
+       "s.toml, line 2, column 12: the template 'no.svg' cannot be read: there is no such file "
+       "(check the path)"},
       {"[fields]\ntitle = 1.5", "the field 'title' is no text"},
       {"[sets]\na = \"set(a)\"\n" + std::string(kView), "the set 'a' needs itself"},
       {"[defaults]\ndirection = \"top\"\n" + std::string(kView),
