@@ -119,6 +119,19 @@ void add_output_option(CLI::App& command, std::vector<std::string>& files, std::
       ->group("Output");
 }
 
+void add_match_files_option(CLI::App& command, std::vector<std::string>& pairs) {
+  command
+      .add_option(
+          "--match-files", pairs,
+          "A file of the old run that is another in the new one, by their labels, as "
+          "ship.glb=ship_revB.glb; others are matched by label, then by what is in them; may "
+          "be repeated")
+      ->type_name("OLD=NEW")
+      ->expected(1)
+      ->allow_extra_args(false)  // what follows the pair is a result
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
 CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
                         const std::vector<std::string>& words, const std::string& help) {
   std::string list;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/verbs/clash/clash_result.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 struct ClashDiffOptions {
   std::string before, after, fail_on;
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs, match_files;
 };
 
 /// Whether the diff fails. A result that may be new, as one without a lasting id may, counts as
@@ -51,6 +52,15 @@ Result<std::vector<report::ClashDocument>> read(Session& session, const ClashDif
       });
 }
 
+Result<report::ClashDiff> compare(Session& session, const ClashDiffOptions& given,
+                                  const std::vector<report::ClashDocument>& documents) {
+  const auto timer = session.step("compare");
+  Result<report::FileMatches> files =
+      report::match_files(documents.front(), documents.back(), given.match_files);
+  if (!files) return files.error();
+  return report::compare(documents.front(), documents.back(), std::move(*files));
+}
+
 Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
   if (const Status status = check_outputs(given.outputs, formats_of(report::clash_diff_writers()),
                                           {given.before, given.after});
@@ -58,10 +68,9 @@ Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
     return status.error();
   const Result<std::vector<report::ClashDocument>> documents = read(session, given);
   if (!documents) return documents.error();
-  const report::ClashDiff diff = [&] {
-    const auto timer = session.step("compare");
-    return report::compare(documents->front(), documents->back());
-  }();
+  const Result<report::ClashDiff> compared = compare(session, given, *documents);
+  if (!compared) return compared.error();
+  const report::ClashDiff& diff = *compared;
   const auto as_json = [&](Session::Sink sink) {
     report::write_clash_diff_json(diff, sink);
     return Status{};
@@ -100,6 +109,7 @@ Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
       *command, "--fail-on", options->fail_on, {"new-hit", "new", "worse", "cannot-tell"},
       "Exit code 1 where there is a new hit, any new result, a new or worse one, or one that "
       "is undecided; one that may be new counts as new, what a rule allows does not count");
+  add_match_files_option(*command, options->match_files);
   add_output_option(*command, options->outputs, "Comparison",
                     formats_of(report::clash_diff_writers()));
   add_common_options(*command, common);
@@ -111,9 +121,14 @@ its file (an unnamed node, a repeated name), it is the same when class, place an
 'cannot tell', in the new run as in the old. A result that does not have as
 many pairs as it counts, or otherwise contradicts itself, was cut short or edited and is refused.
 
+A file that has another label than in the old run (a revision in its name, another folder) is found by the
+ids of its objects, or by the places of results where it has none; which files were taken as renamed, split or
+merged is told first. Two that are equally like it are told and not guessed: --match-files says which it is.
+
 Examples:
   strake clash diff monday.json tuesday.json
-  strake clash diff monday.json tuesday.json -o changes.json --fail-on new-hit)");
+  strake clash diff monday.json tuesday.json -o changes.json --fail-on new-hit
+  strake clash diff monday.json tuesday.json --match-files ship.glb=ship_revB.glb)");
   return {command, [options](Session& session) { return run_diff(session, *options); }};
 }
 

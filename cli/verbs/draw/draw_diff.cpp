@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/verbs/clash/clash_result.hpp"
@@ -18,7 +19,7 @@ namespace {
 
 struct DrawDiffOptions {
   std::string before, after, fail_on, tolerance;
-  std::vector<std::string> outputs;
+  std::vector<std::string> outputs, match_files;
 };
 
 bool fails(const report::ViewDiff& diff, const std::string& fail_on) {
@@ -65,6 +66,10 @@ Result<ExitCode> run_diff(Session& session, const DrawDiffOptions& given) {
   if (!documents) return documents.error();
   const Result<report::ViewDiff> diff = [&] {
     const auto timer = session.step("compare");
+    Result<report::FileMatches> files =
+        report::match_files(documents->front(), documents->back(), given.match_files);
+    if (!files) return Result<report::ViewDiff>(files.error());
+    options.files = std::move(*files);
     return report::compare(documents->front(), documents->back(), options, session.context());
   }();
   if (!diff) return diff.error();
@@ -93,6 +98,7 @@ Verb add_draw_diff(CLI::App& draw, CommonOptions& common) {
       ->add_option("--tolerance", options->tolerance,
                    "Lines no farther apart than this lie on each other (default 2um)")
       ->type_name("LENGTH");
+  add_match_files_option(*command, options->match_files);
   add_output_option(*command, options->outputs, "Comparison",
                     formats_of(report::view_diff_writers()));
   add_common_options(*command, common);
@@ -100,10 +106,13 @@ Verb add_draw_diff(CLI::App& draw, CommonOptions& common) {
 Lines are compared in the model, place by place: a line that is cut into other pieces is the same, and so is
 a drawing at another scale. A line of another kind, state or object at the same place has changed. Drawings
 that look from different sides are refused, and so is a file that does not have as many lines as it counts.
+A model file that has another label than in the old drawing is found by the ids of its objects, or by the places
+of its lines; what was taken as renamed, split or merged is told first (--match-files for what cannot be told).
 
 Examples:
   strake draw diff monday.view tuesday.view
-  strake draw diff monday.json tuesday.json -o changes.svg -o changes.json --fail-on visible)");
+  strake draw diff monday.json tuesday.json -o changes.svg -o changes.json --fail-on visible
+  strake draw diff monday.json tuesday.json --match-files ship.glb=ship_revB.glb)");
   return {command, [options](Session& session) { return run_diff(session, *options); }};
 }
 

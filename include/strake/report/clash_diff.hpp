@@ -3,11 +3,14 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "strake/core/result.hpp"
 #include "strake/report/clash.hpp"
 #include "strake/report/clash_document.hpp"
+#include "strake/report/file_match.hpp"
 
 namespace strake::report {
 
@@ -36,6 +39,7 @@ struct SettingChange {
 struct ClashDiff {
   const ClashDocument* before = nullptr;
   const ClashDocument* after = nullptr;
+  FileMatches files;             ///< which file of one run was taken for which of the other
   std::vector<DiffEntry> added;  ///< new
   /// Clashes that are still there, with another class, rule, d (by over a micrometre) or number of
   /// regions.
@@ -61,6 +65,13 @@ struct ClashDiff {
   [[nodiscard]] std::size_t maybe_new(bool hits_only) const;
 };
 
+/// Tells which file of one run is which of the other, by the ids that the results name, and by the
+/// places of results where there are only ids that are positions. What `asked` says, as OLD=NEW,
+/// comes first. Errors: usage, as of match_files() of RunFiles and parse_file_pairs().
+[[nodiscard]] Result<FileMatches> match_files(const ClashDocument& before,
+                                              const ClashDocument& after,
+                                              std::span<const std::string> asked = {});
+
 /// Compares two runs. Tests of the two documents go together by name. A result of the old run that
 /// the new one does not have is `gone` only if the new run checked the pair: both objects are in
 /// its model and in opposite sets of the test, no rule exempts them, and its tolerances would
@@ -69,10 +80,15 @@ struct ClashDiff {
 /// Where the id of an object is only a position in its file, in either run, keys are not used:
 /// results of one class, d and point (to a micrometre) between the same objects, as far as these
 /// have ids, are one clash. What has no such partner, or several, is `cannot_tell` in both runs.
-[[nodiscard]] ClashDiff compare(const ClashDocument& before, const ClashDocument& after);
-ClashDiff compare(ClashDocument&& before, const ClashDocument& after) = delete;
-ClashDiff compare(const ClashDocument& before, ClashDocument&& after) = delete;
-ClashDiff compare(ClashDocument&& before, ClashDocument&& after) = delete;
+///
+/// An object of a file that is another in the new run, by `files`, is the one of the same id there.
+[[nodiscard]] ClashDiff compare(const ClashDocument& before, const ClashDocument& after,
+                                FileMatches files = {});
+ClashDiff compare(ClashDocument&& before, const ClashDocument& after,
+                  FileMatches files = {}) = delete;
+ClashDiff compare(const ClashDocument& before, ClashDocument&& after,
+                  FileMatches files = {}) = delete;
+ClashDiff compare(ClashDocument&& before, ClashDocument&& after, FileMatches files = {}) = delete;
 
 /// Writes the document of schemas/clash-diff.schema.json.
 void write_clash_diff_json(const ClashDiff& diff, Sink sink);

@@ -91,6 +91,7 @@ struct ClashDocument {
   std::string name;  ///< the name of the file, as given
   std::string hash;
   DocumentRules made_by;
+  std::vector<std::string> files;  ///< labels of the files of its model
   std::vector<DocumentTest> tests;
   std::vector<std::uint64_t> elements;  ///< ascending
   /// How many parts of each element have no inside; empty: the run did not say.

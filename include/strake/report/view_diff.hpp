@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "strake/hlr/hlr.hpp"
 #include "strake/parallel/context.hpp"
 #include "strake/report/clash.hpp"
+#include "strake/report/file_match.hpp"
 #include "strake/report/view_document.hpp"
 
 /// Tells what changed from one drawing of a view to another.
@@ -59,7 +61,10 @@ struct ViewDiff {
   const ViewDocument* before = nullptr;
   const ViewDocument* after = nullptr;
   double tolerance_mm = 0;
-  std::vector<const ViewObject*> objects;  ///< the objects of both, each once, by file and id
+  FileMatches files;  ///< which file of one drawing was taken for which of the other
+  /// The objects of both, each once, by file and id; where files were renamed, as the newer drawing
+  /// has them.
+  std::vector<const ViewObject*> objects;
   std::vector<std::uint32_t> of_before,
       of_after;  ///< by object of the document: its number in `objects`
   std::vector<ViewSettingChange> settings;
@@ -82,7 +87,15 @@ struct ViewDiffOptions {
   /// Lines no farther apart than this lie on each other, and intervals no longer than this count as
   /// what is beside them. Two micrometres are what rounding to the grid makes of one line.
   double tolerance_mm = 0.002;
+  /// Which file of one drawing is which of the other; by default their labels say so.
+  FileMatches files{};
 };
+
+/// Tells which file of one drawing is which of the other, by the ids of what is drawn, and where
+/// they do not tell by the places of lines. What `asked` says, as OLD=NEW, comes first. Errors:
+/// usage, as of match_files() of RunFiles and parse_file_pairs().
+[[nodiscard]] Result<FileMatches> match_files(const ViewDocument& before, const ViewDocument& after,
+                                              std::span<const std::string> asked = {});
 
 /// Compares drawings place by place in the model. Where lines of both drawings lie on each other,
 /// classes that both have are the same however the lines are cut into pieces; of those that only

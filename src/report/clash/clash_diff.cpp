@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "clash/results/clash_key.hpp"
+#include "report/clash/clash_files.hpp"
 #include "report/clash/position_match.hpp"
 
 namespace strake::report {
@@ -46,7 +47,9 @@ std::string of_test(const DocumentTest& test) {
 /// Tells whether a run checked a pair, and if not, why.
 class RunCoverage {
  public:
-  explicit RunCoverage(const ClashDocument& run) : run_(run) {
+  /// `side` says which run of the map `run` is.
+  RunCoverage(const ClashDocument& run, const FileMap& files, Run side)
+      : run_(run), files_(files), other_side_(other_run(side)) {
     for (const DocumentTest& test : run.tests) tests_.emplace(test.name, &test);
   }
 
@@ -68,12 +71,14 @@ class RunCoverage {
       if (const std::string* why = lacks(*s, *here))
         return named(s->object) + " could not be compared whole (" + *why + ")";
     for (const ObjectPresence* s : {&a, &b})
-      if (sheets(run_, s->element) > sheets(other_run, s->element))
+      if (sheets(run_, s->element) >
+          sheets(other_run, clash::element_hash(s->object.file, s->object.id)))
         return named(s->object) +
                " has surfaces that enclose nothing beyond those of the other run";
-    if (const std::string* why = listed(run_.not_compared, r))
+    const Hash128 key = clash::pair_hash(here->name, {a.file, a.object.id}, {b.file, b.object.id});
+    if (const std::string* why = listed(run_.not_compared, key))
       return "the pair could not be compared (" + *why + ")";
-    if (const std::string* rule = listed(run_.exempted, r)) return "exempted by " + *rule;
+    if (const std::string* rule = listed(run_.exempted, key)) return "exempted by " + *rule;
     if (!run_.lists_exempted && here->exempted_pairs > 0)
       return "may be among the " + std::to_string(here->exempted_pairs) +
              " exempted pairs, which are not listed";
@@ -86,6 +91,7 @@ class RunCoverage {
   /// An object of the other run as this one knows it.
   struct ObjectPresence {
     const DocumentObject& object;
+    std::string file;  ///< the label of its file in this run
     std::uint64_t element = 0;
     bool there = false, in_a = false, in_b = false;
   };
@@ -107,9 +113,9 @@ class RunCoverage {
 
   /// Returns the rule, or the reason, by which a list has a pair; null if it does not have it.
   [[nodiscard]] const std::string* listed(const std::vector<DocumentExempted>& list,
-                                          const DocumentResult& r) const {
-    const auto at = std::ranges::lower_bound(list, r.key, {}, &DocumentExempted::key);
-    return at != list.end() && at->key == r.key ? &run_.rules[at->rule] : nullptr;
+                                          const Hash128& key) const {
+    const auto at = std::ranges::lower_bound(list, key, {}, &DocumentExempted::key);
+    return at != list.end() && at->key == key ? &run_.rules[at->rule] : nullptr;
   }
 
   /// Returns how many parts of an element enclose nothing, so that what lies within them is not
@@ -121,19 +127,20 @@ class RunCoverage {
   }
 
   [[nodiscard]] ObjectPresence side(const DocumentObject& object, const DocumentTest& here) const {
-    const std::uint64_t hash = clash::element_hash(object.file, object.id);
+    std::string file = files_.label_in_other(other_side_, object.file, object.id);
+    const std::uint64_t hash = clash::element_hash(file, object.id);
     const auto at = std::ranges::lower_bound(run_.elements, hash);
-    if (at == run_.elements.end() || *at != hash) return {object, hash};
+    if (at == run_.elements.end() || *at != hash) return {object, std::move(file), hash};
     const auto i = static_cast<std::size_t>(at - run_.elements.begin());
     const auto in = [i](const std::vector<std::uint8_t>& set) {
       return ((set[i / 8] >> (i % 8)) & 1U) != 0;
     };
-    return {object, hash, true, in(here.in_a), in(here.in_b)};
+    return {object, std::move(file), hash, true, in(here.in_a), in(here.in_b)};
   }
 
   [[nodiscard]] static std::string not_tested(const ObjectPresence& a, const ObjectPresence& b,
                                               const DocumentTest& here) {
-    if (!here.within_files && a.object.file == b.object.file)
+    if (!here.within_files && a.file == b.file)
       return "pairs within a file are not looked at" + of_test(here);
     for (const ObjectPresence* s : {&a, &b})
       if (!s->in_a && !s->in_b) return named(s->object) + " is in neither set" + of_test(here);
@@ -168,6 +175,8 @@ class RunCoverage {
   }
 
   const ClashDocument& run_;
+  const FileMap& files_;
+  Run other_side_;
   std::map<std::string, const DocumentTest*> tests_;
 };
 
@@ -226,11 +235,39 @@ bool ClashDiff::has_worse() const {
          });
 }
 
-ClashDiff compare(const ClashDocument& before, const ClashDocument& after) {
+namespace {
+
+/// A result of the old run with the key that it has in the new one.
+struct KeyedResult {
+  Hash128 key;
+  const DocumentResult* result = nullptr;
+};
+
+std::vector<KeyedResult> keyed_for_new_run(const ClashDocument& before, const FileMap& files) {
+  std::vector<KeyedResult> keyed;
+  keyed.reserve(before.results.size());
+  for (const DocumentResult& r : before.results) {
+    keyed.push_back({r.key, &r});
+    if (files.is_identity()) continue;
+    const DocumentObject &a = before.a(r), &b = before.b(r);
+    const std::string file_a = files.label_in_other(Run::before, a.file, a.id);
+    const std::string file_b = files.label_in_other(Run::before, b.file, b.id);
+    keyed.back().key = clash::pair_hash(before.tests[r.test].name, {file_a, a.id}, {file_b, b.id});
+  }
+  if (!files.is_identity()) std::ranges::sort(keyed, {}, &KeyedResult::key);
+  return keyed;
+}
+
+}  // namespace
+
+ClashDiff compare(const ClashDocument& before, const ClashDocument& after, FileMatches matches) {
   ClashDiff diff;
   diff.before = &before;
   diff.after = &after;
-  const RunCoverage coverage_before(before), coverage_after(after);
+  diff.files = std::move(matches);
+  const FileMap files = map_of(diff.files, before, after);
+  const RunCoverage coverage_before(before, files, Run::before);
+  const RunCoverage coverage_after(after, files, Run::after);
   compare_settings(coverage_before, coverage_after, diff);
   const auto still_the_same = [&](const DocumentResult& x, const DocumentResult& y) {
     return x.cls == y.cls && std::fabs(x.d_mm - y.d_mm) <= kSameMm &&
@@ -240,24 +277,26 @@ ClashDiff compare(const ClashDocument& before, const ClashDocument& after) {
   const auto still_there = [&](DiffEntry&& e) {
     (still_the_same(*e.before, *e.after) ? diff.same : diff.changed).push_back(std::move(e));
   };
-  const PositionalResults placed_before(before, after), placed_after(after, before);
+  const PositionalResults placed_before(before, after, files, Run::before);
+  const PositionalResults placed_after(after, before, files, Run::after);
   diff.same.reserve(std::min(before.results.size(), after.results.size()));
-  auto x = before.results.begin();
+  const std::vector<KeyedResult> old_results = keyed_for_new_run(before, files);
+  auto x = old_results.begin();
   auto y = after.results.begin();
-  while (x != before.results.end() || y != after.results.end()) {
-    const bool is = y != after.results.end() && (x == before.results.end() || y->key <= x->key);
-    const bool was = x != before.results.end() && (y == after.results.end() || x->key <= y->key);
+  while (x != old_results.end() || y != after.results.end()) {
+    const bool is = y != after.results.end() && (x == old_results.end() || y->key <= x->key);
+    const bool was = x != old_results.end() && (y == after.results.end() || x->key <= y->key);
     // Both or neither are of one key.
-    const bool positional = is ? placed_after.has(*y) : placed_before.has(*x);
+    const bool positional = is ? placed_after.has(*y) : placed_before.has(*x->result);
     if (positional) {
       // A key does not identify them.
     } else if (is && was) {
-      still_there({&*x, &*y, {}});
+      still_there({x->result, &*y, {}});
     } else if (is) {
       diff.added.push_back({nullptr, &*y, coverage_before.reason(*y, after)});
     } else {
-      std::string why = coverage_after.reason(*x, before);
-      (why.empty() ? diff.gone : diff.cannot_tell).push_back({&*x, nullptr, std::move(why)});
+      std::string why = coverage_after.reason(*x->result, before);
+      (why.empty() ? diff.gone : diff.cannot_tell).push_back({x->result, nullptr, std::move(why)});
     }
     if (was) ++x;
     if (is) ++y;

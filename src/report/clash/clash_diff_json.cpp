@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
+#include "report/files/file_match_output.hpp"
 #include "report/json/json_writer.hpp"
 #include "report/text/formatting.hpp"
 #include "strake/report/clash_diff.hpp"
@@ -131,6 +132,7 @@ void write_clash_diff_json(const ClashDiff& diff, Sink sink) {
   out += kClashDiffVersion;
   run(out, "old", *diff.before);
   run(out, "new", *diff.after);
+  append_file_matches(out, diff.files);
   settings(out, diff);
   strings(out, "tests_added", diff.tests_added);
   strings(out, "tests_gone", diff.tests_gone);

@@ -42,9 +42,11 @@ std::string_view label(const DocumentObject& o) { return o.name.empty() ? o.id :
 class Origin {
  public:
   explicit Origin(const ClashDiff& diff) : diff_(diff) {
-    const std::string_view first = any_file();
+    std::string_view first = any_file();
     for (const ClashDocument* run : {diff.before, diff.after}) {
       tests_ = tests_ || run->tests.size() > 1;
+      // A file that was renamed is one file, and is told above.
+      if (!diff.files.by_label_alone() && !run->objects.empty()) first = run->objects.front().file;
       files_ = files_ || std::ranges::any_of(run->objects, [&](const DocumentObject& o) {
                  return o.file != first;
                });
@@ -111,7 +113,8 @@ std::string rules_text(const DocumentRules& before, const DocumentRules& after) 
 }
 
 std::string settings_text(const ClashDiff& diff) {
-  std::string out = rules_text(diff.before->made_by, diff.after->made_by);
+  std::string out =
+      file_matches_text(diff.files) + rules_text(diff.before->made_by, diff.after->made_by);
   for (const SettingChange& s : diff.settings)
     out += "setting " + printable(s.setting) + in_test(s.test) + ": was " +
            (s.before.empty() ? "absent" : printable(s.before)) + ", is " +

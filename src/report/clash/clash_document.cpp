@@ -63,14 +63,16 @@ class ClashDocumentReader {
   };
 
   void section(std::string_view key) {
-    constexpr std::array<std::string_view, 10> kKnown{
-        "schema_version", "elements", "sheets",  "positional_ids", "tests",
-        "hash",           "rules",    "results", "exempted",       "not_compared"};
+    constexpr std::array<std::string_view, 11> kKnown{
+        "schema_version", "files", "elements", "sheets",   "positional_ids", "tests",
+        "hash",           "rules", "results",  "exempted", "not_compared"};
     const auto known = static_cast<std::size_t>(std::ranges::find(kKnown, key) - kKnown.begin());
     if (known < kKnown.size() && std::exchange(there_[known], true))
       throw contradiction("the document", "has \"" + std::string(key) + "\" twice");
     if (key == "schema_version")
       version();
+    else if (key == "files")
+      files();
     else if (key == "elements")
       elements_ = text("elements");
     else if (key == "sheets")
@@ -108,6 +110,20 @@ class ClashDocumentReader {
                                               ": it says version " + stated +
                                               " (drawings are compared by 'strake draw diff')"};
     has_version_ = true;
+  }
+
+  void files() {
+    if (json_.kind() != Kind::array) throw wrong_type("the document", "files", "list");
+    json_.items([this] {
+      if (json_.kind() != Kind::object)
+        throw DocumentFault{"files", "has an entry that is no object"};
+      json_.members([this](std::string_view key) {
+        if (key == "label")
+          document_.files.emplace_back(text("label"));
+        else
+          json_.skip();
+      });
+    });
   }
 
   void made_by() {
@@ -220,7 +236,7 @@ class ClashDocumentReader {
   ClashDocument& document_;
   std::optional<std::string> elements_, sheets_, positional_ids_, tests_;
   std::vector<ListedPair> exempted_, pairs_not_compared_, lacking_;
-  std::array<bool, 10> there_{};  ///< sections that were found
+  std::array<bool, 11> there_{};  ///< sections that were found
   bool has_version_ = false, has_results_ = false, has_hash_ = false;
 };
 

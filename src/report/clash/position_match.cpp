@@ -12,28 +12,11 @@
 #include <utility>
 
 #include "clash/results/clash_key.hpp"
+#include "report/clash/clash_files.hpp"
 #include "strake/core/hash.hpp"
 
 namespace strake::report {
 namespace {
-
-/// Whether an element is in a run and its id there is only a position.
-bool is_positional(const ClashDocument& run, std::uint64_t element) {
-  const auto at = std::ranges::lower_bound(run.elements, element);
-  if (run.positional_ids.empty() || at == run.elements.end() || *at != element) return false;
-  const auto i = static_cast<std::size_t>(at - run.elements.begin());
-  return ((run.positional_ids[i / 8] >> (i % 8)) & 1U) != 0;
-}
-
-/// Returns a name without its numbers: "node 12" and "node 7" are one.
-std::string without_numbers(std::string_view name) {
-  std::string text;
-  for (const char c : name) {
-    const bool digit = c >= '0' && c <= '9';
-    if (!digit || text.empty() || text.back() != '0') text += digit ? '0' : c;
-  }
-  return text;
-}
 
 constexpr std::size_t kCoordinates = 4;
 
@@ -50,7 +33,8 @@ Hash128 kind_of(const PositionalResults& results, const DocumentResult& r) {
   const auto side = [&](std::uint32_t object) {
     const DocumentObject& o = run.objects[object];
     const bool positional = results.has(object);
-    return std::tuple(positional, o.file, positional ? without_numbers(o.name) : std::string(o.id));
+    return std::tuple(positional, results.file_of(o),
+                      positional ? without_numbers(o.name) : std::string(o.id));
   };
   // Numbers in ids decide which of the two comes first.
   std::array sides{side(r.a), side(r.b)};
@@ -58,7 +42,7 @@ Hash128 kind_of(const PositionalResults& results, const DocumentResult& r) {
   Hasher hasher;
   hasher.add(std::string_view(run.tests[r.test].name)).add(static_cast<std::uint32_t>(r.cls));
   for (const auto& [positional, file, text] : sides)
-    hasher.add(std::uint32_t{positional}).add(file).add(std::string_view(text));
+    hasher.add(std::uint32_t{positional}).add(std::string_view(file)).add(std::string_view(text));
   return hasher.value();
 }
 
@@ -137,13 +121,15 @@ std::string why(const PositionalResults& results, const DocumentResult& r, bool 
 
 }  // namespace
 
-PositionalResults::PositionalResults(const ClashDocument& run, const ClashDocument& other)
-    : run_(run) {
+PositionalResults::PositionalResults(const ClashDocument& run, const ClashDocument& other,
+                                     const FileMap& files, Run side)
+    : run_(run), files_(files), side_(side) {
   if (run.positional_ids.empty() && other.positional_ids.empty()) return;
   positional_.reserve(run.objects.size());
   for (const DocumentObject& o : run.objects) {
-    const std::uint64_t element = clash::element_hash(o.file, o.id);
-    positional_.push_back(is_positional(run, element) || is_positional(other, element));
+    const std::string there = files.label_in_other(side, o.file, o.id);
+    positional_.push_back(is_positional(run, clash::element_hash(o.file, o.id)) ||
+                          is_positional(other, clash::element_hash(there, o.id)));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "report/files/file_map.hpp"
 #include "strake/report/clash_diff.hpp"
 #include "strake/report/clash_document.hpp"
 
@@ -15,9 +16,15 @@ inline constexpr double kSameMm = 1e-3;
 /// in its file, in this run or in the other.
 class PositionalResults {
  public:
-  PositionalResults(const ClashDocument& run, const ClashDocument& other);
+  /// `side` says which run of the map `run` is.
+  PositionalResults(const ClashDocument& run, const ClashDocument& other, const FileMap& files,
+                    Run side);
 
   [[nodiscard]] const ClashDocument& run() const { return run_; }
+  /// Returns the file of an object as it is called for both runs.
+  [[nodiscard]] std::string file_of(const DocumentObject& o) const {
+    return files_.group_of(side_, o.file);
+  }
   /// Whether the id of an object of the run is only a position.
   [[nodiscard]] bool has(std::uint32_t object) const {
     return !positional_.empty() && positional_[object];
@@ -26,6 +33,8 @@ class PositionalResults {
 
  private:
   const ClashDocument& run_;
+  const FileMap& files_;
+  Run side_;
   std::vector<bool> positional_;  ///< one per object of the run; empty: none is
 };
 

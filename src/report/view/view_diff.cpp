@@ -7,7 +7,9 @@
 #include <span>
 #include <string_view>
 
+#include "report/files/file_map.hpp"
 #include "report/view/line_match.hpp"
+#include "report/view/view_files.hpp"
 
 namespace strake::report {
 namespace {
@@ -37,18 +39,30 @@ std::vector<ViewSettingChange> setting_changes(const ViewDocument& before,
   return changes;
 }
 
+/// Numbers the objects of both drawings, those of the older one by what they are in the newer.
 void number_objects(ViewDiff& diff) {
-  std::map<std::pair<std::string_view, std::string_view>, std::uint32_t> known;
-  const auto number = [&](const ViewDocument& document, std::vector<std::uint32_t>& of) {
-    for (const ViewObject& object : document.objects) {
-      const auto [at, is_new] =
-          known.try_emplace({object.file, object.id}, static_cast<std::uint32_t>(known.size()));
-      if (is_new) diff.objects.push_back(&object);
-      of.push_back(at->second);
-    }
+  DrawnIds drawn_before, drawn_after;
+  if (!diff.files.by_label_alone()) {
+    drawn_before.add(*diff.before);
+    drawn_after.add(*diff.after);
+  }
+  const FileMap files(
+      diff.files, [&](auto file, auto id) { return drawn_before.has(file, id); },
+      [&](auto file, auto id) { return drawn_after.has(file, id); });
+  std::map<std::pair<std::string, std::string_view>, std::uint32_t> known;
+  const auto number = [&](const ViewObject& object, std::string file,
+                          std::vector<std::uint32_t>& of) {
+    const auto next = static_cast<std::uint32_t>(known.size());
+    const auto [at, is_new] = known.try_emplace({std::move(file), object.id}, next);
+    if (is_new)
+      diff.objects.push_back(&object);
+    else if (!files.is_identity())
+      diff.objects[at->second] = &object;
+    of.push_back(at->second);
   };
-  number(*diff.before, diff.of_before);
-  number(*diff.after, diff.of_after);
+  for (const ViewObject& o : diff.before->objects)
+    number(o, files.label_in_other(Run::before, o.file, o.id), diff.of_before);
+  for (const ViewObject& o : diff.after->objects) number(o, o.file, diff.of_after);
 }
 
 DiffLineClass class_of(const ViewPiece& piece, const std::vector<std::uint32_t>& numbers) {
@@ -150,6 +164,7 @@ Result<ViewDiff> compare(const ViewDocument& before, const ViewDocument& after,
   diff.before = &before;
   diff.after = &after;
   diff.tolerance_mm = options.tolerance_mm;
+  diff.files = options.files;
   diff.settings = setting_changes(before, after);
   for (const ViewSettingChange& change : diff.settings)
     if (!may_differ(change.setting))

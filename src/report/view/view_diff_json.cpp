@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "report/files/file_match_output.hpp"
 #include "report/json/json_writer.hpp"
 #include "report/text/formatting.hpp"
 #include "strake/core/version.hpp"
@@ -98,6 +99,7 @@ void write_view_diff_json(const ViewDiff& diff, Sink sink) {
   file(out, "before", *diff.before);
   out += ",\n";
   file(out, "after", *diff.after);
+  append_file_matches(out, diff.files);
   out += ",\n\"tolerance_mm\": ";
   append_mm(out, diff.tolerance_mm);
   out += ",\n";

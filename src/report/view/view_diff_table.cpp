@@ -32,7 +32,7 @@ std::string head(std::string_view title, std::size_t names) {
 }
 
 std::string settings_text(const ViewDiff& diff) {
-  std::string out;
+  std::string out = file_matches_text(diff.files);
   const auto value_text = [](const std::string& value) {
     return value.empty() ? std::string("absent") : printable(value);
   };

@@ -51,8 +51,12 @@ inline void feed_clash_document(const std::string& bytes) {
   }
   const report::ClashDiff self = report::compare(*document, *document);
   if (self.has_new(false) || self.has_worse()) stop("a document is worse than itself");
+  const auto matched = [](const report::ClashDocument& before, const report::ClashDocument& after) {
+    return report::compare(before, after, report::match_files(before, after).value());
+  };
   for (const report::ClashDiff& diff :
-       {self, report::compare(*document, other), report::compare(other, *document)}) {
+       {self, report::compare(*document, other), report::compare(other, *document),
+        matched(*document, other), matched(other, *document)}) {
     std::size_t size = 0;
     report::write_clash_diff_json(diff, [&](std::string_view piece) { size += piece.size(); });
     if (size == 0) stop("a comparison without a document");

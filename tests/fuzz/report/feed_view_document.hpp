@@ -31,8 +31,14 @@ inline void feed_view_document(const std::string& bytes) {
   const auto self = report::compare(*document, *document, {}, {});
   if (!self) stop("a drawing does not compare with itself");
   if (self->differs(false)) stop("a drawing differs from itself");
+  const auto matched = [](const report::ViewDocument& before, const report::ViewDocument& after) {
+    report::ViewDiffOptions options;
+    options.files = report::match_files(before, after).value();
+    return report::compare(before, after, options, {});
+  };
   for (const auto& diff :
-       {report::compare(*document, other, {}, {}), report::compare(other, *document, {}, {})}) {
+       {report::compare(*document, other, {}, {}), report::compare(other, *document, {}, {}),
+        matched(*document, other), matched(other, *document)}) {
     if (!diff) continue;
     std::size_t size = 0;
     const auto count = [&](std::string_view piece) { size += piece.size(); };

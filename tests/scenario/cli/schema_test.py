@@ -201,6 +201,20 @@ class Schemas(unittest.TestCase):
         ruled = self.follows(self.run_strake('clash', 'diff', 'wide.json', 'ruled.json', '--json'), 'clash-diff')
         self.assertEqual(ruled['new']['rules']['file'], 'd.toml')
 
+    def test_comparisons_of_renamed_files(self):
+        for name, y in (('port', 0), ('starboard', 5000), ('new', 2500)):
+            (self.folder / f'{name}.obj').write_text(
+                ''.join(cube(f'c{n}', n, (90 * n, y, 0), 100) for n in range(24)), encoding='utf-8')
+        for run, schema in ((['clash', '--self'], 'clash-diff'), (['draw'], 'view-diff')):
+            for name, files in (('old', ('port.obj', 'starboard.obj')), ('new', ('new.obj',))):
+                self.run_strake(*run, *files, '--unit', 'mm', '-o', f'{name}.json')
+            diff = [run[0], 'diff', 'old.json', 'new.json', '--json']
+            told = self.follows(self.run_strake(*diff), schema)
+            self.assertEqual(told['files_ambiguous'],
+                             [{'run': 'new', 'file': 'new.obj', 'may_be': ['port.obj', 'starboard.obj']}])
+            told = self.follows(self.run_strake(*diff, '--match-files', 'port.obj=new.obj'), schema)
+            self.assertEqual([match['relation'] for match in told['files_matched']], ['asked'])
+
     def test_view(self):
         self.run_strake('draw', 'ship.glb', '--view', 'iso', '--hidden', 'dashed', '-o', 'view.json', '-o', 'rows.view')
         self.follows((self.folder / 'view.json').read_text(encoding='utf-8'), 'view')

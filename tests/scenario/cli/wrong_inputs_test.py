@@ -129,6 +129,8 @@ USAGE = [
     ('clash a.obj -o x.json -o ./x.json', '-o', 'twice'),
     ('clash a.obj --log-pairs x.json', '--log-pairs', '.csv'),
     ('clash a.obj -o x.csv --log-pairs x.csv', '--log-pairs', 'its own name'),
+    *behind(['clash diff c.json c.json --match-files', 'draw diff v.view v.view --match-files'], [
+        ('a.obj', 'names no two files'), ('b.obj=a.obj', 'it has a.obj'), ("''", 'the value is empty')]),
     ('clash diff', 'OLD is not given', 'diff --help'), ('clash diff c.json', 'NEW is not given', 'diff --help'),
     ('clash diff c.json c.json c.json', "'c.json'", 'one word too many'),
     ('clash diff c.json c.json -o x.csv', '-o', '.json'),

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "strake/report/clash_diff.hpp"
@@ -179,6 +180,49 @@ TEST(ClashDiffPositions, TheKeyOfTheOldRunIsTold) {
   const std::size_t at = key.find("{\"key\": \"") + 9;
   EXPECT_NE(text.find("\"was\": {\"key\": \"" + key.substr(at, 26)), std::string::npos);
   EXPECT_NE(text.find("\"run\": \"new\", \"why\": \"the id 'node 0'"), std::string::npos);
+}
+
+/// The run of a model whose file is called otherwise.
+std::string text_of_file(ClashModel m, const std::string& label) {
+  m.model.files[0].label = label;
+  return text_of(std::move(m));
+}
+
+TEST(ClashDiffPositions, ARenamedFileWithoutLastingIdsIsFoundByItsPlaces) {
+  const ClashDocument before =
+      parsed(text_of(unnamed({{0, 0, 0}, {90, 0, 0}, {1000, 0, 0}, {1040, 0, 0}}))).value();
+  const ClashModel moved =
+      unnamed({{1000, 0, 0}, {1040, 0, 0}, {-9000, 0, 0}, {0, 0, 0}, {90, 0, 0}});
+  const ClashDocument after = parsed(text_of_file(moved, "tues.obj")).value();
+  EXPECT_EQ(compare(before, after).same.size(), 0U) << "labels decide where no files are given";
+  const auto files = match_files(before, after);
+  ASSERT_TRUE(files);
+  ASSERT_EQ(files->matches.size(), 1U);
+  EXPECT_EQ(files->matches[0], (FileMatch{"t.obj", "tues.obj", FileRelation::renamed, 4, 4, true}));
+  const ClashDiff diff = compare(before, after, *files);
+  EXPECT_EQ(diff.same.size(), 2U);
+  EXPECT_TRUE(diff.added.empty() && diff.changed.empty() && diff.gone.empty());
+  EXPECT_TRUE(diff.cannot_tell.empty());
+}
+
+TEST(ClashDiffPositions, WhatIsMendedInARenamedFileIsGone) {
+  const auto boxes = [](double c_from) {
+    ClashModel m;
+    m.box("a", {0, 0, 0}, {100, 100, 100}).box("b", {90, 0, 0}, {200, 100, 100});
+    m.box("c", {c_from, 10, 10}, {300, 90, 90}).box("d", {290, 0, 0}, {400, 100, 100});
+    return m;
+  };
+  const ClashDocument before = parsed(text_of(boxes(180))).value();
+  const ClashDocument after = parsed(text_of_file(boxes(210), "revB.obj")).value();
+  const auto files = match_files(before, after);
+  ASSERT_TRUE(files);
+  EXPECT_EQ(files->matches.at(0), (FileMatch{"t.obj", "revB.obj", FileRelation::renamed, 4, 4}));
+  const ClashDiff diff = compare(before, after, *files);
+  ASSERT_EQ(diff.gone.size(), 1U);
+  EXPECT_EQ(before.b(*diff.gone[0].before).id, "c");
+  EXPECT_EQ(diff.same.size(), 2U);
+  EXPECT_TRUE(diff.added.empty() && diff.cannot_tell.empty());
+  EXPECT_EQ(compare(before, after).gone.size(), 0U) << "another file is no mended clash";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "report/view/line_match.hpp"
 #include "strake/parallel/team.hpp"
@@ -111,6 +112,38 @@ TEST(ViewDiff, StageTurnsHiddenLinesIntoVisibleOnes) {
   }
   ASSERT_EQ(diff.settings.size(), 1U);
   EXPECT_EQ(diff.settings[0].setting, "settings.stage");
+}
+
+TEST(ViewDiff, AFileThatWasRenamedIsTheSameFile) {
+  const ViewDocument before = test::view_document(test::view_file(crowd(0)));
+  ViewDocument after = before;
+  for (ViewObject& object : after.objects) object.file = "tues.obj";
+  EXPECT_GT(lines(compared(before, after), LineChange::changed), 0U) << "labels decide by default";
+  auto files = match_files(before, after);
+  ASSERT_TRUE(files);
+  ASSERT_EQ(files->matches.size(), 1U);
+  EXPECT_EQ(files->matches[0].relation, FileRelation::renamed);
+  EXPECT_EQ(files->matches[0].common, before.objects.size());
+  ViewDiffOptions options;
+  options.files = *files;
+  const ViewDiff diff = compared(before, after, options);
+  EXPECT_FALSE(diff.differs(false));
+  EXPECT_EQ(diff.objects.size(), after.objects.size());
+  for (const ViewObject* const object : diff.objects) EXPECT_EQ(object->file, "tues.obj");
+  EXPECT_TRUE(view_diff_table(diff, {}).starts_with("files are taken as renamed: "));
+}
+
+TEST(ViewDiff, FewObjectsAreMatchedByTheirLines) {
+  const ViewDocument before = drawn(
+      {line({0, 0, 0}, {90, 0, 0}), line({0, 5, 0}, {90, 5, 0}), line({0, 9, 0}, {90, 9, 0})});
+  ViewDocument after = before, elsewhere = before;
+  for (ViewDocument* const document : {&after, &elsewhere})
+    for (ViewObject& object : document->objects) object.file = "g";
+  std::swap(after.pieces[0].a, after.pieces[0].b);
+  for (ViewPiece& piece : elsewhere.pieces) piece.a.z = piece.b.z = 700;
+  EXPECT_EQ(match_files(before, after)->matches.size(), 1U)
+      << "whichever end of a line comes first";
+  EXPECT_TRUE(match_files(before, elsewhere)->matches.empty());
 }
 
 TEST(ViewDiff, ALineCutInTwoIsTheSameLine) {

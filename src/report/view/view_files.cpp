@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/view/view_files.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "strake/core/hash.hpp"
+#include "strake/report/view_diff.hpp"
+
+namespace strake::report {
+namespace {
+
+/// Returns the hash of where a piece lies, whichever end comes first.
+Hash128 place_of(const ViewPiece& piece) {
+  auto ends = std::pair(piece.a, piece.b);
+  const auto coordinates = [](const geometry::Vec3l& p) { return std::tuple(p.x, p.y, p.z); };
+  if (coordinates(ends.second) < coordinates(ends.first)) std::swap(ends.first, ends.second);
+  Hasher hasher;
+  for (const geometry::Vec3l& end : {ends.first, ends.second})
+    for (int k = 0; k < 3; ++k) hasher.add(static_cast<std::int64_t>(end[k]));
+  return hasher.value();
+}
+
+std::vector<std::string> labels_of(const ViewDocument& drawing) {
+  std::vector<std::string> labels;
+  for (const ViewObject& o : drawing.objects)
+    if (labels.empty() || labels.back() != o.file) labels.push_back(o.file);
+  std::ranges::sort(labels);
+  const auto rest = std::ranges::unique(labels);
+  labels.erase(rest.begin(), rest.end());
+  return labels;
+}
+
+/// Returns the files of a drawing; with `contents`, what it holds of them.
+RunFiles files_of(const ViewDocument& drawing, const std::vector<std::string>& labels,
+                  bool with_contents) {
+  std::map<std::string_view, FileContents> contents;
+  if (with_contents) {
+    for (const ViewObject& o : drawing.objects) contents[o.file].ids.push_back(o.id);
+    for (const ViewPiece& piece : drawing.pieces)
+      contents[drawing.objects[piece.object].file].places.push_back(place_of(piece));
+  }
+  RunFiles files;
+  for (const std::string& label : labels) {
+    FileContents& file = files.files.emplace_back(std::move(contents[label]));
+    file.label = label;
+    std::ranges::sort(file.ids);
+    std::ranges::sort(file.places);
+  }
+  return files;
+}
+
+}  // namespace
+
+void DrawnIds::add(const ViewDocument& drawing) {
+  for (const ViewObject& o : drawing.objects) ids_.emplace(o.file, o.id);
+}
+
+Result<FileMatches> match_files(const ViewDocument& before, const ViewDocument& after,
+                                std::span<const std::string> asked) {
+  const std::vector<std::string> old_labels = labels_of(before), new_labels = labels_of(after);
+  const bool by_contents = !asked.empty() || old_labels != new_labels;
+  const RunFiles old_files = files_of(before, old_labels, by_contents);
+  const RunFiles new_files = files_of(after, new_labels, by_contents);
+  const Result<std::vector<FilePair>> pairs = parse_file_pairs(asked, old_files, new_files);
+  if (!pairs) return pairs.error();
+  return match_files(old_files, new_files, *pairs);
+}
+
+}  // namespace strake::report
