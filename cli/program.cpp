@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/options/usage_error.hpp"
 #include "cli/output/console.hpp"
 #include "cli/run/interrupts.hpp"
 #include "cli/run/memory.hpp"
@@ -30,7 +31,7 @@ Examples:
   strake generate ship --objects 20000 --seed 1 -o ship.glb --truth ship.truth.json
   strake evaluate --scale 0.02
 
-'strake VERB --help' tells the options of a verb.
+'strake help VERB', or 'strake VERB --help', tells the options of a verb.
 
 Exit codes: 0 done, 1 clashes found (--fail-on) or a fault found (evaluate), 2 wrong command line,
 3 a file cannot be read or written, 4 something was skipped or a set is empty (--strict), 5 a fault
@@ -53,33 +54,6 @@ int run_verb(const Verb& verb, const CommonOptions& common, Console& console) {
   const Result<ExitCode> outcome = verb.run(session);
   session.finish();
   return outcome ? static_cast<int>(*outcome) : ended_by(outcome.error(), console);
-}
-
-/// Returns what is wrong with the command line, in the words of this program rather than its
-/// parser's.
-std::string in_words(const CLI::App& program, const CLI::ParseError& error) {
-  const std::string message = error.what();
-  const std::vector<std::string> strange = program.remaining();
-  if (program.get_subcommands().empty() && !strange.empty())
-    return "there is no verb '" + strange.front() + "'";
-  const std::string option = message.substr(0, message.find(": "));
-  if (error.get_name() == "RequiredError") {
-    if (message.starts_with("A subcommand")) return "no verb is given";
-    if (message.starts_with("files")) return "no model file is given";
-  }
-  if (error.get_name() == "ArgumentMismatch" && option != message) {
-    if (message.find("missing") != std::string::npos) return option + " wants a value";
-    return option + " is given more than once";
-  }
-  return message;
-}
-
-int usage_error(const CLI::App& program, const CLI::ParseError& error, Console& console) {
-  std::string verb;
-  for (auto used = program.get_subcommands(); !used.empty(); used = used.front()->get_subcommands())
-    verb += " " + used.front()->get_name();
-  console.error(in_words(program, error) + " ('strake" + verb + " --help' tells what there is)");
-  return static_cast<int>(ExitCode::usage);
 }
 
 /// Opens standard streams that were closed on nothing, and for the other direction, so that no file
@@ -116,6 +90,7 @@ int run(int argc, char** argv) {
                                 add_info(program, common),
                                 add_generate(program, common),
                                 add_evaluate(program, common),
+                                add_help(program),
                                 add_man(program),
                                 add_completion(program)};
   try {
@@ -126,7 +101,7 @@ int run(int argc, char** argv) {
     const Status written = write_stdout(text.str());
     return written ? static_cast<int>(ExitCode::done) : ended_by(written.error(), console);
   } catch (const CLI::ParseError& error) {
-    return usage_error(program, error, console);
+    return ended_by(usage_error(program, error), console);
   }
   if (const Status status = check_no_empty_values(program); !status)
     return ended_by(status.error(), console);

@@ -22,9 +22,6 @@ namespace strake::cli {
 
 namespace {
 
-/// The longest length, far beyond any tolerance that a user can mean.
-constexpr double kLongestMm = 1e6;
-
 Error usage(std::string message, std::string option, std::string mend) {
   return {ErrorCode::usage, std::move(message), std::move(option), std::move(mend)};
 }
@@ -264,20 +261,26 @@ Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options) {
   return files;
 }
 
-Result<std::vector<double>> number_list(const std::string& text, std::size_t count,
-                                        const std::string& option, const std::string& example) {
-  std::vector<double> numbers;
-  std::size_t at = 0;
-  while (at <= text.size()) {
+Result<std::vector<double>> coordinates_option(const std::string& text, std::size_t count,
+                                               const std::string& option,
+                                               const std::string& example) {
+  const std::string mend =
+      "write " + example + " in millimetres, or with units, as 4.5m; decimals with a point";
+  const auto commas = static_cast<std::size_t>(std::ranges::count(text, ','));
+  if (commas + 1 != count)
+    return usage(fmt::format("'{}' has {} coordinate{}, not {}", text, commas + 1,
+                             commas == 0 ? "" : "s", count),
+                 option, mend);
+  std::vector<double> coordinates;
+  for (std::size_t at = 0; at <= text.size();) {
     const std::size_t comma = std::min(text.find(',', at), text.size());
-    const auto number = parse_number(text.substr(at, comma - at));
-    if (!number) break;
-    numbers.push_back(*number);
+    const Result<double> one =
+        quantity_option(text.substr(at, comma - at), option, parse_coordinate_mm);
+    if (!one) return usage(one.error().message + " of '" + text + "'", option, one.error().mend);
+    coordinates.push_back(*one);
     at = comma + 1;
   }
-  if (at != text.size() + 1 || numbers.size() != count)
-    return usage(fmt::format("'{}' is not {} numbers", text, count), option, "write " + example);
-  return numbers;
+  return coordinates;
 }
 
 namespace {
@@ -325,11 +328,8 @@ Status check_other_output(const std::string& option, const std::string& file,
 
 Status length_option(double& value, const std::string& text, const std::string& option) {
   if (text.empty()) return {};
-  const Result<double> length = quantity_option(text, option, parse_length_mm);
+  const Result<double> length = quantity_option(text, option, parse_distance_mm);
   if (!length) return length.error();
-  if (*length < 0) return usage("'" + text + "' is negative", option, "write 0 or more");
-  if (*length > kLongestMm)
-    return usage("'" + text + "' is longer than a kilometre", option, "write 1km or less");
   value = *length;
   return {};
 }

@@ -56,10 +56,11 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
 /// Returns the files, each with the options given for it or for all.
 [[nodiscard]] Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options);
 
-/// Parses "x,y,z" as three numbers, and so on; an error names the option.
-[[nodiscard]] Result<std::vector<double>> number_list(const std::string& text, std::size_t count,
-                                                      const std::string& option,
-                                                      const std::string& example);
+/// Parses "x,y,z" as three coordinates of the model, and so on; an error names the option.
+[[nodiscard]] Result<std::vector<double>> coordinates_option(const std::string& text,
+                                                             std::size_t count,
+                                                             const std::string& option,
+                                                             const std::string& example);
 /// Checks that every file of -o is of one of the formats and can be written where it is to be, and
 /// is neither one of `inputs` nor named twice.
 [[nodiscard]] Status check_outputs(const std::vector<std::string>& files,
@@ -70,7 +71,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
                                         const OutputFormat& format,
                                         const std::vector<std::string>& inputs,
                                         const std::vector<std::string>& outputs);
-/// Parses a length that is an option of the command line; overwrites `value` where it was given.
+/// Parses a distance that is an option of the command line; overwrites `value` where it was given.
 [[nodiscard]] Status length_option(double& value, const std::string& text,
                                    const std::string& option);
 

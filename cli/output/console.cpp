@@ -86,10 +86,9 @@ void print_out_of_memory() noexcept {
 
 Status write_stdout(std::string_view text) {
   if (write_all(STDOUT_FILENO, text)) return {};
-  return Error{ErrorCode::output,
-               "cannot be written: " + std::generic_category().message(errno),
+  return Error{ErrorCode::output, "cannot be written: " + std::generic_category().message(errno),
                "standard output",
-               {}};
+               "is the disk full that it goes to, or the program gone that reads it?"};
 }
 
 namespace {

@@ -161,14 +161,11 @@ Result<model::SceneOptions> scene_options(const SceneInput& input, double defaul
     return Error{ErrorCode::usage, "'" + input.weld + "' is longer than a metre", "--weld",
                  "write the widest gap that is no gap, as 0.01mm"};
   if (input.sag.empty()) return options;
-  const Result<double> sag = quantity_option(input.sag, "--sag", parse_length_mm);
-  if (!sag) return sag.error();
-  if (*sag <= 0)
-    return Error{ErrorCode::usage, "the sag must be positive", "--sag", "write a length, as 0.5mm"};
-  if (*sag < kFinestSagMm)
+  if (const Status status = length_option(options.sag_mm, input.sag, "--sag"); !status)
+    return status.error();
+  if (options.sag_mm < kFinestSagMm)
     return Error{ErrorCode::usage, "'" + input.sag + "' is finer than the grid of 1um", "--sag",
-                 "write 1um or more"};
-  options.sag_mm = *sag;
+                 "write 1um or more, as 0.5mm"};
   return options;
 }
 

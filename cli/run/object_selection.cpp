@@ -21,6 +21,19 @@ Result<std::vector<model::Selection>> parse_selections(const std::vector<std::st
   return selections;
 }
 
+namespace {
+
+std::string mend_of(const model::Selection& selection) {
+  const std::string look = "'strake info FILE --objects 20' lists objects with their ";
+  if (selection.tests_attributes()) return look + "attributes";
+  if (selection.has_bare_pattern())
+    return "a bare pattern is compared with names, ids and group/.../name paths; * stands for any "
+           "text";
+  return look + "names, ids, paths, types, categories and colours";
+}
+
+}  // namespace
+
 Result<Picked> pick_all(Session& session, const model::Scene& scene,
                         const std::vector<model::Selection>& selections) {
   Picked all;
@@ -33,7 +46,8 @@ Result<Picked> pick_all(Session& session, const model::Scene& scene,
       some = some || (*picked)[o];
       all.any[o] = all.any[o] || (*picked)[o];
     }
-    if (!some) all.idle.push_back(model::picks_nothing(selection, *scene.model));
+    if (!some)
+      all.idle.push_back({model::picks_nothing(selection, *scene.model), mend_of(selection)});
   }
   return all;
 }
@@ -45,9 +59,8 @@ Result<std::vector<bool>> pick_any(Session& session, const model::Scene& scene,
   Result<Picked> picked = pick_all(session, scene, selections);
   if (!picked) return picked.error();
   if (!picked->idle.empty())
-    return Error{ErrorCode::usage, std::move(picked->idle.front()), option,
-                 "a bare pattern is compared with names, ids and group/.../name paths; * stands "
-                 "for any text"};
+    return Error{ErrorCode::usage, std::move(picked->idle.front().message), option,
+                 std::move(picked->idle.front().mend)};
   return std::move(picked->any);
 }
 

@@ -132,10 +132,9 @@ Result<EvaluationSettings> settings_of(const EvaluateOptions& given) {
           positive_number(settings.limit_s, given.limit, "--limit", kLongestLimitSeconds);
       !s)
     return s.error();
-  if (const Status s = whole_number(settings.repeat, given.repeat, "--repeat"); !s)
-    return s.error();
   constexpr std::uint64_t kMostRounds = 1000;
-  if (settings.repeat < 1 || settings.repeat > kMostRounds)
+  if (!whole_number(settings.repeat, given.repeat, "--repeat") || settings.repeat < 1 ||
+      settings.repeat > kMostRounds)
     return Error{ErrorCode::usage, "'" + given.repeat + "' is no number of rounds", "--repeat",
                  fmt::format("write a number from 1 to {}", kMostRounds)};
   const Result<std::vector<unsigned>> threads = team_sizes(given.threads);

@@ -26,7 +26,8 @@ struct Verb {
 [[nodiscard]] Verb add_draw_diff(CLI::App& draw, CommonOptions& common);
 [[nodiscard]] Verb add_generate(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_evaluate(CLI::App& program, CommonOptions& common);
-/// The commands describe all that was added to the program by the time that they run.
+/// The three commands describe all that was added to the program by the time that they run.
+[[nodiscard]] Verb add_help(CLI::App& program);
 [[nodiscard]] Verb add_man(CLI::App& program);
 [[nodiscard]] Verb add_completion(CLI::App& program);
 

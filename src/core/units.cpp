@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 #include "core/number.hpp"
@@ -29,6 +31,64 @@ constexpr double kDegPerRad = 57.29577951308232;
 
 Error usage(std::string message, std::string mend) {
   return {ErrorCode::usage, std::move(message), {}, std::move(mend)};
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Returns how to write a number with a decimal comma, "1.5mm" for "1,5mm"; nothing for other
+/// texts.
+std::optional<std::string> with_decimal_point(std::string_view text) {
+  text = trimmed(text);
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos || comma == 0 || comma + 1 == text.size() ||
+      !is_digit(text[comma - 1]) || !is_digit(text[comma + 1]))
+    return std::nullopt;
+  const std::size_t end = std::min(text.find_first_not_of("0123456789", comma + 1), text.size());
+  if (end < text.size() && text[end] == ',') return std::nullopt;
+  std::string other(text);
+  other[comma] = '.';
+  if (end - comma != 4) return other;
+  // Three digits may be thousands.
+  return other + " or " + std::string(text.substr(0, comma)) + std::string(text.substr(comma + 1));
+}
+
+/// Says of a text that begins with a number too near to 0, or too far from it, that it does.
+std::optional<Error> out_of_range(std::string_view text) {
+  const std::string_view shown = trimmed(text);
+  std::string_view digits = shown;
+  if (digits.starts_with('+') || digits.starts_with('-')) digits.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc::result_out_of_range) return std::nullopt;
+  digits = digits.substr(0, static_cast<std::size_t>(end - digits.data()));
+  const std::size_t exponent = digits.find_first_of("eE");
+  const bool small = exponent == std::string_view::npos
+                         ? digits.front() == '0' || digits.front() == '.'
+                         : digits.find('-', exponent) != std::string_view::npos;
+  if (small) return usage(in_quotes(shown) + " is too small to be told from 0", "write 0, or more");
+  return usage(in_quotes(shown) + " is too large", "write a smaller number");
+}
+
+/// Returns what is wrong with a text that does not begin with a number.
+Error no_quantity(std::string_view text, const std::string& what, std::string mend) {
+  if (const auto error = out_of_range(text)) return *error;
+  return usage(in_quotes(text) + " is not " + what, std::move(mend));
+}
+
+Error decimal_comma(std::string_view text, const std::string& mend) {
+  return usage(in_quotes(text) + " has a comma in its number", "write " + mend);
+}
+
+/// Returns a quantity with a unit of length in millimetres.
+Result<double> in_mm(const Quantity& quantity, std::string_view text) {
+  const auto mm = unit_mm(quantity.unit);
+  if (!mm)
+    return usage("unknown unit " + in_quotes(quantity.unit) + " in " + in_quotes(text),
+                 "write " + std::string(kUnitNames));
+  const double length = quantity.number * *mm;
+  if (!std::isfinite(length))
+    return usage("too long: " + in_quotes(text), "write a smaller length");
+  return length;
 }
 
 }  // namespace
@@ -57,30 +117,43 @@ std::optional<double> unit_mm(std::string_view unit) {
 
 Result<double> parse_unit_mm(std::string_view text) {
   if (const auto mm = unit_mm(trimmed(text))) return *mm;
-  return usage("no length unit: " + in_quotes(text), "write " + std::string(kUnitNames));
+  return usage(in_quotes(text) + " is not a unit of length", "write " + std::string(kUnitNames));
 }
 
 Result<double> parse_length_mm(std::string_view text) {
+  if (const auto point = with_decimal_point(text)) return decimal_comma(text, *point);
   const auto q = parse_quantity(text);
-  if (!q) return usage("no length: " + in_quotes(text), "write a number and a unit, as 25mm");
-  if (q->unit.empty()) {
-    if (q->number == 0) return 0.0;
-    return usage("the length " + in_quotes(text) + " has no unit",
-                 "write " + shortest(q->number) + "mm or another of " + std::string(kUnitNames));
-  }
-  const auto mm = unit_mm(q->unit);
-  if (!mm)
-    return usage("unknown unit " + in_quotes(q->unit) + " in " + in_quotes(text),
-                 "write " + std::string(kUnitNames));
-  const double length = q->number * *mm;
-  if (!std::isfinite(length))
-    return usage("too long: " + in_quotes(text), "write a smaller length");
+  if (!q) return no_quantity(text, "a length", "write a number and a unit, as 25mm");
+  if (!q->unit.empty()) return in_mm(*q, text);
+  if (q->number == 0) return 0.0;
+  return usage("the length " + in_quotes(text) + " has no unit",
+               "write " + shortest(q->number) + "mm or another of " + std::string(kUnitNames));
+}
+
+Result<double> parse_distance_mm(std::string_view text) {
+  // Of "-1" the sign is wrong before the unit is.
+  if (const auto q = parse_quantity(text);
+      q && q->number < 0 && (q->unit.empty() || unit_mm(q->unit)))
+    return usage(in_quotes(text) + " is negative", "write a length from 0 to 1km");
+  Result<double> length = parse_length_mm(text);
+  if (length && *length > kLongestMm)
+    return usage(in_quotes(text) + " is longer than a kilometre", "write a length from 0 to 1km");
   return length;
 }
 
-Result<double> parse_angle_deg(std::string_view text) {
+Result<double> parse_coordinate_mm(std::string_view text) {
+  if (const auto point = with_decimal_point(text)) return decimal_comma(text, *point);
   const auto q = parse_quantity(text);
-  if (!q) return usage("no angle: " + in_quotes(text), "write degrees, as 20deg");
+  if (!q)
+    return no_quantity(text, "a coordinate", "write millimetres, or a number and a unit, as 4.5m");
+  if (q->unit.empty()) return q->number;
+  return in_mm(*q, text);
+}
+
+Result<double> parse_angle_deg(std::string_view text) {
+  if (const auto point = with_decimal_point(text)) return decimal_comma(text, *point);
+  const auto q = parse_quantity(text);
+  if (!q) return no_quantity(text, "an angle", "write degrees, as 20deg");
   if (q->unit.empty() || q->unit == "deg" || q->unit == "°") return q->number;
   if (q->unit == "rad") return q->number * kDegPerRad;
   return usage("unknown unit " + in_quotes(q->unit) + " in " + in_quotes(text),
@@ -95,11 +168,14 @@ Result<double> parse_scale(std::string_view text) {
     if (paper && real && *paper > 0 && *real > 0) {
       const double scale = *real / *paper;
       if (scale >= kLargestBlowUp && scale <= kLargestReduction) return scale;
-      return usage("no scale for a sheet of paper: " + in_quotes(text),
+      return usage(in_quotes(text) + " is no scale for a sheet of paper",
                    "write 1:50, say; 1000000:1 to 1:1000000000 can be drawn");
     }
   }
-  return usage("no scale: " + in_quotes(text), "write paper to model, as 1:50");
+  const auto number = parse_number(trimmed(text));
+  return usage(in_quotes(text) + " is not a scale",
+               number && *number >= 1 ? "write 1:" + shortest(*number)
+                                      : std::string("write paper to model, as 1:50"));
 }
 
 }  // namespace strake

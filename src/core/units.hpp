@@ -34,6 +34,16 @@ struct Quantity {
 /// could be millimetres to one reader and metres to the next.
 [[nodiscard]] Result<double> parse_length_mm(std::string_view text);
 
+/// The longest distance, far beyond any tolerance that a user can mean: a kilometre.
+inline constexpr double kLongestMm = 1e6;
+
+/// Parses a length as above that is not negative and no longer than kLongestMm.
+[[nodiscard]] Result<double> parse_distance_mm(std::string_view text);
+
+/// Parses a coordinate of the model: a length of any sign, in millimetres where it has no unit, as
+/// programs show them.
+[[nodiscard]] Result<double> parse_coordinate_mm(std::string_view text);
+
 /// Parses "20deg" or "20°" in degrees; a bare number means degrees, "0.35rad" is converted.
 [[nodiscard]] Result<double> parse_angle_deg(std::string_view text);
 

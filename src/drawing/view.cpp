@@ -164,7 +164,7 @@ Result<SectionText> parse_section(std::string_view text, const Vec3l& direction,
     result.rounded = parsed->rounded;
     result.rounding_error = parsed->rounding_error;
   }
-  const Result<double> distance = parse_length_mm(trimmed(text.substr(at + 1)));
+  const Result<double> distance = parse_coordinate_mm(trimmed(text.substr(at + 1)));
   if (!distance) return distance.error();
   const Vec3d n = normal.as<double>();
   const double share = *distance / std::sqrt(dot(n, n));

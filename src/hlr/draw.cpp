@@ -54,4 +54,12 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   return drawing;
 }
 
+Result<BruteForceWork> brute_force_work(const model::Scene& scene, const std::vector<bool>& drawn,
+                                        const View& view, const Options& options,
+                                        const parallel::Context& context) {
+  const Result<ViewJob> job = prepare_view(scene, drawn, view, options, context);
+  if (!job) return job.error();
+  return count_brute_force_work(*job, context);
+}
+
 }  // namespace strake::hlr

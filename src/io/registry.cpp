@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
 #include <map>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "io/source/input_file.hpp"
@@ -25,12 +28,43 @@ const Reader* best_reader(const Readers& readers, const FileBytes& file) {
   return best;
 }
 
+/// Returns how a file of that suffix is made into one that is read.
+std::string_view conversion_of(std::string suffix) {
+  struct Known {
+    std::string_view suffix, advice;
+  };
+  constexpr std::string_view kIfc = "; convert it first: IfcConvert model.ifc model.glb";
+  constexpr std::string_view kCad = "; open it in a CAD program, as FreeCAD, and export it as glTF";
+  constexpr std::string_view kMesh = "; open it in Blender and export it as glTF";
+  constexpr std::array<Known, 11> kKnown{{{".ifc", kIfc},
+                                          {".ifczip", kIfc},
+                                          {".ifcxml", kIfc},
+                                          {".step", kCad},
+                                          {".stp", kCad},
+                                          {".iges", kCad},
+                                          {".igs", kCad},
+                                          {".brep", kCad},
+                                          {".ply", kMesh},
+                                          {".fbx", kMesh},
+                                          {".dae", kMesh}}};
+  for (char& c : suffix)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const auto found = std::ranges::find(kKnown, std::string_view(suffix), &Known::suffix);
+  return found == kKnown.end() ? std::string_view("; export the model as one of these")
+                               : found->advice;
+}
+
 Error unknown_format(const Readers& readers, const FileBytes& file) {
   std::string formats;
-  for (const std::unique_ptr<Reader>& reader : readers)
-    formats.append(formats.empty() ? "" : ", ").append(reader->format());
-  return {ErrorCode::input, "is in no format that this program reads", file.path.string(),
-          "give a model as " + formats};
+  for (std::size_t r = 0; r < readers.size(); ++r) {
+    const std::string_view format = readers[r]->format();
+    formats.append(r == 0                    ? ""
+                   : r + 1 == readers.size() ? " and "
+                                             : ", ")
+        .append(format == "glTF" ? "glTF/GLB" : format);
+  }
+  return {ErrorCode::input, "unsupported format", file.path.string(),
+          "Strake reads " + formats + std::string(conversion_of(file.path.extension().string()))};
 }
 
 Result<model::Model> read_one(const Readers& readers, const std::filesystem::path& path,

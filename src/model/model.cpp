@@ -56,9 +56,10 @@ void note_positional_ids(Model& model) {
     if (counts[file] > 0)
       model.diagnostics.add(
           Severity::note, "object-id-positional",
-          fmt::format("{} objects have no lasting id: theirs is a position in the "
-                      "file, so runs are compared by place there",
-                      counts[file]),
+          fmt::format(
+              "{} no stable id (only {} position in the file); clash diff matches {} by location",
+              counts[file] == 1 ? "1 object has" : fmt::format("{} objects have", counts[file]),
+              counts[file] == 1 ? "its" : "their", counts[file] == 1 ? "it" : "them"),
           model.files[file].label);
 }
 

@@ -12,8 +12,6 @@
 namespace strake::settings {
 namespace {
 
-constexpr double kLongestMm = 1e6;
-
 std::string_view type_name(const Value& value) {
   struct Name {
     std::string_view operator()(const std::string&) const { return "a text"; }
@@ -112,6 +110,20 @@ std::optional<std::int64_t> TableReader::whole(std::string_view key) {
 }
 
 std::optional<double> TableReader::length_mm(const Value& value, std::string_view key) {
+  return parsed_mm(value, key, parse_length_mm);
+}
+
+std::optional<double> TableReader::coordinate_mm(const Value& value, std::string_view key) {
+  if (const auto* const whole = std::get_if<std::int64_t>(&value.held))
+    return static_cast<double>(*whole);
+  if (const auto* const number = std::get_if<double>(&value.held);
+      number != nullptr && std::isfinite(*number))
+    return *number;
+  return parsed_mm(value, key, parse_coordinate_mm);
+}
+
+std::optional<double> TableReader::parsed_mm(const Value& value, std::string_view key,
+                                             Result<double> (*parse)(std::string_view)) {
   const auto* const zero = std::get_if<std::int64_t>(&value.held);
   if (zero != nullptr && *zero == 0) return 0.0;
   const auto* const text = std::get_if<std::string>(&value.held);
@@ -119,7 +131,7 @@ std::optional<double> TableReader::length_mm(const Value& value, std::string_vie
     wrong_type(value, key, "a length with its unit in quotes, as \"25mm\"");
     return std::nullopt;
   }
-  const Result<double> length = parse_length_mm(*text);
+  const Result<double> length = parse(*text);
   if (length) return *length;
   reading_.fault(value.at, in_quotes(key) + " of " + what_ + ": " + length.error().message,
                  length.error().mend);
@@ -165,14 +177,7 @@ std::optional<std::vector<double>> TableReader::lengths_mm(std::string_view key,
 
 std::optional<double> TableReader::tolerance_mm(std::string_view key) {
   const Value* const found = value(key);
-  const auto length = found != nullptr ? length_mm(*found, key) : std::nullopt;
-  if (!length) return std::nullopt;
-  if (*length >= 0 && *length <= kLongestMm) return length;
-  reading_.fault(found->at,
-                 in_quotes(key) + " of " + what_ +
-                     (*length < 0 ? " is negative" : " is longer than a kilometre"),
-                 "write a length from 0 to 1km");
-  return std::nullopt;
+  return found != nullptr ? parsed_mm(*found, key, parse_distance_mm) : std::nullopt;
 }
 
 std::optional<std::string> TableReader::word(std::string_view key,
@@ -222,9 +227,9 @@ std::optional<geometry::Vec3d> TableReader::point_mm(std::string_view key) {
   if (list == nullptr) return std::nullopt;
   geometry::Vec3d point;
   for (int k = 0; k < 3; ++k) {
-    const auto length = length_mm((*list)[static_cast<std::size_t>(k)], key);
-    if (!length) return std::nullopt;
-    point[k] = *length;
+    const auto coordinate = coordinate_mm((*list)[static_cast<std::size_t>(k)], key);
+    if (!coordinate) return std::nullopt;
+    point[k] = *coordinate;
   }
   return point;
 }

@@ -76,7 +76,7 @@ class TableReader {
   std::optional<std::string> word(std::string_view key, std::span<const std::string_view> words);
   /// Reads one text or a list of texts.
   std::vector<std::string> texts(std::string_view key);
-  /// Read three lengths with their units, or three plain numbers.
+  /// Read three coordinates, in millimetres where they have no unit, or three plain numbers.
   std::optional<geometry::Vec3d> point_mm(std::string_view key);
   std::optional<geometry::Vec3d> direction(std::string_view key);
   /// Return a table, or the tables of a [[list]]; empty where it is missing.
@@ -88,6 +88,9 @@ class TableReader {
 
  private:
   void refuse_other_keys();
+  std::optional<double> coordinate_mm(const Value& value, std::string_view key);
+  std::optional<double> parsed_mm(const Value& value, std::string_view key,
+                                  Result<double> (*parse)(std::string_view));
   void wrong_type(const Value& value, std::string_view key, std::string_view wanted);
   template <class T>
   const T* held(std::string_view key, std::string_view wanted);

@@ -17,7 +17,8 @@ Result<std::string> read_text_file(const std::filesystem::path& file, std::strin
                                    std::string_view hint) {
   std::error_code error;
   if (!std::filesystem::exists(file, error))
-    return Error{ErrorCode::input, "cannot be opened", file.string(), "does it exist?"};
+    return Error{ErrorCode::input, "cannot be read: there is no such file", file.string(),
+                 "check the path"};
   const auto size = std::filesystem::file_size(file, error);
   if (error || !std::filesystem::is_regular_file(file))
     return Error{ErrorCode::input, "cannot be read: it is no file", file.string(),

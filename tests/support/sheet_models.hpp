@@ -21,7 +21,8 @@ inline Result<sheets::SheetFile> sheet_file(std::string_view text,
       text, "s.toml", [&](std::string_view name) -> Result<std::string> {
         const auto found = templates.find(std::string(name));
         if (found != templates.end()) return found->second;
-        return Error{ErrorCode::input, "cannot be opened", std::string(name), "does it exist?"};
+        return Error{ErrorCode::input, "cannot be read: there is no such file", std::string(name),
+                     "check the path"};
       });
 }
 

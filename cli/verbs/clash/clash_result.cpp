@@ -180,10 +180,11 @@ bool has_failing_pair(const clash::Findings& findings, const std::string& fail_o
     console.note(fmt::format("--fail-on {}: pairs that could not be compared and may be as bad: {}",
                              fail_on, lacks.pairs));
   if (lacks.objects > 0)
-    console.note(
-        fmt::format("--fail-on {}: does not go by objects that could not be compared whole "
-                    "(--strict does): {}",
-                    fail_on, lacks.objects));
+    console.note(fmt::format(
+        "--fail-on {}: {} could not be fully compared; --fail-on ignores {} (add "
+        "--strict to fail)",
+        fail_on, lacks.objects == 1 ? "1 object" : fmt::format("{} objects", lacks.objects),
+        lacks.objects == 1 ? "it" : "them"));
   return surely + perhaps + lacks.pairs > 0;
 }
 

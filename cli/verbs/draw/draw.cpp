@@ -13,6 +13,7 @@
 
 #include "cli/run/load.hpp"
 #include "cli/run/object_selection.hpp"
+#include "cli/verbs/draw/brute_force_cost.hpp"
 #include "cli/verbs/draw/draw_options.hpp"
 #include "cli/verbs/draw/draw_sheet.hpp"
 #include "cli/verbs/draw/draw_summary.hpp"
@@ -70,7 +71,7 @@ Result<geometry::Vec3l> direction_of(const std::string& text, const std::string&
 }
 
 Result<geometry::Box3l> limits_of(const std::string& text) {
-  const auto n = number_list(text, 6, "--limits", "xmin,ymin,zmin,xmax,ymax,zmax in millimetres");
+  const auto n = coordinates_option(text, 6, "--limits", "xmin,ymin,zmin,xmax,ymax,zmax");
   if (!n) return n.error();
   const auto lo = geometry::snap(geometry::Vec3d{(*n)[0], (*n)[1], (*n)[2]});
   const auto hi = geometry::snap(geometry::Vec3d{(*n)[3], (*n)[4], (*n)[5]});
@@ -233,8 +234,8 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
                            drawing.sheet.height_mm));
   if (visible > 0) return;
   console.note(of(drawing::LineState::clipped) > 0
-                   ? "warning empty-sheet: nothing lies within the limits, the field of view and "
-                     "before the sections"
+                   ? "warning empty-sheet: nothing is left to draw inside the limits, the field of "
+                     "view and the sections"
                    : "warning empty-sheet: the model has nothing to draw");
 }
 
@@ -310,12 +311,16 @@ Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& req
     if (!sag) return sag.error();
     options.sag_mm = *sag;
   }
+  if (options.solver == hlr::Solver::brute_force)
+    if (const Status told = tell_brute_force_cost(session, scene, *drawn, request.view, options);
+        !told)
+      return told.error();
   const Result<hlr::Drawing> lines = [&] {
     const auto timer = session.step("hidden lines");
     return hlr::draw(scene, *drawn, request.view, options, session.context());
   }();
   if (!lines) return lines.error();
-  print_drawing_diagnostics(session.console(), lines->diagnostics);
+  print_diagnostics(session.console(), lines->diagnostics);
   const auto timer = session.step("layout");
   return drawing::lay_out(*lines, *scene.model, request.layout, session.context());
 }
@@ -369,14 +374,15 @@ void add_view(CLI::App& command, DrawOptions& options) {
       ->group("View");
   command
       .add_option("--limits", options.limits,
-                  "Draw this box of the model only: xmin,ymin,zmin,xmax,ymax,zmax in mm")
+                  "Draw this box of the model only: xmin,ymin,zmin,xmax,ymax,zmax in mm or with "
+                  "units, as 4.5m. What it cuts stays open; --section closes it")
       ->type_name("BOX")
       ->group("View");
   command
       .add_option("--section", options.sections,
                   "Cut away what lies beyond a plane: 'z>4500mm' above, 'z<4500mm' below, z=4500mm "
-                  "what is nearer to the viewer; for z also x, y or a normal, '1,2,0>4500mm'; may "
-                  "be repeated")
+                  "what is nearer to the viewer; for z also x, y or a normal, '1,2,0>4500mm'. "
+                  "Solids are closed by a hatched face where it cuts them; may be repeated")
       ->type_name("PLANE")
       ->expected(1)
       ->allow_extra_args(false)
@@ -384,8 +390,9 @@ void add_view(CLI::App& command, DrawOptions& options) {
       ->group("View");
   command
       .add_option("--hatch", options.hatches,
-                  "How sections are hatched: angle, distance of lines in the model, or both, or "
-                  "off, and of which objects: '30deg,80mm: PIPE*'; may be repeated, the first that "
+                  "How sections are hatched: angle, distance of lines in the model, or both with "
+                  "their units, or off, and of which objects: '30deg,80mm: PIPE*'; may be "
+                  "repeated, the first that "
                   "picks an object counts (default: neighbours differ in angle, colours in "
                   "distance)")
       ->type_name("PATTERN")
@@ -471,7 +478,9 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
   add_view(*command, *options);
   add_lines(*command, *options);
   add_choice(*command, "--solver", options->solver, {"gather", "brute-force"},
-             "How lines are hidden; the result is the same (default gather)")
+             "How lines are hidden; the result is the same. brute-force is an oracle for small "
+             "scenes, which tries every edge with every triangle: seconds for 10,000 triangles, "
+             "days for a million (default gather)")
       ->group("Running");
   add_choice(
       *command, "--global", options->global, {"gather", "push"},

@@ -77,6 +77,10 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
   }
   const Result<Loaded> loaded = load(session, input, scene);
   if (!loaded) return loaded.error();
+  if (request.options.solver == hlr::Solver::brute_force)
+    session.console().note(
+        "--solver brute-force: every view tries every edge with every triangle; it is an oracle "
+        "for small scenes (without it the lines are the same, in much less time)");
   const Result<sheets::Sheet> sheet = [&] {
     const auto timer = session.step("views");
     return file->compose(loaded->scene, request.options, session.context());

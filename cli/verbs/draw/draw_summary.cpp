@@ -18,10 +18,6 @@ std::string words(hlr::Fate fate) {
 
 }  // namespace
 
-void print_drawing_diagnostics(Console& console, const Diagnostics& diagnostics) {
-  print_diagnostics(console, diagnostics, {"object-degenerate", "object-failed", "object-in-part"});
-}
-
 std::string object_summary_line(const hlr::Account& account, const model::Model& model) {
   std::string line =
       fmt::format("{} objects: {} drawn", account.objects(), account.of(hlr::Fate::drawn));

@@ -4,15 +4,10 @@
 #include <string>
 #include <string_view>
 
-#include "cli/output/console.hpp"
 #include "cli/output/stats.hpp"
-#include "strake/core/diagnostics.hpp"
 #include "strake/hlr/hlr.hpp"
 
 namespace strake::cli {
-
-/// Prints what a drawing noticed, every object by name that it could not draw, or not whole.
-void print_drawing_diagnostics(Console& console, const Diagnostics& diagnostics);
 
 /// Returns "900 objects: 400 drawn, 496 hidden, 4 failed; 2 without some of their geometry", whose
 /// fates add up. It names files that end early, too.

@@ -253,4 +253,18 @@ struct Drawing {
                                    const View& view, const Options& options,
                                    const parallel::Context& context);
 
+/// What Solver::brute_force has to do for a view: each edge against each triangle that may hide it.
+struct BruteForceWork {
+  std::uint64_t edges = 0;      ///< edges and lines of what is drawn
+  std::uint64_t triangles = 0;  ///< triangles that hide
+  std::uint64_t tests = 0;      ///< pairs of them, those that the stage leaves out aside
+};
+
+/// Returns the work of the brute force, counted at the cost of the preparation of a view. Errors:
+/// as those of draw().
+[[nodiscard]] Result<BruteForceWork> brute_force_work(const model::Scene& scene,
+                                                      const std::vector<bool>& drawn,
+                                                      const View& view, const Options& options,
+                                                      const parallel::Context& context);
+
 }  // namespace strake::hlr

@@ -39,6 +39,11 @@ class Selection {
   /// Returns the text that was parsed.
   [[nodiscard]] const std::string& text() const;
 
+  /// Whether it asks, itself or by a set that it names, for an attribute, and for a name, id or
+  /// path without saying which.
+  [[nodiscard]] bool tests_attributes() const;
+  [[nodiscard]] bool has_bare_pattern() const;
+
   /// Whether the object is picked. The box of an object is that of its placed bodies; an object
   /// without bodies is in no box.
   [[nodiscard]] bool picks(const Scene& scene, ObjectId object) const;

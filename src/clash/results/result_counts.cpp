@@ -104,8 +104,8 @@ Status warn_of_unknown_sag(const ScenePartList& list, const model::Model& model,
   for (std::size_t f = 0; f < unknown->size(); ++f)
     if ((*unknown)[f] != 0)
       diagnostics.add(Severity::note, "unknown-sag",
-                      "meshes are taken as the true surfaces: how far they lie from them is "
-                      "not known",
+                      "meshes are used as they are; their deviation from the original surfaces "
+                      "is unknown",
                       model.files[f].label);
   return {};
 }

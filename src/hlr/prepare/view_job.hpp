@@ -122,6 +122,10 @@ struct ViewJob {
 [[nodiscard]] Status solve_brute_force(const ViewJob& job, const parallel::Context& context,
                                        Drawing& drawing);
 
+/// Counts what solve_brute_force() has to do.
+[[nodiscard]] Result<BruteForceWork> count_brute_force_work(const ViewJob& job,
+                                                            const parallel::Context& context);
+
 /// The baseline of the benchmarks (scatter): objects publish what they hide into those under them.
 [[nodiscard]] Status solve_push(const ViewJob& job, const parallel::Context& context,
                                 Drawing& drawing);

@@ -113,9 +113,10 @@ void report_defects(const model::Model& model, const Account& account, Diagnosti
     const std::string_view code = degenerate ? "object-degenerate"
                                   : failed   ? "object-failed"
                                              : "object-in-part";
-    const std::string_view words = degenerate ? "it makes no line in this view"
-                                   : failed   ? "none of it could be read or placed"
-                                              : "some of it could not be read or placed";
+    const std::string_view words =
+        degenerate ? "it makes no line in this view"
+        : failed   ? "its geometry could not be read or placed; the object is skipped"
+                   : "some of its geometry could not be read or placed; the rest is drawn";
     if (diagnostics.count(code) >= Diagnostics::kMaxPerCode) {
       diagnostics.add(Severity::warning, code, {}, {});
       continue;

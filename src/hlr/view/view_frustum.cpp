@@ -75,9 +75,10 @@ Status check_perspective(const View& view) {
     return view_error("the eye and the target are the same point", "give a target to look at");
   if (!(p.near_mm >= kLeastNearMm && p.near_mm <= kMostNearMm))
     return view_error("the near distance is not between a micrometre and a kilometre",
-                      "100 mm is the usual one");
+                      "write 1um to 1km; 100mm is the usual one");
   if (!(p.field_of_view_deg >= kNarrowest && p.field_of_view_deg <= kWidest))
-    return view_error("the field of view is not between 1 and 160 degrees", "90 is the usual one");
+    return view_error("the field of view is not between 1 and 160 degrees",
+                      "write 1deg to 160deg; 90deg is the usual one");
   const HalfSpace before = near_plane(view);
   Int128 depth = 0;
   for (int k = 0; k < 3; ++k)

@@ -377,7 +377,49 @@ Result<ObjectLines> solve_object(const ViewJob& job, const SpeckRule& rule, std:
   return result;
 }
 
+std::uint64_t triangles_of(const ViewJob& job, std::uint32_t body) {
+  if (!job.opaque[body]) return 0;
+  std::uint64_t sum = 0;
+  for (const geometry::Part& part : job.sectioned_shape_of(body).shape().parts)
+    sum += part.triangles.size();
+  return sum;
+}
+
+/// What one object has: its edges, and the triangles that hide.
+Result<BruteForceWork> content_of(const ViewJob& job, std::uint32_t object) {
+  const model::Scene& scene = *job.scene;
+  BruteForceWork work;
+  for (std::uint32_t b = scene.first_body[object]; b < scene.first_body[object + 1]; ++b) {
+    const auto edges =
+        sectioned_edges(job.sectioned_shape_of(b), job.features_of(scene.bodies[b]), {});
+    if (!edges) return edges.error();
+    work.edges += edges->size();
+    work.triangles += triangles_of(job, b);
+  }
+  work.edges += job.lines.of(object).size();
+  return work;
+}
+
 }  // namespace
+
+Result<BruteForceWork> count_brute_force_work(const ViewJob& job,
+                                              const parallel::Context& context) {
+  const std::size_t objects = job.scene->model->objects.size();
+  const auto contents = parallel::transform(context, {.name = "edges of objects", .n = objects},
+                                            [&](std::size_t i) -> Result<BruteForceWork> {
+                                              if (!job.drawn[i]) return BruteForceWork{};
+                                              return content_of(job, static_cast<std::uint32_t>(i));
+                                            });
+  if (!contents) return contents.error();
+  BruteForceWork work;
+  for (const BruteForceWork& one : *contents) {
+    work.edges += one.edges;
+    work.triangles += one.triangles;
+    if (job.options.stage == Stage::local) work.tests += one.edges * one.triangles;
+  }
+  if (job.options.stage == Stage::global) work.tests = work.edges * work.triangles;
+  return work;
+}
 
 Status solve_brute_force(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
   const std::size_t objects = job.scene->model->objects.size();

@@ -197,8 +197,9 @@ void report_findings(const GridShapeResult& made, std::uint32_t bodies, const Mo
     if (part.flags.open) ++(ends_somewhere(part) ? open : mixed);
     non_manifold += part.flags.non_manifold ? 1U : 0U;
   }
-  counted(Severity::warning, "mesh-inverted", inverted, "a solid was inside out and is turned",
-          "{} solids were inside out and are turned");
+  counted(Severity::warning, "mesh-inverted", inverted,
+          "a solid had its faces pointing inwards; they were flipped",
+          "{} solids had their faces pointing inwards; they were flipped");
   counted(Severity::note, "mesh-open", open, "a surface does not close and counts as a sheet",
           "{} surfaces do not close and count as sheets");
   counted(Severity::warning, "mesh-mixed-winding", mixed,

@@ -66,7 +66,7 @@ std::string picks_nothing(const Selection& selection, const Model& model) {
   const auto unknown = std::find_if(requested.begin(), requested.end(),
                                     [&](std::string_view name) { return !stated.contains(name); });
   if (unknown == requested.end()) return message;
-  message += ": none has an attribute @";
+  message += ": no object has an attribute @";
   message += printable(*unknown);
   message += stated.empty() ? std::string(", nor any other") : "; there are " + listed(stated);
   return message;

@@ -333,15 +333,13 @@ class SelectionParser {
   /// Reads a length of a box, in grid units; without a unit it is in millimetres.
   Result<std::int64_t> length() {
     const Token& token = now();
-    const auto quantity = token.is_value() ? parse_quantity(token.text) : std::nullopt;
-    const auto unit = quantity && quantity->unit.empty() ? std::optional(1.0)
-                      : quantity                         ? unit_mm(quantity->unit)
-                                                         : std::nullopt;
-    if (!unit) return fault("no length: " + shown(token), "write millimetres or a unit, as 9m");
-    const double mm = quantity->number * *unit;
+    if (!token.is_value())
+      return fault(shown(token) + " is not a coordinate", "write millimetres or a unit, as 9m");
+    const Result<double> mm = parse_coordinate_mm(token.text);
+    if (!mm) return fault(mm.error().message, mm.error().mend);
     ++at_;
     // A length beyond the grid leaves that side of the box open.
-    return *geometry::snap(std::clamp(mm, -geometry::kMaxGridMm, geometry::kMaxGridMm));
+    return *geometry::snap(std::clamp(*mm, -geometry::kMaxGridMm, geometry::kMaxGridMm));
   }
 
   static const OperatorName* operator_of(const Token& token) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/model/selection.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -33,6 +34,22 @@ Result<Selection> Selection::parse(std::string_view text, SetLookup set) {
 }
 
 const std::string& Selection::text() const { return query_->text; }
+
+namespace {
+
+bool tests(const selection::SelectionQuery& query, selection::PropertyField field) {
+  return std::ranges::find(query.tests, field, &selection::PropertyTest::field) !=
+             query.tests.end() ||
+         std::ranges::any_of(query.sets, [&](const auto& set) { return tests(*set, field); });
+}
+
+}  // namespace
+
+bool Selection::tests_attributes() const {
+  return tests(*query_, selection::PropertyField::attribute);
+}
+
+bool Selection::has_bare_pattern() const { return tests(*query_, selection::PropertyField::any); }
 
 bool Selection::picks(const Scene& scene, ObjectId object) const {
   return selection::SelectionContext(scene, object).picks(*query_);

@@ -142,14 +142,16 @@ std::string uncertain(const Report& report) {
     if (p.severest > (p.allowed < 0 ? p.cls : clash::Class::no_hit)) ++worse;
   }
   if (all == 0) return {};
-  return "; UNCERTAIN: " + counted(all, "result", "results") +
-         (worse == 0 ? "" : ", " + std::to_string(worse) + " may be of a severer class");
+  const std::string text = "; " + counted(all, "result is", "results are") + " uncertain";
+  if (worse == 0) return text;
+  return worse == all ? text + " and may be more severe"
+                      : text + ", " + std::to_string(worse) + " of them may be more severe";
 }
 
 /// Returns what a report without hits may hide.
 std::string not_compared(const Report& report, const model::Model& model) {
   if (report.objects_a == 0 || report.objects_b == 0)
-    return std::string("; not compared: anything, as set ") + (report.objects_a == 0 ? "A" : "B") +
+    return std::string("; nothing was compared: set ") + (report.objects_a == 0 ? "A" : "B") +
            " is empty";
   const clash::NotComparedCounts lacks = clash::counts_of({&report, 1});
   std::string text;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/document/document_reader.hpp"
 
+#include <filesystem>
 #include <system_error>
 
 namespace strake::report {
@@ -32,7 +33,9 @@ Result<std::ifstream> open_document(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, ignored))
     return Error{ErrorCode::input, "is a folder", name, "name a file in it"};
   std::ifstream in(file, std::ios::binary);
-  if (!in) return Error{ErrorCode::input, "cannot be opened", name, "does it exist?"};
+  if (!in && !std::filesystem::exists(file, ignored))
+    return Error{ErrorCode::input, "cannot be read: there is no such file", name, "check the path"};
+  if (!in) return Error{ErrorCode::input, "cannot be read", name, "check who may read it"};
   return in;
 }
 

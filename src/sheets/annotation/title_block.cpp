@@ -306,9 +306,13 @@ class Fields {
     for (const auto& field : what.fields)
       if (!contains(places, field.first)) idle.push_back(field.first);
     const std::string where = what.fields_where.empty() ? what.file : what.fields_where;
+    // Who gives no fields at all has not forgotten one.
+    const bool meant = what.fields_where.empty() && !what.artwork;
     if (!empty.empty())
-      diagnostics.add(Severity::warning, "field-not-filled",
-                      frame + " has fields that are not given: " + listed(empty), where);
+      diagnostics.add(meant ? Severity::note : Severity::warning, "field-not-filled",
+                      "fields of " + frame + " left empty: " + listed(empty) +
+                          (meant ? "; [fields] gives them" : ""),
+                      where);
     if (!idle.empty())
       diagnostics.add(
           Severity::warning, "field-not-in-template",

@@ -303,8 +303,12 @@ std::vector<std::string> MarkReader::views(TableReader& table) {
       known += (known.empty() ? "" : ", ") + view.name;
     }
     if (!there)
-      reading_.fault(table.at(), "'views' of " + table.what() + " names '" + name + "'",
-                     "the views are " + known);
+      reading_.fault(table.at(),
+                     "'views' of " + table.what() + " names '" + name +
+                         "', but the sheet has no view '" + name + "'",
+                     known.empty()
+                         ? "no views are defined: add [[view]] with name = \"" + name + "\""
+                         : "its views are " + known);
   }
   return names;
 }

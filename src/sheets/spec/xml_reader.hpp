@@ -38,7 +38,8 @@ class XmlReader {
   [[nodiscard]] Result<XmlEvent> next();
 
  private:
-  [[nodiscard]] Error fault(std::string message, std::string mend = "") const;
+  [[nodiscard]] Error fault(std::string message,
+                            std::string mend = "save it again as plain SVG") const;
   [[nodiscard]] bool at(std::string_view what) const;
   bool skip_past(std::string_view end);
   void skip_blanks();

@@ -182,7 +182,7 @@ class ClashDiff(Scenario):
             done = self.run_strake('clash', 'u.gltf', '-o', name)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertEqual(done.stderr.count('object-id-positional'), 1, done.stderr)
-            self.assertIn(f'u.gltf: {len(places)} objects have no lasting id', done.stderr)
+            self.assertIn(f'u.gltf: {len(places)} objects have no stable id', done.stderr)
             return json.loads((self.folder / name).read_text())
 
         old = run([0, .09], 'old.json')
@@ -267,7 +267,7 @@ class ClashDiff(Scenario):
         self.write('cut.json', good[:-40])
         self.write('first.json', good.replace('"schema_version": 2', '"schema_version": 1'))
         for file, word in (('cut.json', 'ends too soon'), ('first.json', 'version 1'), ('a.obj', 'no JSON'),
-                           ('nowhere.json', 'cannot be opened'), ('.', 'folder')):
+                           ('nowhere.json', 'there is no such file'), ('.', 'folder')):
             with self.subTest(file):
                 done = self.run_strake('clash', 'diff', 'good.json', file)
                 self.assertEqual(done.returncode, 3, done.stderr)

@@ -107,7 +107,7 @@ class Clash(Scenario):
                     self.assertEqual(done.stderr, f'strake: {option}: nothing was compared: {said}\n')
             done = self.run_strake(*run)
             self.assertEqual((done.returncode, done.stderr), (0, ''))
-            self.assertIn(f'violations; not compared: anything, as {said.split(" (")[0]}\n', done.stdout)
+            self.assertIn(f'violations; nothing was compared: {said.split(" (")[0]}\n', done.stdout)
 
     def test_lines_are_judged_where_asked_for(self):
         self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + 'o wire\nv -50 50 40\nv 150 50 40\nl 9 10\n')
@@ -210,8 +210,8 @@ class Clash(Scenario):
         self.assertEqual((done.returncode, result['class'], result['may_be']), (0, 'CONTACT', 'HIT'))
         self.assertEqual(result['flags'], ['UNCERTAIN'])
         plain = self.run_strake(*run[:-1]).stdout
-        self.assertTrue(plain.endswith('0 hits, 1 contact, 0 clearance violations; UNCERTAIN: 1 result, '
-                                       '1 may be of a severer class\n'), plain)
+        self.assertTrue(plain.endswith('0 hits, 1 contact, 0 clearance violations; 1 result is uncertain '
+                                       'and may be more severe\n'), plain)
         done = self.run_strake(*run, '--fail-on', 'hit')
         self.assertEqual(done.returncode, 1)
         self.assertIn('--fail-on hit: 1 that may be as bad', done.stderr)
@@ -302,7 +302,7 @@ class Clash(Scenario):
         # In most models something is: --fail-on would stop every night.
         done = self.run_strake(*run, '--fail-on', 'hit')
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn('could not be compared whole (--strict does): 1', done.stderr)
+        self.assertIn('--fail-on hit: 1 object could not be fully compared; --fail-on ignores it (add --strict to fail)', done.stderr)
         self.assertEqual(self.run_strake(*run, '--fail-on', 'hit', '--strict').returncode, 4)
         # What is in no set is nobody's concern.
         self.write('b.obj', cube('b0', 0, (50, 0, 0), 100))

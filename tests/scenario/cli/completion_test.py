@@ -13,7 +13,7 @@ from pathlib import Path
 
 from scenario import VERBS, Scenario, main
 
-PROGRAM_VERBS = {'clash', 'draw', 'info', 'evaluate', 'generate', 'man', 'completion'}
+PROGRAM_VERBS = {'clash', 'draw', 'info', 'evaluate', 'generate', 'help', 'man', 'completion'}
 
 
 class Completion:
@@ -44,6 +44,8 @@ class Completion:
         self.assertEqual(self.offers('strake man '), PROGRAM_VERBS)
         self.assertEqual(self.offers('strake man clash '), {'diff'})
         self.assertEqual(self.offers('strake man clash diff '), set())
+        self.assertEqual(self.offers('strake help '), PROGRAM_VERBS)
+        self.assertEqual(self.offers('strake help clash '), {'diff'})
 
     def test_values_of_options(self):
         words = self.words_of('clash', '--fail-on')

@@ -77,7 +77,7 @@ class DrawDiff(Scenario):
         self.assertEqual(done.returncode, 0, done.stderr)
         for name, words in (('cut.json', 'ends too soon'), ('huge.json', 'is no point'), ('nan.json', 'no JSON'),
                             ('short.json', 'counts'), ('clash.json', 'says version 2'), ('empty.json', 'ends too soon'),
-                            ('m.obj', 'no JSON'), ('absent.json', 'cannot be opened'), ('.', 'is a folder'),
+                            ('m.obj', 'no JSON'), ('absent.json', 'there is no such file'), ('.', 'is a folder'),
                             ('top.json', 'view.direction')):
             done = self.run_strake('draw', 'diff', 'old.json', name)
             self.assertEqual(done.returncode, 3, (name, done.stderr))

@@ -287,7 +287,10 @@ class Draw(Scenario):
         self.assertTrue(all(a[0] == b[0] and a[0] % 20 == 0 for _, a, b in some))
         self.assertGreater(len(hatch()), 10)
         self.assertEqual(hatch('--hatch', 'off'), [])
-        for wrong in ('200deg', '-1mm', '0mm', '30furlongs', '', '30deg,', '1nm', '45deg: nobody', '45deg: ((', 'nan'):
+        self.assertEqual(hatch('--hatch', '80mm,30deg'), hatch('--hatch', '30deg,80mm'))
+        self.assertEqual(hatch('--hatch', '30'), hatch('--hatch', '30deg'))
+        for wrong in ('200deg', '-1mm', '0mm', '30furlongs', '', '30deg,', '1nm', '30,80', '30deg,80', '30deg,40deg', '80mm,90mm', '80mm,30', '1,5mm', '1e300mm',
+                      '45deg: nobody', '45deg: ((', 'nan'):
             done = self.run_strake('draw', 'a.obj', '--section', 'z>50mm', '--hatch', wrong, '-o', 'x.json')
             self.assertEqual(done.returncode, 2, (wrong, done.stderr))
             self.assertIn('--hatch', done.stderr, wrong)
@@ -295,7 +298,7 @@ class Draw(Scenario):
     def test_sections_that_make_no_sense_are_told(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
         for plane, words in (('0,0,0>1mm', 'neither an axis nor the normal'), ('z', 'no section plane'),
-                             ('z>nan', 'nan'), ('z>12', 'unit'), ('nan,0,1>1mm', 'neither an axis'),
+                             ('z>nan', 'nan'), ('z>12furlong', 'unit'), ('z>4,5m', 'write 4.5m'), ('nan,0,1>1mm', 'neither an axis'),
                              ('w>1mm', 'neither an axis'), ('z>1e300km', '--section'),
                              ('x=10mm', 'edge-on'), ('z>', '--section')):
             done = self.run_strake('draw', 'a.obj', '--view', 'top', '--section', plane, '-o', 'x.svg')
@@ -345,11 +348,45 @@ class Draw(Scenario):
         same = self.run_strake('draw', 'diff', 'x.json', 'y.view', '--fail-on', 'any')
         self.assertEqual(same.returncode, 0, same.stderr)
 
+    def test_the_brute_force_says_what_it_costs(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
+        run = ['draw', 'a.obj', '--solver', 'brute-force', '-o', 'x.svg']
+        done = self.run_strake(*run, '--threads', 1)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        told = 'brute-force: 12 edges and 12 triangles, 144 tests: less than a second with 1 worker'
+        self.assertIn(told, done.stderr)
+        self.assertLess(done.stderr.index(told), done.stderr.index('visible of'))
+        self.assertNotIn('brute-force', self.run_strake(*run[:2], *run[4:]).stderr)
+        self.assertEqual(self.run_strake(*run, '--quiet').stderr, '')
+
+    def test_what_limits_cut_stays_open_and_sections_close_it(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
+        kinds = []
+        for cut in (['--limits', '-1m,-1m,-1m,1m,1m,5cm'], ['--section', 'z=50']):
+            done = self.run_strake('draw', 'a.obj', '--view', 'top', *cut, '-o', 'x.json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            kinds.append({p['kind'] for p in json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))['pieces']})
+        self.assertNotIn('section', kinds[0])
+        self.assertIn('section', kinds[1])
+        help_text = ' '.join(self.text('draw', '--help').split())
+        self.assertIn('What it cuts stays open; --section closes it', help_text)
+
+    def test_coordinates_are_millimetres_or_have_units(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
+        def drawn(*options):
+            done = self.run_strake('draw', 'a.obj', *options, '-o', 'x.json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))['pieces']
+        for plain, units in ((['--limits', '-10,-10,-10,1000,1000,50'], ['--limits', '-1cm,-10mm,-10,1m,1m,0.05m']),
+                             (['--section', 'z=50'], ['--section', 'z=5cm']),
+                             (['--eye', '500,-1000,500', '--target', '0,0,0'], ['--eye', '0.5m,-1m,500', '--target', '0mm,0,0'])):
+            self.assertEqual(drawn(*plain), drawn(*units), units)
+
     def test_an_empty_sheet_is_not_silent(self):
         self.two_files()
         done = self.run_strake('draw', 'a.obj', '-o', 'x.svg', '--limits', '1e6,1e6,1e6,2e6,2e6,2e6')
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn('nothing lies within the limits', done.stderr)
+        self.assertIn('nothing is left to draw inside the limits', done.stderr)
 
 
 if __name__ == '__main__':

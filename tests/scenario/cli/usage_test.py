@@ -3,7 +3,7 @@
 """usage_test.py STRAKE: what it says of itself, and of command lines that make no sense."""
 import json
 
-from scenario import Scenario, main
+from scenario import VERBS, Scenario, main
 
 
 class Usage(Scenario):
@@ -18,6 +18,30 @@ class Usage(Scenario):
                 self.assertEqual(done.returncode, 0)
                 self.assertIn('Usage: strake', done.stdout)
                 self.assertEqual(done.stderr, '')
+
+    def test_the_verb_help_prints_what_help_prints(self):
+        for verb in VERBS:
+            with self.subTest(verb=verb):
+                done = self.run_strake('help', *verb)
+                self.assertEqual((done.returncode, done.stderr), (0, ''))
+                self.assertEqual(done.stdout, self.text(*verb, '--help'))
+
+    def test_what_is_misspelt_is_guessed(self):
+        for arguments, said in (
+                (['clahs'], "there is no verb 'clahs' (did you mean 'clash'?)"),
+                (['frobnicate'], "there is no verb 'frobnicate' (the verbs are clash, draw, info"),
+                (['help', 'drwa'], "there is no verb 'drwa' (did you mean 'draw'?)"),
+                (['help', 'clash', 'dif'], "'strake clash' has no verb 'dif' (did you mean 'diff'?)"),
+                (['man', 'inof'], "there is no verb 'inof' (did you mean 'info'?)"),
+                (['generate', 'shp'], "'strake generate' has no verb 'shp' (did you mean 'ship'?)"),
+                (['info', 'help', 'me', '--thread', '2'], "there is no option '--thread' (did you mean '--threads'?"),
+                (['clash', 'a.obj', '--clearence=2mm'], "there is no option '--clearence' (did you mean '--clearance'?"),
+                (['--threads', '2'], "no verb is given before '--threads'"),
+                (['clash', 'diff', 'a', 'b', 'c'], "'c' is one word too many")):
+            with self.subTest(arguments):
+                done = self.run_strake(*arguments)
+                self.assertEqual((done.returncode, done.stdout), (2, ''))
+                self.assertIn(said, done.stderr)
 
     def test_wrong_command_lines_are_usage_errors_that_say_what(self):
         self.two_files()
@@ -35,7 +59,7 @@ class Usage(Scenario):
                 (['info', 'a.obj', '--threads', 'many'], 'many'),
                 (['info', 'a.obj', '--unit', 'cubit'], 'um, mm'),
                 (['info', 'a.obj', '--up-axis', 'q'], 'x|y|z'),
-                (['info', 'a.obj', '--sag', '0'], 'positive'),
+                (['info', 'a.obj', '--sag', '0'], '1um or more'),
                 (['clash', 'a.obj', '--clearance', '25'], '25mm'),
                 (['clash', 'a.obj', '--clearance', '-1mm'], 'negative'),
                 (['clash', 'a.obj', '--touch-gap', 'nan'], 'nan'),

@@ -66,7 +66,7 @@ TEST(FilesToRead, WhatIsSaidInVainIsAnErrorThatSaysWhat) {
   expect_error({"c.stl=m"}, "'c.stl' is none of the files");
   expect_error({"=m"}, "'' is none of the files");
   expect_error({"a.stl=m"}, "may be x/a.stl or y/a.stl");
-  expect_error({"x/a.stl="}, "no length unit");
+  expect_error({"x/a.stl="}, "is not a unit of length");
   expect_error({"x/a.stl=cubit"}, "'cubit'");
   expect_error({"m", "mm"}, "more than once");
   expect_error({"x/a.stl=m", "./x/a.stl=mm"}, "more than once for x/a.stl");

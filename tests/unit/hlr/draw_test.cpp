@@ -225,5 +225,25 @@ TEST(Draw, StopsWhenToldTo) {
   }
 }
 
+TEST(Draw, TheWorkOfTheBruteForceIsKnownBefore) {
+  test::SceneBuilder scene;
+  scene.object({{.parts = {box(0, 0, 0)}, .origin = {}}});
+  scene.object({{.parts = {box(5000, 0, 0)}, .origin = {}}});
+  for (const hlr::Stage stage : {hlr::Stage::none, hlr::Stage::local, hlr::Stage::global}) {
+    const hlr::Options options{.stage = stage, .solver = hlr::Solver::brute_force};
+    const auto work = hlr::brute_force_work(scene.scene(), {}, kIso, options, {});
+    ASSERT_TRUE(work.has_value());
+    const hlr::Drawing drawing = drawn(scene, kIso, options);
+    EXPECT_EQ(work->edges, drawing.counters.feature_edges);
+    EXPECT_EQ(work->triangles, 24U);
+    EXPECT_EQ(work->tests, drawing.counters.face_tests);
+  }
+  const auto one = hlr::brute_force_work(scene.scene(), {true, false}, kIso, {}, {});
+  ASSERT_TRUE(one.has_value());
+  EXPECT_EQ(one->edges, 12U);
+  EXPECT_EQ(one->triangles, 12U);
+  EXPECT_FALSE(hlr::brute_force_work(scene.scene(), {true}, kIso, {}, {}).has_value());
+}
+
 }  // namespace
 }  // namespace strake

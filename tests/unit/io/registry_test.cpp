@@ -67,6 +67,18 @@ TEST(Registry, NamesTheFileAndTheMend) {
   check(read({good, text}), text.string());
 }
 
+TEST(Registry, SaysHowAModelOfAnotherFormatIsConverted) {
+  const test::TemporaryFolder folder;
+  const auto said = [&](const char* name) {
+    return read({folder.write(name, "Dear reader,\nno model.\n")}).error().text();
+  };
+  const std::string formats = ": unsupported format (Strake reads RVM, glTF/GLB, OBJ and STL; ";
+  EXPECT_NE(said("a.txt").find(formats + "export the model as one of these)"), std::string::npos);
+  EXPECT_NE(said("a.IFC").find(formats + "convert it first: IfcConvert"), std::string::npos);
+  EXPECT_NE(said("a.stp").find(formats + "open it in a CAD program"), std::string::npos);
+  EXPECT_NE(said("a.ply").find(formats + "open it in Blender"), std::string::npos);
+}
+
 TEST(Registry, RefusesImpossibleQuestions) {
   EXPECT_EQ(read({}).error().code, ErrorCode::usage);
   const test::TemporaryFolder folder;

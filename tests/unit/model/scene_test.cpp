@@ -125,11 +125,13 @@ TEST(Scene, WhatIsToldOfAShapeIsToldOfAllItsBodies) {
       if (d.code == "mesh-inverted") return d.message;
     return std::string();
   };
-  EXPECT_EQ(told(1), "a solid was inside out and is turned");
+  EXPECT_EQ(told(1), "a solid had its faces pointing inwards; they were flipped");
   EXPECT_EQ(told(2),
-            "a solid was inside out and is turned; likewise in 1 more body of the same shape");
+            "a solid had its faces pointing inwards; they were flipped; likewise in 1 more body of "
+            "the same shape");
   EXPECT_EQ(told(4),
-            "a solid was inside out and is turned; likewise in 3 more bodies of the same shape");
+            "a solid had its faces pointing inwards; they were flipped; likewise in 3 more bodies "
+            "of the same shape");
 }
 
 TEST(Scene, BoxPrimitiveIsASolidWithItsSourceAndNoSag) {

@@ -186,19 +186,36 @@ TEST_F(SelectionTest, WhatPicksNothingNamesTheAttributesThereAre) {
   const auto said = [&](const char* text) {
     return picks_nothing(Selection::parse(text).value(), model_);
   };
-  EXPECT_EQ(said("name = ghost and @Diameter > 5mm"),
-            "'name = ghost and @Diameter > 5mm' picks no object: none has an attribute @Diameter; "
-            "there are @DN, @Spec, @Part, @Wall");
+  EXPECT_EQ(
+      said("name = ghost and @Diameter > 5mm"),
+      "'name = ghost and @Diameter > 5mm' picks no object: no object has an attribute @Diameter; "
+      "there are @DN, @Spec, @Part, @Wall");
   EXPECT_EQ(said("@DN = 7"), "'@DN = 7' picks no object");
   EXPECT_EQ(said("ghost"), "'ghost' picks no object");
   for (int i = 0; i < 20; ++i)
     model_.objects[4].attributes.emplace_back("extra " + std::to_string(i), "");
   EXPECT_EQ(said("@\"D\x07N\""),
-            "'@\"D\x07N\"' picks no object: none has an attribute @D?N; there are @DN, @Spec, "
+            "'@\"D\x07N\"' picks no object: no object has an attribute @D?N; there are @DN, @Spec, "
             "@Part, @Wall, @extra 0, @extra 1, @extra 10, @extra 11, @extra 12, @extra 13, "
             "@extra 14, @extra 15 and 12 more");
   EXPECT_EQ(picks_nothing(Selection::parse("@DN").value(), Model()),
-            "'@DN' picks no object: none has an attribute @DN, nor any other");
+            "'@DN' picks no object: no object has an attribute @DN, nor any other");
+}
+
+TEST_F(SelectionTest, SaysByWhatItPicks) {
+  const auto kinds = [](const char* text) {
+    const Selection selection = Selection::parse(text).value();
+    return std::pair(selection.tests_attributes(), selection.has_bare_pattern());
+  };
+  EXPECT_EQ(kinds("@DN = 7"), std::pair(true, false));
+  EXPECT_EQ(kinds("PIPE*"), std::pair(false, true));
+  EXPECT_EQ(kinds("name = PIPE*"), std::pair(false, false));
+  EXPECT_EQ(kinds("PIPE* and not @DN"), std::pair(true, true));
+  const Selection inner = Selection::parse("@DN").value();
+  const Selection outer = Selection::parse("set(s)", [&](std::string_view) {
+                            return Result<Selection>(inner);
+                          }).value();
+  EXPECT_TRUE(outer.tests_attributes()) << "by a set";
 }
 
 TEST_F(SelectionTest, BoxesOfTheModel) {
@@ -237,7 +254,7 @@ TEST_F(SelectionTest, FaultsNameTheColumnAndTheMend) {
       {"name ~ '('", "column 8: no regular expression"},
       {"inside(1,2,3)", "column 13: ',' is missing"},
       {"inside(0,0,0,1,-1,1)", "column 1: the box ends before it begins"},
-      {"inside(0,0,0,1,1,nan)", "column 18: no length"},
+      {"inside(0,0,0,1,1,nan)", "column 18: 'nan' is not a coordinate"},
       {std::string(100000, '('), "nested too deeply"},
   };
   for (const auto& [text, fault] : faults)

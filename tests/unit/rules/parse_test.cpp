@@ -109,7 +109,7 @@ name = "sleeves"
 a = "PIPE*"
 b = "SLEEVE*"
 max_depth = "5mm"
-region = { min = ["0m", 0, "-1m"], max = ["9m", "9m", "9m"] }
+region = { min = ["0m", 0, "-1m"], max = ["9m", "9000", 9e3] }
 cavity = [ { point = ["0m", "0m", "3m"], normal = [0, 0.5, -1] } ]
 [[allowed]]
 name = "embedded"
@@ -131,7 +131,8 @@ TEST(RulesFile, FaultsNamePlaceAndMend) {
        "unit"},
       {"[defaults]\nclearance = \"25\"",
        "line 2, column 13: 'clearance' of [defaults]: the length '25' has no unit (write 25mm or"},
-      {"[defaults]\nclearance = \"-1mm\"", "is negative (write a length from 0 to 1km)"},
+      {"[defaults]\nclearance = \"-1mm\"",
+       "'clearance' of [defaults]: '-1mm' is negative (write a length from 0 to 1km)"},
       {"[defaults]\nclearance = \"2km\"", "is longer than a kilometre"},
       {"[defaults]\nclearance = \"nanmm\"", "'clearance' of [defaults]"},
       {"[defaults]\nthickness_cap = \"yes\"",

@@ -237,7 +237,12 @@ TEST(Sheet, WhatIsAmissIsNamed) {
   EXPECT_TRUE(told(over.sheet, "view-off-the-frame", "'c'"));
   EXPECT_TRUE(told(over.sheet, "view-on-title-block", "'c'"));
   const Drawn fields = drawn("[fields]\ntitel = \"x\"\n[[view]]\nname=\"v\"\n");
-  EXPECT_TRUE(told(fields.sheet, "field-not-filled", "drawn, checked"));
+  EXPECT_TRUE(told(fields.sheet, "field-not-filled",
+                   "fields of the title block left empty: drawn, checked"));
+  const Drawn without = drawn("[[view]]\nname=\"v\"\n");
+  EXPECT_TRUE(told(without.sheet, "field-not-filled", "; [fields] gives them"));
+  for (const Diagnostic& d : without.sheet.diagnostics.kept())
+    EXPECT_TRUE(d.code != "field-not-filled" || d.severity == Severity::note) << "a sheet without";
   EXPECT_TRUE(told(fields.sheet, "field-not-in-template", "no place for titel"));
   const Drawn longer =
       drawn("[fields]\nrevision = \"" + std::string(200, 'W') + "\"\n[[view]]\nname=\"v\"\n");
@@ -292,8 +297,7 @@ TEST(Sheet, TemplatesReplaceTheFrame) {
       "[[view]]\nname=\"v\"\nscale=\"1:50\"\n",
       templates);
   EXPECT_NE(d.svg.find("<text>&lt;A &amp; B&gt; 1:50 </text>"), std::string::npos);
-  EXPECT_TRUE(
-      told(d.sheet, "field-not-filled", "the template has fields that are not given: owner"));
+  EXPECT_TRUE(told(d.sheet, "field-not-filled", "fields of the template left empty: owner"));
   EXPECT_TRUE(told(d.sheet, "field-not-in-template", "no place for spare"));
   EXPECT_EQ(d.svg.find("DRAWING NUMBER"), std::string::npos);
   const Drawn bare = drawn("[sheet]\nframe=false\n[[view]]\nname=\"v\"\n");
