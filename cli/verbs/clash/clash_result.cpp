@@ -157,20 +157,10 @@ clash::Class failing_class(const std::string& fail_on) {
 
 /// Whether a result or a pair stops --fail-on; says how many only may be as bad. An object that
 /// could not be read whole is in many models every night: it is reported, and --strict stops at it.
-bool has_failing_pair(const clash::Findings& findings, const std::string& fail_on,
-                      Console& console) {
-  const clash::Class worst = failing_class(fail_on);
-  std::uint64_t surely = 0, perhaps = 0;
+bool has_failing_pair(const clash::Findings& findings, const FailingPairs& failing,
+                      const std::string& fail_on, Console& console) {
+  const auto& [surely, perhaps] = failing;
   const clash::NotComparedCounts lacks = clash::counts_of(findings.tests);
-  for (const clash::Report& test : findings.tests) {
-    if (worst <= clash::Class::contact) surely += test.unlisted.contacts;
-    for (const clash::Pair& pair : test.pairs) {
-      if (pair.allowed < 0 && pair.cls >= worst)
-        ++surely;
-      else if (pair.severest >= worst)
-        ++perhaps;
-    }
-  }
   if (perhaps > 0)
     console.note(
         fmt::format("--fail-on {}: {} that may be as bad as far as is known (UNCERTAIN), "
@@ -223,11 +213,28 @@ std::string first_of(const std::vector<std::string>& names) {
 
 }  // namespace
 
-ExitCode clash_exit_code(const clash::Findings& findings, const std::string& fail_on,
-                         const InputOptions& input, const Loaded& loaded, Console& console) {
+FailingPairs failing_pairs(const clash::Findings& findings, const std::string& fail_on) {
+  FailingPairs failing;
+  if (fail_on.empty()) return failing;
+  const clash::Class worst = failing_class(fail_on);
+  for (const clash::Report& test : findings.tests) {
+    if (worst <= clash::Class::contact) failing.surely += test.unlisted.contacts;
+    for (const clash::Pair& pair : test.pairs) {
+      if (pair.allowed < 0 && pair.cls >= worst)
+        ++failing.surely;
+      else if (pair.severest >= worst)
+        ++failing.perhaps;
+    }
+  }
+  return failing;
+}
+
+ExitCode clash_exit_code(const clash::Findings& findings, const FailingPairs& failing,
+                         const std::string& fail_on, const InputOptions& input,
+                         const Loaded& loaded, Console& console) {
   const std::vector<std::string> tests = empty_tests(findings);
   if (!fail_on.empty()) {
-    const bool fails = has_failing_pair(findings, fail_on, console);
+    const bool fails = has_failing_pair(findings, failing, fail_on, console);
     const std::string rest = unread_rest(*loaded.model);
     if (!rest.empty())
       console.warn(fmt::format("--fail-on {}: not everything was compared: {}", fail_on, rest));

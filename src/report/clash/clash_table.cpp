@@ -57,19 +57,26 @@ struct ClassRows {
   clash::Class cls;
   std::string_view one, many;
   std::size_t count, listed, rows;
+  std::size_t unlisted = 0;  ///< of those that are not listed, as many as were only counted
 };
+
+std::size_t listed(const Report& report, clash::Class cls) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      report.pairs, [&](const Pair& p) { return p.cls == cls && p.allowed < 0; }));
+}
 
 /// Returns the rows of each class: a fifth for each, so that none hides the others, and the rest to
 /// those that need a decision before those that are mostly meant.
 std::array<ClassRows, 3> shares(const Report& report, std::size_t rows) {
   constexpr std::size_t kParts = 5;
   std::array<ClassRows, 3> all{{
-      {clash::Class::hit, "hit", "hits", report.count_hit, report.count_hit, 0},
-      {clash::Class::contact, "contact", "contacts", report.count_contact,
-       report.count_contact - report.unlisted.contacts, 0},
+      {clash::Class::hit, "hit", "hits", report.count_hit, 0, 0},
+      {clash::Class::contact, "contact", "contacts", report.count_contact, 0, 0,
+       report.unlisted.contacts},
       {clash::Class::clearance_violation, "clearance violation", "clearance violations",
-       report.count_clearance, report.count_clearance, 0},
+       report.count_clearance, 0, 0},
   }};
+  for (ClassRows& c : all) c.listed = listed(report, c.cls);
   const auto give = [&](ClassRows& c, std::size_t most) {
     const std::size_t given = std::min({most, rows, c.listed - c.rows});
     c.rows += given;
@@ -130,12 +137,23 @@ std::string not_compared(const Report& report, const model::Model& model) {
   return text.empty() ? text : "; not compared: " + text;
 }
 
+/// Returns how many of a class the report does not have: only counted, or of a class that is left
+/// out.
+std::string not_listed(const ClassRows& c) {
+  std::string text;
+  if (c.unlisted > 0) text = std::to_string(c.unlisted) + " not listed";
+  if (c.listed + c.unlisted < c.count)
+    text += (text.empty() ? "" : ", ") + std::to_string(c.count - c.listed - c.unlisted) +
+            " left out by class";
+  return text.empty() ? text : " (" + text + ")";
+}
+
 std::string summary_of(const Report& report, const model::Model& model,
                        const std::array<ClassRows, 3>& classes) {
   std::string summary;
   for (const ClassRows& c : classes) {
     summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
-    if (c.listed < c.count) summary += " (" + std::to_string(c.count - c.listed) + " not listed)";
+    summary += not_listed(c);
   }
   if (report.count_allowed > 0) summary += ", " + std::to_string(report.count_allowed) + " allowed";
   if (report.count_allowed_regions > 0)

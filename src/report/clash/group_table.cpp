@@ -18,7 +18,7 @@
 namespace strake::report {
 namespace {
 
-constexpr std::size_t kClassColumns = 9, kNumberColumns = 10, kLeastName = 8;
+constexpr std::size_t kClassColumns = 9, kDepthColumns = 10, kLeastGroupName = 8;
 
 /// A row of the table of groups, or its head: class, numbers and, as it is shown, the name.
 struct GroupRow {
@@ -40,7 +40,7 @@ GroupRow row_of(const clash::Group& group, bool place) {
 /// Returns the rows as text, aligned, each of the same width.
 std::vector<std::string> aligned(const std::vector<GroupRow>& rows) {
   std::vector<std::size_t> widths(rows.front().numbers.size());
-  widths.front() = kNumberColumns;
+  widths.front() = kDepthColumns;
   for (const GroupRow& row : rows)
     for (std::size_t c = 0; c < widths.size(); ++c)
       widths[c] = std::max(widths[c], row.numbers[c].size());
@@ -79,7 +79,7 @@ std::string group_table(const clash::Grouping& grouping, const TableOptions& opt
   const std::size_t taken = lines.front().size();
   std::string lead;
   const std::vector<std::string> names = shown_names(
-      groups, options.width > taken + kLeastName ? options.width - taken : kLeastName, lead);
+      groups, options.width > taken + kLeastGroupName ? options.width - taken : kLeastGroupName, lead);
   std::string out;
   if (!lead.empty()) out = std::string(kLeadMark) + " stands for " + printable(lead) + "\n";
   out += ended(lines.front() + std::string(name(grouping.rules.by)));

@@ -130,6 +130,10 @@ class Schemas(unittest.TestCase):
         drawn = self.follows(self.run_strake('draw', 'odd.obj', '--weld', '0', '--json'), 'view')
         self.assertEqual(drawn['settings']['weld_mm'], 0)
         empty = self.follows(self.run_strake('clash', 'odd.obj', 'ship.glb', '--json'), 'clash')
+        some = self.follows(self.run_strake('clash', 'ship.glb', '--class', 'hit', '--columns', '@discipline,@nothing',
+                                           '--json'), 'clash')
+        self.assertEqual(some['classes'], ['HIT'])
+        self.assertIn('discipline', some['results'][0]['a']['attributes'])
         volumes = self.follows(self.run_strake('clash', 'ship.glb', '--volumes', '--json'), 'clash')
         self.assertTrue(all('volume_mm3' in r for r in volumes['results'] if r['class'] == 'HIT'))
         for by in 'element', 'proximity', 'test', 'files':
