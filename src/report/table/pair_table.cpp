@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/clash/pair_table.hpp"
+#include "report/table/pair_table.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/clash/group_table.hpp"
+#include "report/table/group_table.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 #include "core/number.hpp"
 #include "core/text_encoding.hpp"
-#include "report/clash/pair_table.hpp"
+#include "report/table/pair_table.hpp"
 #include "report/text/columns.hpp"
 #include "report/text/formatting.hpp"
 #include "report/text/table_names.hpp"
@@ -79,7 +79,8 @@ std::string group_table(const clash::Grouping& grouping, const TableOptions& opt
   const std::size_t taken = lines.front().size();
   std::string lead;
   const std::vector<std::string> names = shown_names(
-      groups, options.width > taken + kLeastGroupName ? options.width - taken : kLeastGroupName, lead);
+      groups, options.width > taken + kLeastGroupName ? options.width - taken : kLeastGroupName,
+      lead);
   std::string out;
   if (!lead.empty()) out = std::string(kLeadMark) + " stands for " + printable(lead) + "\n";
   out += ended(lines.front() + std::string(name(grouping.rules.by)));

@@ -12,8 +12,8 @@
 
 #include "core/number.hpp"
 #include "core/text_encoding.hpp"
-#include "report/clash/group_table.hpp"
-#include "report/clash/pair_table.hpp"
+#include "report/table/group_table.hpp"
+#include "report/table/pair_table.hpp"
 #include "report/text/columns.hpp"
 #include "report/text/formatting.hpp"
 #include "strake/report/clash.hpp"
