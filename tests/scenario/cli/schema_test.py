@@ -83,6 +83,8 @@ class Schemas(unittest.TestCase):
         self.assertGreaterEqual(ship['total']['objects'], 300)
         listed = self.follows(self.run_strake('info', 'ship.glb', '--objects', 3, '--json'), 'info')
         self.assertEqual(len(listed['objects']), 3)
+        stating = self.follows(self.run_strake('info', 'odd.obj', 'ship.glb', '--attributes', '--json'), 'info')
+        self.assertEqual([len(f['attributes']) > 1 for f in stating['files']], [False, True])
         odd = self.follows(self.run_strake('info', 'odd.obj', 'ship.glb', '--json'), 'info')
         self.assertEqual(len(odd['files']), 2)
         self.assertGreater(odd['skipped'], 0)
