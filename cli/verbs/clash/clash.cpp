@@ -16,6 +16,7 @@
 
 #include "clash/rules/tolerance_lengths.hpp"
 #include "cli/run/load.hpp"
+#include "cli/verbs/clash/clash_hint.hpp"
 #include "cli/verbs/clash/clash_output.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/clash/clash_sets.hpp"
@@ -293,6 +294,9 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   const FailingPairs failing = failing_pairs(*findings, given.fail_on);
   if (const Status status = put_out(session, given, *request, *loaded, *findings); !status)
     return status.error();
+  if (!session.json() && given.result.group_by.empty() && request->output.classes.hit)
+    if (const std::string hint = concentration_hint(*findings, *loaded->model); !hint.empty())
+      session.console().note(hint);
   return clash_exit_code(*findings, failing, given.fail_on, given.input, *loaded,
                          session.console());
 }
@@ -394,7 +398,8 @@ docs/selection.md has the language.
 Examples:
   strake clash ship.glb
   strake clash hvac.rvm steel.rvm --clearance 25mm -o clashes.json
-  strake clash ship.glb --group-by element --sort size
+  strake clash hvac.rvm steel.rvm --group-by assembly --sort size
+  strake clash ship.glb --group-by element --group-distance 3m
   strake clash ship.glb --class hit,clearance --top 50
   strake clash hvac.rvm steel.rvm --columns @Tag,@Area --csv excel-comma -o clashes.csv
   strake clash ship.glb --log-pairs pairs.csv --stats

@@ -24,11 +24,13 @@ namespace {
 
 Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
   clash::GroupRules rules;
-  for (const clash::GroupBy by : {clash::GroupBy::element, clash::GroupBy::proximity,
-                                  clash::GroupBy::test, clash::GroupBy::files})
+  for (const clash::GroupBy by :
+       {clash::GroupBy::element, clash::GroupBy::proximity, clash::GroupBy::test,
+        clash::GroupBy::files, clash::GroupBy::assembly})
     if (name(by) == input.group_by) rules.by = by;
   rules.sort = sort_by(input.sort);
   rules.contacts = input.group_contacts;
+  rules.apart = !input.group_distance.empty() && rules.by != clash::GroupBy::proximity;
   if (const Status status =
           length_option(rules.distance_mm, input.group_distance, "--group-distance");
       !status)
@@ -41,13 +43,15 @@ Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
 void add_result_options(CLI::App& command, ClashResultInput& options) {
   constexpr const char* kGroup = "Result";
   add_choice(
-      command, "--group-by", options.group_by, {"element", "proximity", "test", "files"},
-      "Group results: by the object that most of them share, by proximity, by test or by the "
-      "files of the two")
+      command, "--group-by", options.group_by,
+      {"element", "proximity", "test", "files", "assembly"},
+      "Group results: by the object that most of them share, by proximity, by test, by the files "
+      "of the two or by what they are parts of: the nearest named equipment, branch or structure")
       ->group(kGroup);
   command
       .add_option("--group-distance", options.group_distance,
-                  "With --group-by proximity: results no farther apart are one group (default 3m)")
+                  "Results no farther apart are one group (with --group-by proximity; default 3m); "
+                  "groups by anything else are split by it")
       ->type_name("LENGTH")
       ->group(kGroup);
   command.add_flag("--group-contacts", options.group_contacts, "Put contacts into groups too")
@@ -78,9 +82,9 @@ Status check(const ClashResultInput& input) {
     return Error{ErrorCode::usage, "only groups have a size", "--sort", "add --group-by"};
   if (input.group_contacts && input.group_by.empty())
     return Error{ErrorCode::usage, "there are no groups", "--group-contacts", "add --group-by"};
-  if (!input.group_distance.empty() && input.group_by != "proximity")
-    return Error{ErrorCode::usage, "is for groups by proximity", "--group-distance",
-                 "add --group-by proximity"};
+  if (!input.group_distance.empty() && input.group_by.empty())
+    return Error{ErrorCode::usage, "there are no groups", "--group-distance",
+                 "add --group-by proximity, or by what is to be split"};
   if (const Result<clash::GroupRules> rules = rules_of(input); !rules) return rules.error();
   return {};
 }

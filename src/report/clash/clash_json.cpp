@@ -86,7 +86,7 @@ void groups(BufferedWriter& buffer, const clash::Grouping& grouping) {
   out += "\"groups\": {\"by\": \"";
   out += name(grouping.rules.by);
   out += "\"";
-  if (grouping.rules.by == clash::GroupBy::proximity) {
+  if (grouping.rules.by == clash::GroupBy::proximity || grouping.rules.apart) {
     out += ", \"distance_mm\": ";
     append_mm(out, grouping.rules.distance_mm);
   }

@@ -68,8 +68,8 @@ std::vector<std::string> shown_names(std::span<const clash::Group> groups, std::
 }  // namespace
 
 std::string group_table(const clash::Grouping& grouping, const TableOptions& options) {
-  // The name of a group by proximity is its place.
-  const bool place = grouping.rules.by != clash::GroupBy::proximity;
+  // The name of a group by proximity, or of one that is split by it, has its place.
+  const bool place = grouping.rules.by != clash::GroupBy::proximity && !grouping.rules.apart;
   const std::size_t all = grouping.groups.size(), shown = std::min(options.rows, all);
   const std::span groups = std::span(grouping.groups).first(shown);
   std::vector<GroupRow> rows{{"class", {"d mm", "results", "size m"}}};

@@ -94,6 +94,29 @@ class ClashOutput(Scenario):
         self.assertEqual({g['class'] for g in hits['groups']['list']}, {'HIT'})
         self.assertEqual(sum(g['results'] for g in hits['groups']['list']), len(hits['results']))
 
+    def test_where_most_hits_lie_is_told(self):
+        for name, x in (('a', 0), ('b', 50)):
+            self.write(f'{name}.obj', ''.join(cube(f'{name}{n}', n, (x, 0, 1000 * n), 100) for n in range(25)))
+        self.write('c.obj', cube('c0', 0, (-50, 0, 0), 100))
+        files = ['clash', 'a.obj', 'b.obj', 'c.obj', '--unit', 'mm', '--up-axis', 'z']
+        hint = '25 of 26 hits lie between a.obj and b.obj: --group-by assembly makes them one line\n'
+        done = self.run_strake(*files)
+        self.assertTrue(done.stderr.endswith(hint), done.stderr)
+        grouped = self.run_strake(*files, '--group-by', 'assembly')
+        self.assertNotIn('makes them one line', grouped.stderr)
+        self.assertRegex(grouped.stdout, r'\nHIT +-50\.000 +25 +24\.0 .* a\.obj and b\.obj\n')
+        split = self.text(*files, '--group-by', 'assembly', '--group-distance', '500mm', '--class', 'hit')
+        self.assertIn('… and 6 groups more\n', split)
+        for quiet in (['--quiet'], ['--json'], ['--class', 'contact']):
+            self.assertNotIn('makes them one line', self.run_strake(*files, *quiet).stderr)
+
+    def test_hits_between_parts_of_one_assembly_are_told(self):
+        files = []
+        for name, y in (('a', 0), ('b', 5000), ('c', 10000), ('d', 15000), ('e', 20000)):
+            files.append(self.write(f'{name}.obj', ''.join(cube(f'{name}{n}', n, (50 * n, y, 0), 100) for n in range(6))))
+        done = self.run_strake('clash', *files, '--self', '--unit', 'mm', '--up-axis', 'z')
+        self.assertIn('25 of 25 hits lie between parts of one assembly: ', done.stderr)
+
     def test_top_is_the_number_of_rows(self):
         run = [*self.ship(), '--class', 'contact']
         for rows in 1, 7, 30:

@@ -138,7 +138,7 @@ class Schemas(unittest.TestCase):
         self.assertIn('discipline', some['results'][0]['a']['attributes'])
         volumes = self.follows(self.run_strake('clash', 'ship.glb', '--volumes', '--json'), 'clash')
         self.assertTrue(all('volume_mm3' in r for r in volumes['results'] if r['class'] == 'HIT'))
-        for by in 'element', 'proximity', 'test', 'files':
+        for by in 'element', 'proximity', 'test', 'files', 'assembly':
             grouped = self.follows(self.run_strake('clash', 'ship.glb', '--group-by', by, '--json'), 'clash')
             self.assertEqual([r['class'] == 'CONTACT' for r in grouped['results']],
                              ['group' not in r for r in grouped['results']])
@@ -148,6 +148,9 @@ class Schemas(unittest.TestCase):
             self.assertEqual(sum(sizes), len(grouped['results']))
             for number, size in enumerate(sizes):
                 self.assertEqual(sum(r['group'] == number for r in grouped['results']), size)
+        split = self.follows(self.run_strake('clash', 'ship.glb', '--group-by', 'element', '--group-distance', '2m', '--json'),
+                             'clash')
+        self.assertEqual(split['groups']['distance_mm'], 2000)
         self.assertEqual([file['label'] for file in empty['files']], ['odd.obj', 'ship.glb'])
 
     def test_clash_with_depths_that_a_work_limit_ended(self):
