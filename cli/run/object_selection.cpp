@@ -21,6 +21,20 @@ Result<std::vector<model::Selection>> parse_selections(const std::vector<std::st
   return selections;
 }
 
+namespace {
+
+/// Returns what somebody may have meant who wrote a selection that picks nothing.
+std::string mend_of(const std::string& selection) {
+  if (selection.find('@') != std::string::npos)
+    return "'strake info --attributes' lists the attributes and their first values";
+  if (selection.find_first_of("=~(") != std::string::npos)
+    return "'strake info --objects 20' lists what selections go by";
+  return "a bare pattern is compared with names, ids and group/.../name paths; * stands for any "
+         "text";
+}
+
+}  // namespace
+
 Result<Picked> pick_all(Session& session, const model::Scene& scene,
                         const std::vector<model::Selection>& selections) {
   Picked all;
@@ -33,7 +47,9 @@ Result<Picked> pick_all(Session& session, const model::Scene& scene,
       some = some || (*picked)[o];
       all.any[o] = all.any[o] || (*picked)[o];
     }
-    if (!some) all.idle.push_back(model::picks_nothing(selection, *scene.model));
+    if (!some)
+      all.idle.push_back(
+          {model::picks_nothing(selection, *scene.model), mend_of(selection.text())});
   }
   return all;
 }
@@ -45,9 +61,8 @@ Result<std::vector<bool>> pick_any(Session& session, const model::Scene& scene,
   Result<Picked> picked = pick_all(session, scene, selections);
   if (!picked) return picked.error();
   if (!picked->idle.empty())
-    return Error{ErrorCode::usage, std::move(picked->idle.front()), option,
-                 "a bare pattern is compared with names, ids and group/.../name paths; * stands "
-                 "for any text"};
+    return Error{ErrorCode::usage, std::move(picked->idle.front().message), option,
+                 std::move(picked->idle.front().mend)};
   return std::move(picked->any);
 }
 

@@ -15,10 +15,15 @@ namespace strake::cli {
 [[nodiscard]] Result<std::vector<model::Selection>> parse_selections(
     const std::vector<std::string>& texts, const std::string& option);
 
+/// A selection that picks nothing: what is said of it, and what may mend it.
+struct IdleSelection {
+  std::string message, mend;
+};
+
 /// What several selections pick together.
 struct Picked {
-  std::vector<bool> any;          ///< an entry per object: whether one of them picks it
-  std::vector<std::string> idle;  ///< says of each selection that picks nothing that it does
+  std::vector<bool> any;  ///< an entry per object: whether one of them picks it
+  std::vector<IdleSelection> idle;
 };
 
 [[nodiscard]] Result<Picked> pick_all(Session& session, const model::Scene& scene,

@@ -124,7 +124,7 @@ std::string uncertain(const Report& report) {
 /// Returns what a report without hits may hide.
 std::string not_compared(const Report& report, const model::Model& model) {
   if (report.objects_a == 0 || report.objects_b == 0)
-    return std::string("; not compared: anything, as set ") + (report.objects_a == 0 ? "A" : "B") +
+    return std::string("; nothing was compared: set ") + (report.objects_a == 0 ? "A" : "B") +
            " is empty";
   const clash::NotComparedCounts lacks = clash::counts_of({&report, 1});
   std::string text;
