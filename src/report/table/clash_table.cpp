@@ -234,8 +234,8 @@ std::string test_table(const Report& report, const model::Model& model,
       blocks[c].rows.push_back(row_of(report, model, report.pairs[i]));
     if (worst.hidden > 0) blocks[c].more = "… and " + counted(classes[c], worst.hidden) + " more\n";
   }
-  std::string out;
-  if (!report.pairs.empty()) out = pair_table(blocks, head_of(report, model, options)) + "\n";
+  std::string out = pair_table(blocks, head_of(report, model, options));
+  if (!out.empty()) out += "\n";
   return out + matrix_table(report, options.width) + summary_of(report, model, classes);
 }
 

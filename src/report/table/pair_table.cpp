@@ -52,7 +52,7 @@ class PairTable {
   [[nodiscard]] std::string text() const {
     std::string out;
     if (!lead_.empty()) out += std::string(kLeadMark) + " stands for " + printable(lead_) + "\n";
-    out += text_of(title());
+    if (!lines_.empty()) out += text_of(title());
     std::size_t next = 0;
     for (const PairBlock& block : blocks_) {
       for (std::size_t r = 0; r < block.rows.size(); ++r) out += text_of(lines_[next++]);

@@ -44,10 +44,11 @@ struct PairTableHead {
   std::size_t width = 100;  ///< columns of the terminal
 };
 
-/// Returns the rows as text. The path that all names begin with is told once and left out. Where
-/// the two names of every row fit beside the numbers they stand there, else b stands below a, and
-/// where that does not fit either both stand below the numbers; a name is cut only where it is
-/// wider than the terminal, and only so that it still looks unlike all others.
+/// Returns the rows as text, with a head where there are any. The path that all names begin with is
+/// told once and left out. Where the two names of every row fit beside the numbers they stand
+/// there, else b stands below a, and where that does not fit either both stand below the numbers; a
+/// name is cut only where it is wider than the terminal, and only so that it still looks unlike all
+/// others.
 [[nodiscard]] std::string pair_table(std::span<const PairBlock> blocks, const PairTableHead& head);
 
 }  // namespace strake::report

@@ -38,6 +38,8 @@ class ClashOutput(Scenario):
                                  [row[f'{side}_@system'], row[f'{side}_@discipline']])
         self.assertEqual(results, json.loads(self.read('plain.json'))['results'])
         self.assertIn('PIPING', {row['a_@discipline'] for row in rows})
+        counts = json.loads(self.text('clash', 'diff', 'plain.json', 'x.json', '--json'))['counts']
+        self.assertEqual((counts['same'], sum(counts.values())), (len(rows), len(rows)))
 
     def test_a_column_that_nothing_states_is_told_with_names_like_it(self):
         run = [*self.ship(), '--columns', '@sytem,@Insulation', '--json']

@@ -125,6 +125,11 @@ TEST(ClashTable, NamesTheDisciplineInsteadWhereThereAreSome) {
   EXPECT_NE(text.find("3050  hull        left  -           right\n"), std::string::npos) << text;
 }
 
+TEST(ClashTable, OfNoRowsHasNoHead) {
+  EXPECT_EQ(table_of(two_boxes("left", "right"), {.rows = 0}),
+            "… and 1 hit more\n\n1 hit, 0 contacts, 0 clearance violations\n");
+}
+
 TEST(ClashTable, GroupsHaveTheirPlaceToo) {
   const ClashModel m = two_boxes("/PLANT/WD1/left", "/PLANT/WD1/right");
   const clash::Findings findings{{m.detect()}, {}};
