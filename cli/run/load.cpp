@@ -7,10 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
+#include "core/text_encoding.hpp"
 #include "core/units.hpp"
 #include "strake/core/diagnostics.hpp"
 
@@ -194,6 +198,25 @@ void print_diagnostics(Console& console, const Diagnostics& diagnostics,
 
 namespace {
 
+/// Warns of files that are given more than once: each of their objects is there as often, lies in
+/// itself and clashes with itself.
+void note_repeated_files(model::Model& model, const std::vector<std::string>& files) {
+  std::map<std::filesystem::path, std::string> known;  // the first name of each
+  for (const std::string& file : files) {
+    std::error_code error;
+    const std::filesystem::path path = std::filesystem::canonical(file, error);
+    if (error) continue;
+    const auto [first, is_new] = known.try_emplace(path, file);
+    if (!is_new)
+      model.diagnostics.add(Severity::warning, "file-given-twice",
+                            first->second == file
+                                ? "is given more than once: each of its objects is there as often"
+                                : "is the file " + in_quotes(first->second) +
+                                      " as well: each of its objects is there more than once",
+                            file);
+  }
+}
+
 Result<model::Model> read_model(Session& session, const InputOptions& input) {
   const Result<std::vector<io::FileToRead>> files = files_to_read(input);
   if (!files) return files.error();
@@ -207,6 +230,7 @@ Result<model::Model> read_model(Session& session, const InputOptions& input) {
     session.console().note(fmt::format("{}: {}, {} objects, unit {}, {} up", file.label,
                                        file.format, objects[f], file.unit, file.up_axis));
   }
+  note_repeated_files(*model, input.files);
   print_diagnostics(session.console(), model->diagnostics);
   if (const std::string rest = unread_rest(*model); !rest.empty())
     session.console().warn(fmt::format("nothing is known of {}", rest));

@@ -23,13 +23,14 @@ Result<std::vector<model::Selection>> parse_selections(const std::vector<std::st
 
 namespace {
 
+/// Returns how to find what there is to be picked.
 std::string mend_of(const model::Selection& selection) {
-  const std::string look = "'strake info FILE --objects 20' lists objects with their ";
-  if (selection.tests_attributes()) return look + "attributes";
+  if (selection.tests_attributes())
+    return "'strake info --attributes' lists the attributes and their first values";
   if (selection.has_bare_pattern())
     return "a bare pattern is compared with names, ids and group/.../name paths; * stands for any "
            "text";
-  return look + "names, ids, paths, types, categories and colours";
+  return "'strake info --objects 20' lists what selections go by";
 }
 
 }  // namespace

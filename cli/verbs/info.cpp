@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/output/attribute_list.hpp"
 #include "cli/output/object_list.hpp"
 #include "cli/run/load.hpp"
 #include "cli/verbs/verb.hpp"
@@ -107,8 +108,13 @@ void add_diagnostics(Json& counts, Json& messages, const Diagnostics& diagnostic
                         {"message", d.message}});
 }
 
-std::string info_json(const model::Model& model, const model::Scene& scene,
-                      const std::optional<std::uint64_t>& objects) {
+/// What is listed besides the counts.
+struct Lists {
+  std::optional<std::uint64_t> objects;  ///< the first so many
+  bool attributes = false;
+};
+
+std::string info_json(const model::Model& model, const model::Scene& scene, const Lists& lists) {
   Json files = Json::array();
   for (std::size_t f = 0; f < model.files.size(); ++f) {
     const model::SourceFile& file = model.files[f];
@@ -119,6 +125,7 @@ std::string info_json(const model::Model& model, const model::Scene& scene,
                {"bytes", file.bytes}};
     if (file.ends_early) entry["ends_early"] = true;
     entry.update(content_json(content_of(model, scene, f, f + 1)));
+    if (lists.attributes) entry["attributes"] = attribute_list_json(model, f);
     files.push_back(std::move(entry));
   }
   Json counts = Json::array(), messages = Json::array();
@@ -131,7 +138,7 @@ std::string info_json(const model::Model& model, const model::Scene& scene,
            {"skipped", model.diagnostics.skipped() + scene.diagnostics.skipped()},
            {"diagnostics", std::move(counts)},
            {"messages", std::move(messages)}};
-  if (objects) all["objects"] = object_list_json(model, *objects);
+  if (lists.objects) all["objects"] = object_list_json(model, *lists.objects);
   // Names come from files and may be no UTF-8: a replacement character is better than no answer.
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -157,13 +164,14 @@ std::string content_text(const Content& content) {
       extents_text(content.extents));
 }
 
-std::string info_text(const model::Model& model, const model::Scene& scene) {
+std::string info_text(const model::Model& model, const model::Scene& scene, const Lists& lists) {
   std::string out;
   for (std::size_t f = 0; f < model.files.size(); ++f) {
     const model::SourceFile& file = model.files[f];
     out += fmt::format("{}\n  format      {}, {} bytes, unit {}, {} up\n", file.label, file.format,
                        file.bytes, file.unit, file.up_axis);
     out += content_text(content_of(model, scene, f, f + 1));
+    if (lists.attributes) out += attribute_list_text(model, f);
   }
   if (model.files.size() > 1)
     out += "all files\n" + content_text(content_of(model, scene, 0, model.files.size()));
@@ -173,6 +181,7 @@ std::string info_text(const model::Model& model, const model::Scene& scene) {
     for (const Diagnostics::Count& count : diagnostics->counts())
       out +=
           fmt::format("  {:<8} {:>8} {}\n", severity_name(count.severity), count.count, count.code);
+  if (lists.objects) out += object_list_text(model, *lists.objects);
   return out;
 }
 
@@ -180,23 +189,22 @@ struct InfoOptions {
   InputOptions input;
   SceneInput scene;
   std::string objects;
+  bool attributes = false;
 };
 
 Result<ExitCode> run_info(Session& session, const InfoOptions& options) {
   const Result<model::SceneOptions> scene_settings = scene_options(options.scene, kInfoSagMm);
   if (!scene_settings) return scene_settings.error();
-  std::optional<std::uint64_t> objects;
+  Lists lists{{}, options.attributes};
   if (!options.objects.empty())
-    if (const Status s = whole_number(objects.emplace(), options.objects, "--objects"); !s)
+    if (const Status s = whole_number(lists.objects.emplace(), options.objects, "--objects"); !s)
       return s.error();
   const Result<Loaded> loaded = load(session, options.input, *scene_settings);
   if (!loaded) return loaded.error();
   const model::Model& model = *loaded->model;
   const model::Scene& scene = loaded->scene;
-  const Status written =
-      session.write_stdout(session.json() ? info_json(model, scene, objects)
-                                          : info_text(model, scene) +
-                                                (objects ? object_list_text(model, *objects) : ""));
+  const Status written = session.write_stdout(session.json() ? info_json(model, scene, lists)
+                                                             : info_text(model, scene, lists));
   if (!written) return written.error();
   return strict_exit_code(options.input, *loaded);
 }
@@ -215,10 +223,14 @@ Verb add_info(CLI::App& program, CommonOptions& common) {
           "List the first N objects with what selections go by: name, id, path, file, type, "
           "category, colour and attributes")
       ->type_name("N");
+  command->add_flag("--attributes", options->attributes,
+                    "List the attributes of each file: how many objects state or inherit them, how "
+                    "many different values there are, and the first of these");
   add_common_options(*command, common);
   command->footer(R"(
 Examples:
   strake info platform.rvm
+  strake info platform.rvm --attributes
   strake info platform.rvm --objects 20
   strake info hvac.rvm steel.glb --json)");
   return {command, [options](Session& session) { return run_info(session, *options); }};

@@ -16,6 +16,8 @@
 
 #include "clash/rules/tolerance_lengths.hpp"
 #include "cli/run/load.hpp"
+#include "cli/verbs/clash/clash_hint.hpp"
+#include "cli/verbs/clash/clash_output.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/clash/clash_sets.hpp"
 #include "cli/verbs/verb.hpp"
@@ -38,6 +40,7 @@ struct ClashOptions {
       rules;
   bool list_exempted = false, curves = false;
   ClashResultInput result;
+  ClashOutputInput output;
   std::vector<std::string> outputs;
 };
 
@@ -112,7 +115,8 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
 }
 
 Status write_report(Session& session, const ClashOptions& given,
-                    const report::ClashContents& contents) {
+                    const report::ClashContents& contents,
+                    const std::optional<std::uint64_t>& rows) {
   for (const std::string& file : given.outputs) {
     const Result<report::ClashWriter> writer = find_writer(report::clash_writers(), file);
     if (!writer) return writer.error();
@@ -130,8 +134,9 @@ Status write_report(Session& session, const ClashOptions& given,
     return session.write_stdout([&](Session::Sink sink) {
       return report::write_clash_json(contents, sink, session.context());
     });
-  return session.write_stdout(report::clash_table(
-      contents, {.width = terminal_width(), .sort = sort_by(given.result.sort)}));
+  report::TableOptions table{.width = terminal_width(), .sort = sort_by(given.result.sort)};
+  if (rows) table.rows = static_cast<std::size_t>(*rows);
+  return session.write_stdout(report::clash_table(contents, table));
 }
 
 /// What is to be done, parsed before a model is read.
@@ -140,9 +145,21 @@ struct ClashRequest {
   SetRequest sets;
   std::optional<rules::Rules> rules;
   model::SceneOptions scene;
+  ClashOutput output;
 };
 
-Result<ClashRequest> request_of(const ClashOptions& given) {
+/// Returns what the run writes.
+WrittenFiles written_files(const ClashOptions& given, bool json) {
+  WrittenFiles files{.json = json, .pair_log = !given.result.log_pairs.empty(), .table = !json};
+  for (const std::string& file : given.outputs) {
+    const std::string suffix = suffix_of(file);
+    files.csv = files.csv || suffix == ".csv";
+    files.json = files.json || suffix == ".json";
+  }
+  return files;
+}
+
+Result<ClashRequest> request_of(const ClashOptions& given, bool json) {
   ClashRequest request;
   const Result<clash::Options> options = test_options(given);
   if (!options) return options.error();
@@ -162,6 +179,9 @@ Result<ClashRequest> request_of(const ClashOptions& given) {
   request.scene = *scene;
   request.scene.obstruction = scene->obstruction || wanted.obstruction;
   request.scene.insulation = scene->insulation || wanted.insulation;
+  Result<ClashOutput> output = clash_output(given.output, written_files(given, json));
+  if (!output) return output.error();
+  request.output = std::move(*output);
   return request;
 }
 
@@ -219,40 +239,66 @@ Status check_files(const ClashOptions& given) {
   return check_other_output("--log-pairs", given.result.log_pairs, {".csv"}, others, given.outputs);
 }
 
+/// Returns an error for options that contradict each other.
+Status check_contacts(const ClashOptions& given, const ClashOutput& output) {
+  if (!given.result.group_contacts) return {};
+  if (given.contacts == "count")
+    return Error{ErrorCode::usage, "contacts that are only counted cannot be put into groups",
+                 "--group-contacts", "leave out --group-contacts or --contacts count"};
+  if (!output.classes.contact)
+    return Error{ErrorCode::usage, "contacts that are left out cannot be put into groups",
+                 "--group-contacts", "add contact to --class"};
+  return {};
+}
+
+/// Prints and counts what the tests noticed.
+void tell(Session& session, const clash::Findings& findings, const model::Model& model) {
+  // A rule or a set that does nothing is misspelt more often than meant: each is named.
+  print_diagnostics(session.console(), findings.all_diagnostics(),
+                    {"rule-matches-nothing", "rule-shadowed", "selection-picks-nothing",
+                     "empty-set", "column-not-stated"});
+  count_work(session.stats(), findings.tests);
+  count_costs(session.stats(), findings, model);
+}
+
+/// Groups and writes what was found, after what is not to be written is taken out of it.
+Status put_out(Session& session, const ClashOptions& given, const ClashRequest& request,
+               const Loaded& loaded, clash::Findings& findings) {
+  if (!request.output.classes.all()) report::leave_out_others(findings, request.output.classes);
+  const Result<std::optional<clash::Grouping>> grouping =
+      group(session, given.result, findings, *loaded.model);
+  if (!grouping) return grouping.error();
+  std::optional<report::RulesSource> source;
+  const Diagnostics loading = loaded.diagnostics();
+  if (request.rules) source = {request.rules->file(), request.rules->hash()};
+  return write_report(
+      session, given,
+      {findings, *loaded.model, *grouping ? &**grouping : nullptr, source ? &*source : nullptr,
+       &loading, request.output.columns, request.output.csv, request.output.classes},
+      request.output.rows);
+}
+
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
-  Result<ClashRequest> request = request_of(given);
+  Result<ClashRequest> request = request_of(given, session.json());
   if (!request) return request.error();
   request->options.engine.log_pairs = !given.result.log_pairs.empty() || session.has_stats_option();
   if (const Status status = check(given.result); !status) return status.error();
-  if (given.contacts == "count" && given.result.group_contacts)
-    return Error{ErrorCode::usage, "contacts that are only counted cannot be put into groups",
-                 "--group-contacts", "leave out --group-contacts or --contacts count"};
+  if (const Status status = check_contacts(given, request->output); !status) return status.error();
   if (const Status status = check_files(given); !status) return status.error();
   const Result<Loaded> loaded = load(session, given.input, request->scene);
   if (!loaded) return loaded.error();
-  const Result<clash::Findings> findings =
-      findings_of(session, *loaded, *request, given.list_exempted);
+  Result<clash::Findings> findings = findings_of(session, *loaded, *request, given.list_exempted);
   if (!findings) return findings.error();
-  const Diagnostics diagnostics = findings->all_diagnostics();
-  // A rule or a set that does nothing is misspelt more often than meant: each is named.
-  print_diagnostics(
-      session.console(), diagnostics,
-      {"rule-matches-nothing", "rule-shadowed", "selection-picks-nothing", "empty-set"});
-  count_work(session.stats(), findings->tests);
-  count_costs(session.stats(), *findings, *loaded->model);
-  const Result<std::optional<clash::Grouping>> grouping =
-      group(session, given.result, *findings, *loaded->model);
-  if (!grouping) return grouping.error();
-  std::optional<report::RulesSource> source;
-  const Diagnostics loading = loaded->diagnostics();
-  if (request->rules) source = {request->rules->file(), request->rules->hash()};
-  if (const Status status =
-          write_report(session, given,
-                       {*findings, *loaded->model, *grouping ? &**grouping : nullptr,
-                        source ? &*source : nullptr, &loading});
-      !status)
+  findings->diagnostics.append(check_columns(request->output.columns, *loaded->model));
+  tell(session, *findings, *loaded->model);
+  const FailingPairs failing = failing_pairs(*findings, given.fail_on);
+  if (const Status status = put_out(session, given, *request, *loaded, *findings); !status)
     return status.error();
-  return clash_exit_code(*findings, given.fail_on, given.input, *loaded, session.console());
+  if (!session.json() && given.result.group_by.empty() && request->output.classes.hit)
+    if (const std::string hint = concentration_hint(*findings, *loaded->model); !hint.empty())
+      session.console().note(hint);
+  return clash_exit_code(*findings, failing, given.fail_on, given.input, *loaded,
+                         session.console());
 }
 
 /// Adds --rules; this comes after the options that it excludes.
@@ -319,6 +365,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   add_set_options(*command, options->sets);
   add_rules_file(*command, *options);
   add_result_options(*command, options->result);
+  add_clash_output_options(*command, options->output);
   add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
              "How near pairs are found; the result is the same (default tree)")
       ->group("Running");
@@ -351,7 +398,10 @@ docs/selection.md has the language.
 Examples:
   strake clash ship.glb
   strake clash hvac.rvm steel.rvm --clearance 25mm -o clashes.json
-  strake clash ship.glb --group-by element --sort size
+  strake clash hvac.rvm steel.rvm --group-by assembly --sort size
+  strake clash ship.glb --group-by element --group-distance 3m
+  strake clash ship.glb --class hit,clearance --top 50
+  strake clash hvac.rvm steel.rvm --columns @Tag,@Area --csv excel-comma -o clashes.csv
   strake clash ship.glb --log-pairs pairs.csv --stats
   strake clash diff monday.json tuesday.json
   strake clash ship.glb --a 'PIP*' --b 'type = mesh and not PIP*' -o pipes.csv

@@ -24,11 +24,13 @@ namespace {
 
 Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
   clash::GroupRules rules;
-  for (const clash::GroupBy by : {clash::GroupBy::element, clash::GroupBy::proximity,
-                                  clash::GroupBy::test, clash::GroupBy::files})
+  for (const clash::GroupBy by :
+       {clash::GroupBy::element, clash::GroupBy::proximity, clash::GroupBy::test,
+        clash::GroupBy::files, clash::GroupBy::assembly})
     if (name(by) == input.group_by) rules.by = by;
   rules.sort = sort_by(input.sort);
   rules.contacts = input.group_contacts;
+  rules.apart = !input.group_distance.empty() && rules.by != clash::GroupBy::proximity;
   if (const Status status =
           length_option(rules.distance_mm, input.group_distance, "--group-distance");
       !status)
@@ -41,13 +43,15 @@ Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
 void add_result_options(CLI::App& command, ClashResultInput& options) {
   constexpr const char* kGroup = "Result";
   add_choice(
-      command, "--group-by", options.group_by, {"element", "proximity", "test", "files"},
-      "Group results: by the object that most of them share, by proximity, by test or by the "
-      "files of the two")
+      command, "--group-by", options.group_by,
+      {"element", "proximity", "test", "files", "assembly"},
+      "Group results: by the object that most of them share, by proximity, by test, by the files "
+      "of the two or by what they are parts of: the nearest named equipment, branch or structure")
       ->group(kGroup);
   command
       .add_option("--group-distance", options.group_distance,
-                  "With --group-by proximity: results no farther apart are one group (default 3m)")
+                  "Results no farther apart are one group (with --group-by proximity; default 3m); "
+                  "groups by anything else are split by it")
       ->type_name("LENGTH")
       ->group(kGroup);
   command.add_flag("--group-contacts", options.group_contacts, "Put contacts into groups too")
@@ -78,9 +82,9 @@ Status check(const ClashResultInput& input) {
     return Error{ErrorCode::usage, "only groups have a size", "--sort", "add --group-by"};
   if (input.group_contacts && input.group_by.empty())
     return Error{ErrorCode::usage, "there are no groups", "--group-contacts", "add --group-by"};
-  if (!input.group_distance.empty() && input.group_by != "proximity")
-    return Error{ErrorCode::usage, "is for groups by proximity", "--group-distance",
-                 "add --group-by proximity"};
+  if (!input.group_distance.empty() && input.group_by.empty())
+    return Error{ErrorCode::usage, "there are no groups", "--group-distance",
+                 "add --group-by proximity, or by what is to be split"};
   if (const Result<clash::GroupRules> rules = rules_of(input); !rules) return rules.error();
   return {};
 }
@@ -157,20 +161,10 @@ clash::Class failing_class(const std::string& fail_on) {
 
 /// Whether a result or a pair stops --fail-on; says how many only may be as bad. An object that
 /// could not be read whole is in many models every night: it is reported, and --strict stops at it.
-bool has_failing_pair(const clash::Findings& findings, const std::string& fail_on,
-                      Console& console) {
-  const clash::Class worst = failing_class(fail_on);
-  std::uint64_t surely = 0, perhaps = 0;
+bool has_failing_pair(const clash::Findings& findings, const FailingPairs& failing,
+                      const std::string& fail_on, Console& console) {
+  const auto& [surely, perhaps] = failing;
   const clash::NotComparedCounts lacks = clash::counts_of(findings.tests);
-  for (const clash::Report& test : findings.tests) {
-    if (worst <= clash::Class::contact) surely += test.unlisted.contacts;
-    for (const clash::Pair& pair : test.pairs) {
-      if (pair.allowed < 0 && pair.cls >= worst)
-        ++surely;
-      else if (pair.severest >= worst)
-        ++perhaps;
-    }
-  }
   if (perhaps > 0)
     console.note(
         fmt::format("--fail-on {}: {} that may be as bad as far as is known (UNCERTAIN), "
@@ -224,11 +218,28 @@ std::string first_of(const std::vector<std::string>& names) {
 
 }  // namespace
 
-ExitCode clash_exit_code(const clash::Findings& findings, const std::string& fail_on,
-                         const InputOptions& input, const Loaded& loaded, Console& console) {
+FailingPairs failing_pairs(const clash::Findings& findings, const std::string& fail_on) {
+  FailingPairs failing;
+  if (fail_on.empty()) return failing;
+  const clash::Class worst = failing_class(fail_on);
+  for (const clash::Report& test : findings.tests) {
+    if (worst <= clash::Class::contact) failing.surely += test.unlisted.contacts;
+    for (const clash::Pair& pair : test.pairs) {
+      if (pair.allowed < 0 && pair.cls >= worst)
+        ++failing.surely;
+      else if (pair.severest >= worst)
+        ++failing.perhaps;
+    }
+  }
+  return failing;
+}
+
+ExitCode clash_exit_code(const clash::Findings& findings, const FailingPairs& failing,
+                         const std::string& fail_on, const InputOptions& input,
+                         const Loaded& loaded, Console& console) {
   const std::vector<std::string> tests = empty_tests(findings);
   if (!fail_on.empty()) {
-    const bool fails = has_failing_pair(findings, fail_on, console);
+    const bool fails = has_failing_pair(findings, failing, fail_on, console);
     const std::string rest = unread_rest(*loaded.model);
     if (!rest.empty())
       console.warn(fmt::format("--fail-on {}: not everything was compared: {}", fail_on, rest));

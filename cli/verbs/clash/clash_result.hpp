@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -42,6 +43,17 @@ void count_costs(Stats& stats, const clash::Findings& findings, const model::Mod
                                                            const clash::Findings& findings,
                                                            const model::Model& model);
 
+/// Results that stop --fail-on.
+struct FailingPairs {
+  std::uint64_t surely = 0;
+  std::uint64_t perhaps = 0;  ///< that may be as bad, as far as is known
+};
+
+/// Counts them in findings that still have the results of all classes; `fail_on` is --fail-on as
+/// written, empty if it is not given.
+[[nodiscard]] FailingPairs failing_pairs(const clash::Findings& findings,
+                                         const std::string& fail_on);
+
 /// Returns the exit code of a clash run; `fail_on` is --fail-on as written, empty if it is not
 /// given. Prints on standard error those reasons that standard output does not show.
 ///
@@ -49,8 +61,8 @@ void count_costs(Stats& stats, const clash::Findings& findings, const model::Mod
 /// class of --fail-on or a worse one, where a pair was not compared, where a file ends early and
 /// where a test compared nothing, as a set of it is empty. Else it is `partial` where --strict is
 /// given and something was skipped, or a set or a discipline that a matrix checks is empty.
-[[nodiscard]] ExitCode clash_exit_code(const clash::Findings& findings, const std::string& fail_on,
-                                       const InputOptions& input, const Loaded& loaded,
-                                       Console& console);
+[[nodiscard]] ExitCode clash_exit_code(const clash::Findings& findings, const FailingPairs& failing,
+                                       const std::string& fail_on, const InputOptions& input,
+                                       const Loaded& loaded, Console& console);
 
 }  // namespace strake::cli

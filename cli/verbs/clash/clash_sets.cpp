@@ -99,9 +99,9 @@ Result<ChosenSets> choose_sets(Session& session, const Loaded& loaded, const Set
     if (!picked) return picked.error();
     side.members = std::move(picked->any);
     side.name = joined(side.selections);
-    for (const auto& [message, mend] : picked->idle)
+    for (const IdleSelection& idle : picked->idle)
       chosen.diagnostics.add(Severity::warning, "selection-picks-nothing",
-                             message + " (" + mend + ")", side.option);
+                             idle.message + " (" + idle.mend + ")", side.option);
   }
   return chosen;
 }

@@ -24,6 +24,9 @@ enum class GroupBy : std::uint8_t {
   proximity,
   test,
   files,  ///< the pair of files of the two objects
+  /// The pair of what the two are parts of: of each the nearest group with a name of its own (an
+  /// equipment, a branch, a structure), or its file where there is none.
+  assembly,
 };
 
 enum class SortBy : std::uint8_t {
@@ -34,11 +37,14 @@ enum class SortBy : std::uint8_t {
 
 struct GroupRules {
   GroupBy by = GroupBy::element;
-  double distance_mm = 3000;  ///< for GroupBy::proximity; at least 1 mm
+  double distance_mm = 3000;  ///< for GroupBy::proximity and `apart`; at least 1 mm
   SortBy sort = SortBy::depth;
   /// Contacts are mostly meant, and so many that they join everything to everything: they belong to
   /// no group unless asked for.
   bool contacts = false;
+  /// Results of a group are split by proximity as well: a group is about one element, say, at one
+  /// place.
+  bool apart = false;
 };
 
 /// A result of findings, which is findings.tests[test].pairs[pair].
@@ -48,8 +54,9 @@ struct ResultRef {
 };
 
 struct Group {
-  /// A hash, as a clash key is, of what the group is about: the object, the test or the files; by
-  /// proximity the lowest key of its results, so that it stays while that result does.
+  /// A hash, as a clash key is, of what the group is about: the object, the test, the files or the
+  /// assemblies; by proximity and of groups split by it the lowest key of its results, so that it
+  /// stays while that result does.
   std::string id;
   std::string name;
   std::vector<ResultRef> results;  ///< in the order of the findings
@@ -71,7 +78,7 @@ struct Grouping {
 [[nodiscard]] Result<Grouping> group_results(const Findings& findings, const model::Model& model,
                                              const GroupRules& rules);
 
-/// Returns "element", "proximity", "test" or "files".
+/// Returns "element", "proximity", "test", "files" or "assembly".
 [[nodiscard]] std::string_view name(GroupBy by);
 
 }  // namespace strake::clash

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "strake/clash/clash.hpp"
 #include "strake/clash/group.hpp"
@@ -34,6 +35,30 @@ struct RulesSource {
   Hash128 hash;      ///< the hash of its bytes
 };
 
+/// How CSV is written. By default as RFC 4180 has it. A spreadsheet that is opened by a double
+/// click goes by its own language: where the comma is the decimal point, cells end with a
+/// semicolon.
+struct CsvForm {
+  char separator = ',';  ///< between cells: ',', ';' or a tab
+  char decimal = '.';  ///< the decimal point: '.' or ','; a comma only where it separates no cells
+  bool mark = false;   ///< whether the byte order mark comes first, by which Excel knows UTF-8
+};
+
+/// The classes of the results that a report has.
+struct WrittenClasses {
+  bool hit = true, contact = true, clearance_violation = true;
+
+  [[nodiscard]] bool has(clash::Class cls) const {
+    return (cls == clash::Class::hit && hit) || (cls == clash::Class::contact && contact) ||
+           (cls == clash::Class::clearance_violation && clearance_violation);
+  }
+  [[nodiscard]] bool all() const { return hit && contact && clearance_violation; }
+};
+
+/// Takes the results of all other classes out of the findings, but for those that may turn out to
+/// be of one of them (clash::Pair::severest). What the tests count stays as it is.
+void leave_out_others(clash::Findings& findings, const WrittenClasses& classes);
+
 /// What a report is written from.
 struct ClashContents {
   const clash::Findings& findings;
@@ -43,6 +68,13 @@ struct ClashContents {
   /// What reading and placing the model noticed (model::Model::diagnostics, then
   /// model::Scene::diagnostics). Without it the result does not say what is missing.
   const Diagnostics* loading = nullptr;
+  /// Attributes that JSON and CSV have of both objects, in this order: of an object those that it
+  /// states, or inherits from the nearest group above that does.
+  std::vector<std::string> columns = {};
+  CsvForm csv = {};
+  /// What leave_out_others() was called with: JSON says so, lest a comparison take what is not
+  /// there for mended.
+  WrittenClasses classes = {};
 };
 
 /// Writes the document of schemas/clash.schema.json, one result a line, streamed: memory does not
@@ -51,7 +83,8 @@ struct ClashContents {
 [[nodiscard]] Status write_clash_json(const ClashContents& contents, Sink sink,
                                       const parallel::Context& context = {});
 
-/// Writes one header line and one line per pair, comma-separated (RFC 4180), lines ended by CRLF.
+/// Writes one header line and one line per pair (RFC 4180 but for what contents.csv says), lines
+/// ended by CRLF.
 [[nodiscard]] Status write_clash_csv(const ClashContents& contents, Sink sink,
                                      const parallel::Context& context = {});
 

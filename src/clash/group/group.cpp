@@ -2,8 +2,10 @@
 #include "strake/clash/group.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -47,7 +49,7 @@ Partition by_value(std::span<const GroupingItem> items, Value&& value) {
 }
 
 Partition partition_of(std::span<const GroupingItem> items, const model::Model& model,
-                       const GroupRules& rules) {
+                       const model::Assemblies* assemblies, const GroupRules& rules) {
   switch (rules.by) {
     case GroupBy::element:
       return by_element(items);
@@ -57,9 +59,14 @@ Partition partition_of(std::span<const GroupingItem> items, const model::Model& 
       return by_value(items, [](const GroupingItem& item) { return item.test; });
     case GroupBy::files:
       return by_value(items, [&](const GroupingItem& item) { return files_of(model, *item.pair); });
+    case GroupBy::assembly:
+      return by_assembly(items, model, *assemblies);
   }
   return {};
 }
+
+/// Whether groups by something else than proximity are split by it.
+bool splits(const GroupRules& rules) { return rules.apart && rules.by != GroupBy::proximity; }
 
 void add(Group& group, const GroupingItem& item) {
   const Pair& pair = *item.pair;
@@ -86,33 +93,62 @@ std::string place_of(const geometry::Box3d& box) {
 
 class Namer {
  public:
-  Namer(const Findings& findings, const model::Model& model) : findings_(findings), model_(model) {}
+  /// `assemblies` may be null where groups are not by assembly.
+  Namer(const Findings& findings, const model::Model& model, const model::Assemblies* assemblies)
+      : findings_(findings), model_(model), assemblies_(assemblies) {}
 
-  void name(Group& group, GroupBy by, const Partition& partition, std::size_t number) const {
+  void name(Group& group, const GroupRules& rules, const Partition& partition,
+            std::size_t number) const {
     Hasher hasher;
-    hasher.add(clash::name(by));
+    hasher.add(clash::name(rules.by));
     const Report& test = findings_.tests[group.results.front().test];
     const Pair& pair = test.pairs[group.results.front().pair];
-    if (by == GroupBy::element) {
+    if (rules.by == GroupBy::element) {
       const model::Object& object = model_.object(partition.about[number]);
       hasher.add(model_.files[object.file].label).add(object.id);
       group.name = object.name.empty() ? object.id : object.name;
-    } else if (by == GroupBy::test) {
+    } else if (rules.by == GroupBy::test) {
       hasher.add(test.name);
       group.name = test.name;
-    } else if (by == GroupBy::files) {
+    } else if (rules.by == GroupBy::files) {
       const Labels labels = files_of(model_, pair);
       hasher.add(labels.first).add(labels.second);
       group.name =
           labels.first == labels.second ? labels.first : labels.first + " and " + labels.second;
+    } else if (rules.by == GroupBy::assembly) {
+      name_by_assembly(group, pair, hasher);
     } else {
       hasher.add(lowest_key(group));
       group.name = place_of(group.box_mm);
+    }
+    if (splits(rules)) {
+      hasher.add(lowest_key(group));
+      group.name += (group.name.empty() ? "" : " ") + place_of(group.box_mm);
     }
     group.id = key_text(hasher.value());
   }
 
  private:
+  /// An assembly, or a file: ordered by what lasts.
+  struct Whole {
+    std::string file, path, name;
+    friend auto operator<=>(const Whole&, const Whole&) = default;
+  };
+
+  [[nodiscard]] Whole whole_of(model::ObjectId id) const {
+    const std::string& file = model_.files[model_.object(id).file].label;
+    const model::GroupId assembly = assemblies_->of(id);
+    if (assembly == model::GroupId::none) return {file, {}, file};
+    return {file, assemblies_->path(assembly), model_.groups[index(assembly)].name};
+  }
+
+  void name_by_assembly(Group& group, const Pair& pair, Hasher& hasher) const {
+    const std::pair<Whole, Whole> wholes = std::minmax(whole_of(pair.a), whole_of(pair.b));
+    for (const Whole& whole : {wholes.first, wholes.second}) hasher.add(whole.file).add(whole.path);
+    group.name = wholes.first == wholes.second ? "within " + wholes.first.name
+                                               : wholes.first.name + " and " + wholes.second.name;
+  }
+
   [[nodiscard]] std::string lowest_key(const Group& group) const {
     std::string lowest;
     for (const ResultRef& r : group.results) {
@@ -122,8 +158,10 @@ class Namer {
     }
     return lowest;
   }
+
   const Findings& findings_;
   const model::Model& model_;
+  const model::Assemblies* assemblies_;
 };
 
 void sort_groups(std::vector<Group>& groups, SortBy by) {
@@ -148,11 +186,15 @@ Result<Grouping> group_results(const Findings& findings, const model::Model& mod
     return Error{ErrorCode::usage, "the distance of groups is less than a millimetre",
                  "group distance", "give a length such as 3m"};
   const std::vector<GroupingItem> items = items_of(findings, rules.contacts);
-  const Partition partition = partition_of(items, model, rules);
+  std::optional<model::Assemblies> assemblies;
+  if (rules.by == GroupBy::assembly) assemblies.emplace(model);
+  const model::Assemblies* const known = assemblies ? &*assemblies : nullptr;
+  Partition partition = partition_of(items, model, known, rules);
+  if (splits(rules)) partition = apart(items, partition, rules.distance_mm);
   std::vector<Group> groups(partition.count);
   for (std::size_t i = 0; i < items.size(); ++i) add(groups[partition.group[i]], items[i]);
-  const Namer namer(findings, model);
-  for (std::size_t g = 0; g < groups.size(); ++g) namer.name(groups[g], rules.by, partition, g);
+  const Namer namer(findings, model, known);
+  for (std::size_t g = 0; g < groups.size(); ++g) namer.name(groups[g], rules, partition, g);
   sort_groups(groups, rules.sort);
   return Grouping{rules, std::move(groups)};
 }
@@ -167,6 +209,8 @@ std::string_view name(GroupBy by) {
       return "test";
     case GroupBy::files:
       return "files";
+    case GroupBy::assembly:
+      return "assembly";
   }
   return "";
 }

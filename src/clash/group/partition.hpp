@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "model/assemblies.hpp"
 #include "strake/clash/clash.hpp"
 
 namespace strake::clash {
@@ -18,7 +19,7 @@ struct GroupingItem {
 /// The numbers of groups, one per item; `about` is the object that a group is about.
 struct Partition {
   std::vector<std::uint32_t> group;
-  std::vector<model::ObjectId> about;  ///< filled by by_element() only
+  std::vector<model::ObjectId> about;  ///< of groups by element only
   std::uint32_t count = 0;
 };
 
@@ -27,5 +28,13 @@ struct Partition {
 
 /// Groups items by single linkage of their points.
 [[nodiscard]] Partition by_proximity(std::span<const GroupingItem> items, double distance_mm);
+
+/// Groups items by the assemblies of the two objects, or their files where they have none.
+[[nodiscard]] Partition by_assembly(std::span<const GroupingItem> items, const model::Model& model,
+                                    const model::Assemblies& assemblies);
+
+/// Splits groups into those whose points are linked by single linkage.
+[[nodiscard]] Partition apart(std::span<const GroupingItem> items, const Partition& together,
+                              double distance_mm);
 
 }  // namespace strake::clash

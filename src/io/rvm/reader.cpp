@@ -15,6 +15,7 @@
 #include "io/rvm/text_variant.hpp"
 #include "io/source/reader_support.hpp"
 #include "io/source/text_decoder.hpp"
+#include "model/assemblies.hpp"
 
 namespace strake::io {
 
@@ -51,20 +52,10 @@ std::optional<std::string> path_id(const RvmModel& built, std::uint32_t group) {
   return id;
 }
 
-/// Whether a name is like "BOX 2 of EQUIPMENT /P-101": an element that its database has no name for
-/// is called by its type and its number among those of its owner.
-bool is_counted(std::string_view name) {
-  constexpr std::string_view kDigits = "0123456789";
-  const std::size_t number = name.find(' ') + 1;
-  if (number < 2) return false;
-  const std::size_t end = name.find_first_not_of(kDigits, number);
-  return end != std::string_view::npos && end > number && name.substr(end).starts_with(" of ");
-}
-
 /// Whether a group or one above it is called by a number only.
 bool is_counted(const RvmModel& built, std::uint32_t group) {
   for (std::uint32_t g = group; g != kNoGroup; g = built.groups[g].parent)
-    if (is_counted(built.model.groups[g].name)) return true;
+    if (model::is_counted_name(built.model.groups[g].name)) return true;
   return false;
 }
 

@@ -91,6 +91,10 @@ class ClashDocumentReader {
       take_exempted();
     else if (key == "not_compared")
       take_not_compared();
+    else if (key == "classes")
+      throw DocumentFault{"the document",
+                          "has results of some classes only (--class), so that all others would "
+                          "seem to be mended or new"};
     else
       json_.skip();
   }

@@ -37,6 +37,20 @@ void rules(std::string& out, const RulesSource& source) {
   out += ", \"hash\": \"" + source.hash.text() + "\"}";
 }
 
+void classes(std::string& out, const WrittenClasses& written) {
+  out += "\"classes\": [";
+  bool first = true;
+  for (const clash::Class cls :
+       {clash::Class::hit, clash::Class::contact, clash::Class::clearance_violation}) {
+    if (!written.has(cls)) continue;
+    out += first ? "\"" : ", \"";
+    first = false;
+    out += name(cls);
+    out += '"';
+  }
+  out += ']';
+}
+
 /// Appends what a diagnostic, and a count of such, begins with.
 void begin_diagnostic(std::string& out, std::string_view code, Severity severity) {
   out += "{\"code\": ";
@@ -72,7 +86,7 @@ void groups(BufferedWriter& buffer, const clash::Grouping& grouping) {
   out += "\"groups\": {\"by\": \"";
   out += name(grouping.rules.by);
   out += "\"";
-  if (grouping.rules.by == clash::GroupBy::proximity) {
+  if (grouping.rules.by == clash::GroupBy::proximity || grouping.rules.apart) {
     out += ", \"distance_mm\": ";
     append_mm(out, grouping.rules.distance_mm);
   }
@@ -152,6 +166,10 @@ Status write_clash_json(const ClashContents& contents, Sink sink,
   out += ",\n";
   files(out, contents.model);
   out += ",\n";
+  if (!contents.classes.all()) {
+    classes(out, contents.classes);
+    out += ",\n";
+  }
   if (contents.rules != nullptr) {
     rules(out, *contents.rules);
     out += ",\n";

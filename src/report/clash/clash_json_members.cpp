@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
 #include "clash/rules/tolerance_lengths.hpp"
 #include "core/text_encoding.hpp"
+#include "report/clash/attribute_columns.hpp"
 #include "report/json/json_writer.hpp"
 #include "report/text/formatting.hpp"
 
@@ -56,16 +59,33 @@ namespace {
 using clash::Pair;
 using clash::Report;
 
-/// Appends the beginning of an object, which further members may follow.
-void begin_object(std::string& out, const model::Model& model, model::ObjectId id) {
-  const model::Object& o = model.object(id);
-  out += '{';
-  append_identity(out, o.id, o.name, model.files[o.file].label);
-  if (o.positional_id) out += ", \"positional_id\": true";
+/// Appends the attributes that are asked for and that the object states.
+void attributes(std::string& out, const ClashContents& contents, model::ObjectId id) {
+  out += ", \"attributes\": {";
+  bool first = true;
+  for (const std::string& attribute : contents.columns) {
+    const std::optional<std::string> value = stated_text(contents.model, id, attribute);
+    if (!value) continue;
+    out += first ? "" : ", ";
+    first = false;
+    append_json(out, attribute);
+    out += ": ";
+    append_json(out, *value);
+  }
+  out += '}';
 }
 
-void object(std::string& out, const model::Model& model, model::ObjectId id) {
-  begin_object(out, model, id);
+/// Appends the beginning of an object, which further members may follow.
+void begin_object(std::string& out, const ClashContents& contents, model::ObjectId id) {
+  const model::Object& o = contents.model.object(id);
+  out += '{';
+  append_identity(out, o.id, o.name, contents.model.files[o.file].label);
+  if (o.positional_id) out += ", \"positional_id\": true";
+  if (!contents.columns.empty()) attributes(out, contents, id);
+}
+
+void object(std::string& out, const ClashContents& contents, model::ObjectId id) {
+  begin_object(out, contents, id);
   out += '}';
 }
 
@@ -92,9 +112,9 @@ void witness(std::string& out, const Pair& p) {
   }
 }
 
-void side(std::string& out, const model::Model& model, const Report& report, model::ObjectId id,
+void side(std::string& out, const ClashContents& contents, const Report& report, model::ObjectId id,
           std::uint32_t part, clash::Level level) {
-  begin_object(out, model, id);
+  begin_object(out, contents, id);
   out += ", \"part\": " + std::to_string(part);
   if (report.levels) {
     out += ", \"level\": \"";
@@ -202,9 +222,9 @@ void append_result(std::string& out, const ClashContents& contents, std::size_t 
          "\", \"test\": " + std::to_string(test);
   if (group) out += ", \"group\": " + std::to_string(*group);
   out += ", \"a\": ";
-  side(out, model, report, p.a, p.part_a, p.level_a);
+  side(out, contents, report, p.a, p.part_a, p.level_a);
   out += ", \"b\": ";
-  side(out, model, report, p.b, p.part_b, p.level_b);
+  side(out, contents, report, p.b, p.part_b, p.level_b);
   out += ", \"class\": \"";
   out += name(p.cls);
   out += '"';
@@ -249,9 +269,9 @@ void append_exempted_pair(std::string& out, const ClashContents& contents, std::
   out += "{\"test\": " + std::to_string(test) + ", \"rule\": ";
   append_json(out, contents.findings.tests[test].exempted[pair.rule].rule);
   out += ", \"a\": ";
-  object(out, contents.model, pair.a);
+  object(out, contents, pair.a);
   out += ", \"b\": ";
-  object(out, contents.model, pair.b);
+  object(out, contents, pair.b);
   out += '}';
 }
 
@@ -260,10 +280,10 @@ void append_not_compared(std::string& out, const ClashContents& contents, std::s
   out += "{\"test\": " + std::to_string(test) + ", \"code\": ";
   append_json(out, what.code);
   out += ", \"a\": ";
-  object(out, contents.model, what.a);
+  object(out, contents, what.a);
   if (what.b) {
     out += ", \"b\": ";
-    object(out, contents.model, *what.b);
+    object(out, contents, *what.b);
   }
   out += '}';
 }

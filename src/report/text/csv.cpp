@@ -54,12 +54,30 @@ void append_csv(std::string& out, std::string_view raw) {
   out += '"';
 }
 
-void append_csv_identity(std::string& out, const model::Model& model, model::ObjectId id) {
-  const model::Object& o = model.object(id);
-  for (const std::string* text : {&o.id, &o.name, &model.files[o.file].label}) {
-    append_csv(out, *text);
-    out += ',';
-  }
+CsvRow& CsvRow::text(std::string_view raw) {
+  append_csv(cell(), raw);
+  return *this;
+}
+
+CsvRow& CsvRow::word(std::string_view word) {
+  cell() += word;
+  return *this;
+}
+
+CsvRow& CsvRow::count(std::uint64_t number) { return word(std::to_string(number)); }
+
+CsvRow& CsvRow::number(double value, AppendNumber append) {
+  const std::size_t begin = cell().size();
+  append(out_, value);
+  if (form_.decimal == '.') return *this;
+  const std::size_t point = out_.find('.', begin);
+  if (point != std::string::npos) out_[point] = form_.decimal;
+  return *this;
+}
+
+CsvRow& CsvRow::blank(std::size_t cells) {
+  for (std::size_t i = 0; i < cells; ++i) cell();
+  return *this;
 }
 
 }  // namespace strake::report

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
-#include "strake/model/model.hpp"
+#include "strake/report/clash.hpp"
 
 namespace strake::report {
 
@@ -13,7 +15,33 @@ namespace strake::report {
 /// foreign file may do anything.
 void append_csv(std::string& out, std::string_view raw);
 
-/// Appends what names an object: its id, name and file, a comma behind each.
-void append_csv_identity(std::string& out, const model::Model& model, model::ObjectId id);
+/// Appends the cells of a line one by one, in the form that is asked for.
+class CsvRow {
+ public:
+  /// Appends a number to a text, with a decimal point.
+  using AppendNumber = void (*)(std::string& out, double value);
+
+  CsvRow(std::string& out, const CsvForm& form) : out_(out), form_(form) {}
+
+  /// Begins a cell and returns the text to append it to: of letters, digits and blanks alone.
+  std::string& cell() {
+    if (!first_) out_ += form_.separator;
+    first_ = false;
+    return out_;
+  }
+  /// Appends a name from a file, quoted where needed.
+  CsvRow& text(std::string_view raw);
+  /// Appends a word of ours as it is.
+  CsvRow& word(std::string_view word);
+  CsvRow& count(std::uint64_t number);
+  CsvRow& number(double value, AppendNumber append);
+  CsvRow& blank(std::size_t cells = 1);
+  void end() { out_ += "\r\n"; }
+
+ private:
+  std::string& out_;
+  const CsvForm& form_;
+  bool first_ = true;
+};
 
 }  // namespace strake::report

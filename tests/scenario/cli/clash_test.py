@@ -91,6 +91,32 @@ class Clash(Scenario):
         self.assertEqual(report['results'], [])
         self.assertIn(('empty-set', 'set A, nobody'), [(m['code'], m['where']) for m in report['messages']])
 
+    def test_an_empty_set_is_told_as_draw_tells_it(self):
+        self.two_files()
+        for selection, mend in (('nobody', 'a bare pattern is compared with names'),
+                                ('@Tag = 7', "'strake info --attributes' lists the attributes"),
+                                ('type = sphere', "'strake info --objects 20' lists what")):
+            clash = self.run_strake('clash', 'a.obj', '--a', selection)
+            draw = self.run_strake('draw', 'a.obj', '--select', selection, '-o', 'x.svg')
+            self.assertEqual((clash.returncode, draw.returncode), (0, 2))
+            said = draw.stderr.splitlines()[-1].split('--select: ')[1]
+            self.assertIn(f"'{selection}' picks no object", said)
+            self.assertIn(mend, said)
+            self.assertIn(f'warning selection-picks-nothing: --a: {said}\n', clash.stderr)
+
+    def test_a_file_given_twice_is_told(self):
+        self.two_files()
+        (self.folder / 'link.obj').symlink_to('a.obj')
+        for verb in (['clash', '--json'], ['draw', '--json'], ['info', '--json']):
+            for second, said in (('a.obj', 'is given more than once: '), ('./a.obj', "is the file 'a.obj' as well: "),
+                                 ('link.obj', "is the file 'a.obj' as well: ")):
+                done = self.run_strake(*verb, 'a.obj', 'b.obj', second)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(f'warning file-given-twice: {second}: {said}', done.stderr)
+            self.assertNotIn('file-given-twice', self.run_strake(*verb, 'a.obj', 'b.obj').stderr)
+        messages = json.loads(self.run_strake('clash', 'a.obj', 'a.obj', '--json').stdout)['messages']
+        self.assertIn('file-given-twice', [m['code'] for m in messages])
+
     def test_an_empty_set_is_no_success(self):
         self.two_files()
         for sets, said in ((['--a', 'nobody*'], 'set A is empty (nobody*)'),

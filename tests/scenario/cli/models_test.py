@@ -51,6 +51,27 @@ class Info(Scenario):
         self.assertEqual(self.run_strake('clash', 'a.obj', '--a', f"color = '{listed[0]['colors'][0]}'",
                                          '--strict').returncode, 0)
 
+    def test_attributes_are_listed_with_counts_and_values(self):
+        self.text('generate', 'ship', '--objects', 300, '-o', 'ship.glb')
+        self.write('a.obj', cube('a0', 0, (0, 0, 0), 100))
+        document = json.loads(self.text('info', 'a.obj', 'ship.glb', '--attributes', '--objects', 300, '--json'))
+        none, listed = (f['attributes'] for f in document['files'])
+        self.assertEqual(none, [])
+        self.assertEqual([a['name'] for a in listed], sorted(a['name'] for a in listed))
+        stated = {}  # by the list of objects: 'info --objects' works it out by another way
+        for o in json.loads(self.text('info', 'ship.glb', '--objects', 1000, '--json'))['objects']:
+            for name in {name for name, _ in o['attributes']}:
+                stated.setdefault(name, []).append({value for of, value in o['attributes'] if of == name})
+        self.assertEqual({a['name']: (a['objects'], a['values']) for a in listed},
+                         {name: (len(sets), len(set.union(*sets))) for name, sets in stated.items()})
+        for a in listed:
+            self.assertEqual(len(a['first_values']), min(3, a['values']))
+            self.assertLessEqual(set(a['first_values']), set.union(*stated[a['name']]))
+        plain = self.text('info', 'a.obj', 'ship.glb', '--attributes')
+        self.assertIn('  attributes  none\n', plain)
+        self.assertRegex(plain, r"\n  @discipline +300 +\d+  '[A-Z-]+', '[A-Z-]+', '[A-Z-]+', …\n")
+        self.assertNotIn('attributes', self.text('info', 'ship.glb', '--json'))
+
     def test_stats_say_where_the_time_went(self):
         self.two_files()
         done = self.run_strake('info', 'a.obj', '--stats', '--quiet', '--json')

@@ -83,6 +83,8 @@ class Schemas(unittest.TestCase):
         self.assertGreaterEqual(ship['total']['objects'], 300)
         listed = self.follows(self.run_strake('info', 'ship.glb', '--objects', 3, '--json'), 'info')
         self.assertEqual(len(listed['objects']), 3)
+        stating = self.follows(self.run_strake('info', 'odd.obj', 'ship.glb', '--attributes', '--json'), 'info')
+        self.assertEqual([len(f['attributes']) > 1 for f in stating['files']], [False, True])
         odd = self.follows(self.run_strake('info', 'odd.obj', 'ship.glb', '--json'), 'info')
         self.assertEqual(len(odd['files']), 2)
         self.assertGreater(odd['skipped'], 0)
@@ -130,9 +132,13 @@ class Schemas(unittest.TestCase):
         drawn = self.follows(self.run_strake('draw', 'odd.obj', '--weld', '0', '--json'), 'view')
         self.assertEqual(drawn['settings']['weld_mm'], 0)
         empty = self.follows(self.run_strake('clash', 'odd.obj', 'ship.glb', '--json'), 'clash')
+        some = self.follows(self.run_strake('clash', 'ship.glb', '--class', 'hit', '--columns', '@discipline,@nothing',
+                                           '--json'), 'clash')
+        self.assertEqual(some['classes'], ['HIT'])
+        self.assertIn('discipline', some['results'][0]['a']['attributes'])
         volumes = self.follows(self.run_strake('clash', 'ship.glb', '--volumes', '--json'), 'clash')
         self.assertTrue(all('volume_mm3' in r for r in volumes['results'] if r['class'] == 'HIT'))
-        for by in 'element', 'proximity', 'test', 'files':
+        for by in 'element', 'proximity', 'test', 'files', 'assembly':
             grouped = self.follows(self.run_strake('clash', 'ship.glb', '--group-by', by, '--json'), 'clash')
             self.assertEqual([r['class'] == 'CONTACT' for r in grouped['results']],
                              ['group' not in r for r in grouped['results']])
@@ -142,6 +148,9 @@ class Schemas(unittest.TestCase):
             self.assertEqual(sum(sizes), len(grouped['results']))
             for number, size in enumerate(sizes):
                 self.assertEqual(sum(r['group'] == number for r in grouped['results']), size)
+        split = self.follows(self.run_strake('clash', 'ship.glb', '--group-by', 'element', '--group-distance', '2m', '--json'),
+                             'clash')
+        self.assertEqual(split['groups']['distance_mm'], 2000)
         self.assertEqual([file['label'] for file in empty['files']], ['odd.obj', 'ship.glb'])
 
     def test_clash_with_depths_that_a_work_limit_ended(self):

@@ -86,7 +86,8 @@ TEST(Groups, IdsStayWhenOtherResultsComeAndGo) {
   const GroupRules largest{.by = GroupBy::element, .sort = SortBy::size};
   EXPECT_EQ(groups(today, model, largest)[0].id, groups(tomorrow, model, largest)[0].id);
   std::set<std::string> ids;
-  for (const GroupBy by : {GroupBy::element, GroupBy::proximity, GroupBy::test, GroupBy::files})
+  for (const GroupBy by :
+       {GroupBy::element, GroupBy::proximity, GroupBy::test, GroupBy::files, GroupBy::assembly})
     for (const Group& g : groups(today, model, {.by = by})) {
       EXPECT_EQ(g.id.size(), 26U);
       EXPECT_TRUE(ids.insert(g.id).second);
@@ -108,6 +109,70 @@ TEST(Groups, ByTestAndFiles) {
   EXPECT_EQ(by_files[0].name, "t.obj and u.obj");
   EXPECT_EQ(by_files[0].results.size(), 4U);
   EXPECT_EQ(by_files[1].name, "t.obj");
+}
+
+/// A site of two equipments: /P has boxes in a part that only counts, /Q one box and a nozzle; and
+/// a box in no group, of another file.
+model::Model assembled() {
+  model::Model model = named_objects(5);
+  model.groups = {{"/SITE", model::GroupId::none},
+                  {"/P", model::GroupId{0}},
+                  {"SUBEQUIPMENT 1 of EQUIPMENT /P", model::GroupId{1}},
+                  {"/Q", model::GroupId{0}}};
+  const auto put = [&](std::size_t o, const char* name, std::uint32_t parent) {
+    model.objects[o].name = name;
+    model.objects[o].parent = model::GroupId{parent};
+  };
+  put(0, "BOX 1 of SUBEQUIPMENT 1 of EQUIPMENT /P", 2);
+  put(1, "BOX 1 of EQUIPMENT /P", 1);
+  put(2, "/Q", 0);  // an equipment that is an object, too
+  put(3, "/Q/N1", 3);
+  model.objects[4].file = 1;
+  return model;
+}
+
+TEST(Groups, ByWhatTheTwoArePartsOf) {
+  const model::Model model = assembled();
+  const Findings findings =
+      findings_of({pair(0, 1), pair(0, 2), pair(0, 3), pair(1, 3), pair(2, 3), pair(1, 4)});
+  const auto found = groups(findings, model, {.by = GroupBy::assembly, .sort = SortBy::size});
+  std::vector<std::pair<std::string, std::size_t>> told;
+  for (const Group& group : found) told.emplace_back(group.name, group.results.size());
+  std::ranges::sort(told);
+  EXPECT_EQ(told, (std::vector<std::pair<std::string, std::size_t>>{
+                      {"/P and /Q", 3}, {"/P and u.obj", 1}, {"within /P", 1}, {"within /Q", 1}}));
+  EXPECT_EQ(found[0].name, "/P and /Q");
+}
+
+TEST(Groups, ByAssemblyKeepTheirIds) {
+  const model::Model model = assembled();
+  const GroupRules rules{.by = GroupBy::assembly};
+  const auto today = groups(findings_of({pair(0, 2)}), model, rules);
+  const auto tomorrow = groups(findings_of({pair(1, 3, {1, 2, 3}, -1)}), model, rules);
+  EXPECT_EQ(today[0].id, tomorrow[0].id);
+  EXPECT_NE(today[0].id, groups(findings_of({pair(0, 1)}), model, rules)[0].id);
+}
+
+TEST(Groups, OfAnElementAreSplitByPlaceWhereAskedFor) {
+  const Findings findings = findings_of({pair(0, 5, {0, 0, 0}), pair(1, 5, {900, 0, 0}),
+                                         pair(2, 5, {1800, 0, 0}), pair(3, 5, {9000, 0, 0})});
+  const model::Model model = named_objects(6);
+  const auto found =
+      groups(findings, model, {.distance_mm = 1000, .sort = SortBy::size, .apart = true});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].name, "o5 at 0.9 0.0 0.0 m");
+  EXPECT_EQ(found[0].results, (std::vector<ResultRef>{{0, 0}, {0, 1}, {0, 2}}));
+  EXPECT_EQ(found[1].name, "o5 at 9.0 0.0 0.0 m");
+  EXPECT_NE(found[0].id, found[1].id);
+  EXPECT_EQ(groups(findings, model, {.distance_mm = 1000}).size(), 1U);
+  // By proximity there is nothing to split further.
+  GroupRules near{.by = GroupBy::proximity, .distance_mm = 1000};
+  const auto by_place = groups(findings, model, near);
+  near.apart = true;
+  const auto again = groups(findings, model, near);
+  ASSERT_EQ(again.size(), by_place.size());
+  EXPECT_EQ(again[0].id, by_place[0].id);
+  EXPECT_EQ(again[0].name, by_place[0].name);
 }
 
 TEST(Groups, SortedByVolumeAndSize) {
@@ -174,7 +239,8 @@ TEST(Groups, ProximityIsSingleLinkage) {
 
 TEST(Groups, NothingFoundAndBadDistance) {
   const model::Model model = named_objects(2);
-  for (const GroupBy by : {GroupBy::element, GroupBy::proximity, GroupBy::test, GroupBy::files})
+  for (const GroupBy by :
+       {GroupBy::element, GroupBy::proximity, GroupBy::test, GroupBy::files, GroupBy::assembly})
     EXPECT_TRUE(groups(findings_of({}), model, {.by = by}).empty());
   for (const double distance : {0.0, -1.0, std::nan("")})
     EXPECT_EQ(group_results(findings_of({}), model, {.distance_mm = distance}).error().code,

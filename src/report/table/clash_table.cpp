@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -11,6 +12,9 @@
 
 #include "core/number.hpp"
 #include "core/text_encoding.hpp"
+#include "report/table/group_table.hpp"
+#include "report/table/pair_table.hpp"
+#include "report/text/columns.hpp"
 #include "report/text/formatting.hpp"
 #include "strake/report/clash.hpp"
 
@@ -20,10 +24,7 @@ namespace {
 using clash::Pair;
 using clash::Report;
 
-constexpr std::size_t kClassColumns = 9, kNumberColumns = 10, kRelationColumns = 12;
-constexpr std::size_t kVolumeColumns = 14;
-constexpr std::size_t kFixedColumns = kClassColumns + kNumberColumns + kRelationColumns + 8;
-constexpr std::size_t kLeastName = 8;
+constexpr std::size_t kNumberColumns = 10, kLeastCell = 8;
 /// The widest bracket that is not shown: the grid alone may account for it, as for BORDERLINE, so d
 /// is known as well as its digits say, and nearly all meshes and primitives have such a bracket.
 constexpr double kUntoldWidthMm = 0.008;
@@ -56,19 +57,26 @@ struct ClassRows {
   clash::Class cls;
   std::string_view one, many;
   std::size_t count, listed, rows;
+  std::size_t unlisted = 0;  ///< of those that are not listed, as many as were only counted
 };
+
+std::size_t listed(const Report& report, clash::Class cls) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      report.pairs, [&](const Pair& p) { return p.cls == cls && p.allowed < 0; }));
+}
 
 /// Returns the rows of each class: a fifth for each, so that none hides the others, and the rest to
 /// those that need a decision before those that are mostly meant.
 std::array<ClassRows, 3> shares(const Report& report, std::size_t rows) {
   constexpr std::size_t kParts = 5;
   std::array<ClassRows, 3> all{{
-      {clash::Class::hit, "hit", "hits", report.count_hit, report.count_hit, 0},
-      {clash::Class::contact, "contact", "contacts", report.count_contact,
-       report.count_contact - report.unlisted.contacts, 0},
+      {clash::Class::hit, "hit", "hits", report.count_hit, 0, 0},
+      {clash::Class::contact, "contact", "contacts", report.count_contact, 0, 0,
+       report.unlisted.contacts},
       {clash::Class::clearance_violation, "clearance violation", "clearance violations",
-       report.count_clearance, report.count_clearance, 0},
+       report.count_clearance, 0, 0},
   }};
+  for (ClassRows& c : all) c.listed = listed(report, c.cls);
   const auto give = [&](ClassRows& c, std::size_t most) {
     const std::size_t given = std::min({most, rows, c.listed - c.rows});
     c.rows += given;
@@ -78,39 +86,6 @@ std::array<ClassRows, 3> shares(const Report& report, std::size_t rows) {
   for (ClassRows& c : all) give(c, share);
   for (const std::size_t i : {std::size_t{0}, std::size_t{2}, std::size_t{1}}) give(all[i], rows);
   return all;
-}
-
-std::string right_aligned(std::string text, std::size_t columns) {
-  if (text.size() < columns) text.insert(0, columns - text.size(), ' ');
-  return text;
-}
-
-void strip(std::string& line) {
-  while (!line.empty() && line.back() == ' ') line.pop_back();
-}
-
-struct TableRow {
-  std::string_view cls;
-  std::string d, range, volume;
-  std::string_view relation, a, b;
-};
-
-/// The widths of the columns; a column that is 0 wide is left out.
-struct Columns {
-  std::size_t range = 0, volume = 0, names = kLeastName;
-};
-
-std::string text_of(const TableRow& row, const Columns& columns) {
-  const auto number = [](const std::string& text, std::size_t width) {
-    return width == 0 ? std::string() : right_aligned(text, width) + "  ";
-  };
-  std::string line = fit_to_columns(row.cls, kClassColumns) + "  " + number(row.d, kNumberColumns) +
-                     number(row.range, columns.range) + number(row.volume, columns.volume) +
-                     fit_to_columns(row.relation, kRelationColumns) + "  " +
-                     fit_to_columns(row.a, columns.names) + "  " +
-                     fit_to_columns(row.b, columns.names);
-  strip(line);
-  return line + "\n";
 }
 
 /// Returns the bracket of d, rounded outward, where d may be another number than its digits say.
@@ -164,12 +139,23 @@ std::string not_compared(const Report& report, const model::Model& model) {
   return text.empty() ? text : "; not compared: " + text;
 }
 
+/// Returns how many of a class the report does not have: only counted, or of a class that is left
+/// out.
+std::string not_listed(const ClassRows& c) {
+  std::string text;
+  if (c.unlisted > 0) text = std::to_string(c.unlisted) + " not listed";
+  if (c.listed + c.unlisted < c.count)
+    text += (text.empty() ? "" : ", ") + std::to_string(c.count - c.listed - c.unlisted) +
+            " left out by class";
+  return text.empty() ? text : " (" + text + ")";
+}
+
 std::string summary_of(const Report& report, const model::Model& model,
                        const std::array<ClassRows, 3>& classes) {
   std::string summary;
   for (const ClassRows& c : classes) {
     summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
-    if (c.listed < c.count) summary += " (" + std::to_string(c.count - c.listed) + " not listed)";
+    summary += not_listed(c);
   }
   if (report.count_allowed > 0) summary += ", " + std::to_string(report.count_allowed) + " allowed";
   if (report.count_allowed_regions > 0)
@@ -191,7 +177,7 @@ std::string cell_row(std::string_view cell, const std::array<std::string, 4>& co
 /// Returns the cells of a matrix in which something was found.
 std::string matrix_table(const Report& report, std::size_t width) {
   constexpr std::size_t kCounts = 4 * (kNumberColumns + 2), kMost = 40;
-  const std::size_t columns = std::clamp(width - std::min(width, kCounts), kLeastName, kMost);
+  const std::size_t columns = std::clamp(width - std::min(width, kCounts), kLeastCell, kMost);
   std::string out;
   for (const clash::CellReport& c : report.cells) {
     if (c.hit + c.contact + c.clearance_violation + c.allowed == 0) continue;
@@ -205,75 +191,54 @@ std::string matrix_table(const Report& report, std::size_t width) {
   return out.empty() ? out : out + "\n";
 }
 
-/// Returns the columns; brackets have one where one of them is worth showing.
-Columns columns_of(const Report& report, const std::array<TableBlock, 3>& blocks,
-                   const TableOptions& options) {
-  Columns columns;
-  for (const TableBlock& block : blocks)
-    for (const std::size_t i : block.pairs)
-      columns.range = std::max(columns.range, range_of(report.pairs[i]).size());
-  if (options.sort == clash::SortBy::volume) columns.volume = kVolumeColumns;
-  std::size_t taken = kFixedColumns;
-  for (const std::size_t width : {columns.range, columns.volume})
-    taken += width > 0 ? width + 2 : 0;
-  const std::size_t room = options.width > taken ? options.width - taken : 0;
-  columns.names = std::max(kLeastName, room / 2);
-  return columns;
+/// Returns the discipline of an object, or its file where the test knows no disciplines; nothing
+/// where all are of one file.
+std::string_view source_of(const Report& report, const model::Model& model, model::ObjectId id) {
+  if (!report.disciplines.empty()) {
+    const std::uint32_t d = report.discipline[index(id)];
+    return d == clash::kNoLabel ? std::string_view("-") : report.disciplines[d].name;
+  }
+  if (model.files.size() < 2) return {};
+  return model.files[model.object(id).file].label;
+}
+
+PairRow row_of(const Report& report, const model::Model& model, const Pair& p) {
+  const auto side = [&](model::ObjectId id) {
+    return RowSide{source_of(report, model, id), label(model, id)};
+  };
+  return {short_class_name(p.cls),
+          fixed(p.d_mm, 3),
+          range_of(p),
+          p.volume_mm3 ? fixed(*p.volume_mm3, 1) : "-",
+          name(p.relation),
+          place_text(p.point_mm),
+          side(p.a),
+          side(p.b)};
+}
+
+PairTableHead head_of(const Report& report, const model::Model& model,
+                      const TableOptions& options) {
+  PairTableHead head{{}, options.sort == clash::SortBy::volume, options.width};
+  if (!report.disciplines.empty())
+    head.source = "discipline";
+  else if (model.files.size() > 1)
+    head.source = "file";
+  return head;
 }
 
 std::string test_table(const Report& report, const model::Model& model,
                        const TableOptions& options) {
   const std::array<ClassRows, 3> classes = shares(report, options.rows);
-  std::array<TableBlock, 3> blocks;
-  for (std::size_t c = 0; c < classes.size(); ++c)
-    blocks[c] = worst_of(report, classes[c].cls, classes[c].rows, options.sort);
-  const Columns columns = columns_of(report, blocks, options);
-  std::string out;
-  if (!report.pairs.empty())
-    out += text_of({"class", "d mm", "d range mm", "volume mm3", "relation", "a", "b"}, columns);
+  std::array<PairBlock, 3> blocks;
   for (std::size_t c = 0; c < classes.size(); ++c) {
-    for (const std::size_t i : blocks[c].pairs) {
-      const Pair& p = report.pairs[i];
-      out += text_of({short_class_name(p.cls), fixed(p.d_mm, 3), range_of(p),
-                      p.volume_mm3 ? fixed(*p.volume_mm3, 1) : "-", name(p.relation),
-                      label(model, p.a), label(model, p.b)},
-                     columns);
-    }
-    if (blocks[c].hidden > 0) out += "… and " + counted(classes[c], blocks[c].hidden) + " more\n";
+    const TableBlock worst = worst_of(report, classes[c].cls, classes[c].rows, options.sort);
+    for (const std::size_t i : worst.pairs)
+      blocks[c].rows.push_back(row_of(report, model, report.pairs[i]));
+    if (worst.hidden > 0) blocks[c].more = "… and " + counted(classes[c], worst.hidden) + " more\n";
   }
-  if (!report.pairs.empty()) out += "\n";
+  std::string out = pair_table(blocks, head_of(report, model, options));
+  if (!out.empty()) out += "\n";
   return out + matrix_table(report, options.width) + summary_of(report, model, classes);
-}
-
-std::string group_row(std::string_view cls, std::string d, std::string results, std::string size,
-                      std::string_view name) {
-  std::string line = fit_to_columns(cls, kClassColumns) + "  " +
-                     right_aligned(std::move(d), kNumberColumns) + "  " +
-                     right_aligned(std::move(results), kNumberColumns) + "  " +
-                     right_aligned(std::move(size), kNumberColumns) + "  " + std::string(name);
-  strip(line);
-  return line + "\n";
-}
-
-std::string group_table(const clash::Grouping& grouping, const TableOptions& options) {
-  constexpr std::size_t kFixed = kClassColumns + 3 * kNumberColumns + 8;
-  const std::size_t room =
-      options.width > kFixed + kLeastName ? options.width - kFixed : kLeastName;
-  const std::vector<clash::Group>& groups = grouping.groups;
-  std::string out = group_row("class", "d mm", "results", "size m", name(grouping.rules.by));
-  const std::size_t shown = std::min(options.rows, groups.size());
-  for (std::size_t g = 0; g < shown; ++g) {
-    const geometry::Vec3d d = groups[g].box_mm.hi - groups[g].box_mm.lo;
-    out +=
-        group_row(short_class_name(groups[g].worst), fixed(groups[g].d_mm, 3),
-                  std::to_string(groups[g].results.size()),
-                  fixed(std::max({d.x, d.y, d.z}) / 1000, 1), fit_to_columns(groups[g].name, room));
-  }
-  if (shown < groups.size()) {
-    const std::size_t more = groups.size() - shown;
-    out += "… and " + std::to_string(more) + (more == 1 ? " group more\n" : " groups more\n");
-  }
-  return out + "\n";
 }
 
 }  // namespace

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "strake/clash/clash.hpp"
+#include "strake/model/model.hpp"
+
+namespace strake::cli {
+
+/// Says what makes most of the hits, which a list of the worst does not show: two assemblies, as a
+/// rack that stands in a duct, where these have a quarter of them; or else parts of one assembly
+/// that overlap, where these are half. Empty where nothing does, and below 20 hits.
+[[nodiscard]] std::string concentration_hint(const clash::Findings& findings,
+                                             const model::Model& model);
+
+}  // namespace strake::cli

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/verbs/clash/clash_output.hpp"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
+
+#include "cli/options/options.hpp"
+#include "core/text_encoding.hpp"
+#include "model/attribute_uses.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+Error option_error(std::string message, const char* option, const char* mend) {
+  return {ErrorCode::usage, std::move(message), option, mend};
+}
+
+/// Returns what stands between the commas, without blanks round it.
+std::vector<std::string> listed_words(std::string_view list) {
+  std::vector<std::string> words;
+  for (;;) {
+    const std::size_t comma = list.find(',');
+    words.emplace_back(trimmed(list.substr(0, comma)));
+    if (comma == std::string_view::npos) return words;
+    list.remove_prefix(comma + 1);
+  }
+}
+
+Result<std::vector<std::string>> columns_of(const std::string& list) {
+  std::vector<std::string> names;
+  for (const std::string& word : listed_words(list)) {
+    if (word.size() < 2 || word.front() != '@')
+      return option_error("'" + word + "' is no column", "--columns",
+                          "write attributes as @Tag,@Area ('strake info --attributes' lists them)");
+    std::string name = word.substr(1);
+    if (std::ranges::find(names, name) != names.end())
+      return option_error("'" + word + "' stands there twice", "--columns",
+                          "name each attribute once");
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+Result<report::WrittenClasses> classes_of(const std::string& list) {
+  report::WrittenClasses classes{false, false, false};
+  for (const std::string& word : listed_words(list)) {
+    if (word == "hit")
+      classes.hit = true;
+    else if (word == "contact")
+      classes.contact = true;
+    else if (word == "clearance" || word == "clearance_violation")
+      classes.clearance_violation = true;
+    else
+      return option_error("'" + word + "' is no class", "--class",
+                          "name one or several of hit,contact,clearance");
+  }
+  return classes;
+}
+
+report::CsvForm csv_form(const std::string& word) {
+  if (word == "excel") return {.separator = ',', .decimal = '.', .mark = true};
+  if (word == "excel-comma") return {.separator = ';', .decimal = ',', .mark = true};
+  return {};
+}
+
+}  // namespace
+
+void add_clash_output_options(CLI::App& command, ClashOutputInput& options) {
+  constexpr const char* kGroup = "Result";
+  command
+      .add_option("--columns", options.columns,
+                  "Attributes of both objects that .csv and .json have besides, as @Tag,@Area: "
+                  "their own or those of the nearest group above that states them")
+      ->type_name("@NAME,...")
+      ->group(kGroup);
+  command
+      .add_option("--class", options.classes,
+                  "Results of these classes only in the table, files and groups: hit, contact, "
+                  "clearance, with commas between; results that may be of one of them stay, and "
+                  "all are counted (default: all)")
+      ->type_name("CLASS,...")
+      ->group(kGroup);
+  command
+      .add_option("--top", options.top,
+                  fmt::format("Rows of the table, of each test or of groups (default {})",
+                              report::TableOptions{}.rows))
+      ->type_name("N")
+      ->group(kGroup);
+  add_choice(command, "--csv", options.csv, {"standard", "excel", "excel-comma"},
+             "Form of .csv: RFC 4180; or for a double click in Excel, with a byte order mark, and "
+             "where Excel's decimal sign is the comma with commas in numbers and semicolons "
+             "between cells (default standard)")
+      ->group(kGroup);
+}
+
+Result<ClashOutput> clash_output(const ClashOutputInput& input, const WrittenFiles& files) {
+  ClashOutput output;
+  if (!input.columns.empty()) {
+    Result<std::vector<std::string>> columns = columns_of(input.columns);
+    if (!columns) return columns.error();
+    output.columns = std::move(*columns);
+    if (!files.csv && !files.json)
+      return option_error("attributes are written to .csv and .json only", "--columns",
+                          "add -o FILE.csv or -o FILE.json");
+  }
+  if (!input.classes.empty()) {
+    const Result<report::WrittenClasses> classes = classes_of(input.classes);
+    if (!classes) return classes.error();
+    output.classes = *classes;
+  }
+  if (!input.top.empty()) {
+    if (const Status status = whole_number(output.rows.emplace(), input.top, "--top"); !status)
+      return status.error();
+    if (!files.table)
+      return option_error("there is no table with --json", "--top", "leave out one of them");
+  }
+  output.csv = csv_form(input.csv);
+  if (!input.csv.empty() && !files.csv && !files.pair_log)
+    return option_error("no .csv is written", "--csv", "add -o FILE.csv");
+  return output;
+}
+
+Diagnostics check_columns(const std::vector<std::string>& columns, const model::Model& model) {
+  Diagnostics diagnostics;
+  if (columns.empty()) return diagnostics;
+  const std::vector<model::AttributeUse> uses = model::attribute_uses(model, 0, model.files.size());
+  for (const std::string& column : columns)
+    if (std::ranges::find(uses, column, &model::AttributeUse::name) == uses.end())
+      diagnostics.add(Severity::warning, "column-not-stated", model::no_object_states(column, uses),
+                      "--columns");
+  return diagnostics;
+}
+
+}  // namespace strake::cli

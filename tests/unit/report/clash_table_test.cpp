@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tables of a terminal: places, files or disciplines, and names that are short and do not look
+// alike.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "report/text/columns.hpp"
+#include "report/text/table_names.hpp"
+#include "strake/clash/group.hpp"
+#include "strake/report/clash.hpp"
+#include "support/clash_model.hpp"
+
+namespace strake::report {
+namespace {
+
+using test::ClashModel;
+using Views = std::vector<std::string_view>;
+using Texts = std::vector<std::string>;
+
+TEST(TableNames, FindTheGroupsThatAllPathsBeginWith) {
+  EXPECT_EQ(common_lead(Views{"/PS/WD1/0010/M1", "BOX 1 of STRUCTURE /PS/WD1/0015"}), "/PS/WD1");
+  EXPECT_EQ(common_lead(Views{"/PS/WD1/0010", "/PS/WD1/0011", "PIPE"}), "/PS/WD1");
+  EXPECT_EQ(common_lead(Views{"hull/frames/F1", "hull/frames/F2"}), "hull/frames");
+  // One of them is a group of the other: what is left of it must not be empty.
+  EXPECT_EQ(common_lead(Views{"/PS/WD1/0010", "/PS/WD1"}), "");
+  EXPECT_EQ(common_lead(Views{"/PLANT/WD1/A/0010", "/PLANT/WD1/A"}), "/PLANT/WD1");
+}
+
+TEST(TableNames, HaveNoLeadWhereItSavesNothingOrMisleads) {
+  EXPECT_EQ(common_lead(Views{}), "");
+  EXPECT_EQ(common_lead(Views{"a", "b"}), "");
+  EXPECT_EQ(common_lead(Views{"/A/x", "/A/y"}), "") << "no longer than the mark";
+  EXPECT_EQ(common_lead(Views{"/PLANT/WD1/x", "/PLANT/WD1/x"}), "")
+      << "nothing would be left to tell";
+  EXPECT_EQ(common_lead(Views{"/PLANT/WD1/x", "/PLANT/WD1/y", "~/z"}), "") << "the mark is a name";
+}
+
+TEST(TableNames, LeaveTheLeadOutWhereverThePathBegins) {
+  EXPECT_EQ(without_lead("/PS/WD1/0010", "/PS/WD1"), "~/0010");
+  EXPECT_EQ(without_lead("BOX 1 of STRU /PS/WD1/0010", "/PS/WD1"), "BOX 1 of STRU ~/0010");
+  EXPECT_EQ(without_lead("PIPE\n", "/PS/WD1"), "PIPE?");
+  EXPECT_EQ(without_lead("/PS/WD1/0010", ""), "/PS/WD1/0010");
+}
+
+TEST(TableNames, AreCutOnlySoThatTheyStayApart) {
+  const std::string left = "BOX 1 of SUBSTRUCTURE 1 of EQUIPMENT",
+                    right = "BOX 1 of SUBSTRUCTURE 2 of EQUIPMENT";
+  EXPECT_EQ(cut_apart({left, "short", right}, 12), (Texts{left, "short", right}));
+  EXPECT_EQ(cut_apart({left, "short", left}, 12), (Texts{"BOX 1…IPMENT", "short", "BOX 1…IPMENT"}));
+  EXPECT_EQ(cut_apart({"BOX 1…IPMENT", left}, 12), (Texts{"BOX 1…IPMENT", left}));
+  EXPECT_EQ(cut_apart({"Büro"}, 4), (Texts{"Büro"}));
+}
+
+ClashModel two_boxes(const std::string& a, const std::string& b) {
+  ClashModel m;
+  m.box(a, {1000, 2000, 3000}, {1100, 2100, 3100}).box(b, {1080, 2000, 3000}, {1200, 2100, 3100});
+  return m;
+}
+
+std::string table_of(const ClashModel& m, const TableOptions& options = {}) {
+  return clash_table({{{m.detect()}, {}}, m.model}, options);
+}
+
+TEST(ClashTable, HasThePlaceInMillimetres) {
+  EXPECT_EQ(table_of(two_boxes("left", "right")),
+            "class     d mm  relation   x mm y mm z mm  a     b\n"
+            "HIT    -20.000  INTERFERE  1090 2050 3050  left  right\n"
+            "\n"
+            "1 hit, 0 contacts, 0 clearance violations\n");
+}
+
+TEST(ClashTable, TellsTheCommonPathOnce) {
+  const std::string text =
+      table_of(two_boxes("BOX 1 of STRUCTURE /PLANT/WD1/0010", "/PLANT/WD1/0011"));
+  EXPECT_TRUE(text.starts_with("~ stands for /PLANT/WD1\nclass ")) << text;
+  EXPECT_NE(text.find("  BOX 1 of STRUCTURE ~/0010  ~/0011\n"), std::string::npos) << text;
+  EXPECT_EQ(text.find("/PLANT/WD1", text.find("class")), std::string::npos) << text;
+}
+
+TEST(ClashTable, PutsLongNamesBelowEachOtherRatherThanCutThem) {
+  const std::string a = "SUBEQUIPMENT 1 of EQUIPMENT /A", b = "SUBEQUIPMENT 2 of EQUIPMENT /A";
+  const std::string numbers = "HIT    -20.000  INTERFERE  1090 2050 3050";
+  const std::string stacked = table_of(two_boxes(a, b));
+  EXPECT_NE(
+      stacked.find(numbers + "  " + a + "\n" + std::string(numbers.size() + 2, ' ') + b + "\n"),
+      std::string::npos)
+      << stacked;
+  EXPECT_NE(stacked.find("  a, and b below it\n"), std::string::npos) << stacked;
+  const std::string below = table_of(two_boxes(a, b), {.width = 60});
+  EXPECT_NE(below.find(numbers + "\n    " + a + "\n    " + b + "\n"), std::string::npos) << below;
+}
+
+TEST(ClashTable, CutsNamesWiderThanTheTerminalSoThatTheyStayApart) {
+  const std::string long_name(100, 'x');
+  const std::string unlike = table_of(two_boxes("a" + long_name, "b" + long_name), {.width = 60});
+  EXPECT_EQ(unlike.find("a" + long_name), std::string::npos) << unlike;
+  EXPECT_NE(unlike.find("…"), std::string::npos) << unlike;
+  const std::string alike =
+      table_of(two_boxes(long_name + "a" + long_name, long_name + "b" + long_name), {.width = 60});
+  EXPECT_NE(alike.find("xax"), std::string::npos) << alike;
+  EXPECT_NE(alike.find("xbx"), std::string::npos) << alike;
+}
+
+TEST(ClashTable, NamesTheFileWhereThereAreSeveral) {
+  ClashModel m = two_boxes("left", "right");
+  m.model.files.push_back({"hvac.rvm", "RVM 2", "mm", "z", 1, 0});
+  m.model.objects[1].file = 1;
+  const std::string text = table_of(m);
+  EXPECT_NE(text.find("z mm  file      a     file      b\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("3050  t.obj     left  hvac.rvm  right\n"), std::string::npos) << text;
+}
+
+TEST(ClashTable, NamesTheDisciplineInsteadWhereThereAreSome) {
+  const ClashModel m = two_boxes("left", "right");
+  clash::Report report = m.detect();
+  report.disciplines = {{"hull", 1}};
+  report.discipline = {0, clash::kNoLabel};
+  const std::string text = clash_table({{{report}, {}}, m.model}, {});
+  EXPECT_NE(text.find("z mm  discipline  a     discipline  b\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("3050  hull        left  -           right\n"), std::string::npos) << text;
+}
+
+TEST(ClashTable, OfNoRowsHasNoHead) {
+  EXPECT_EQ(table_of(two_boxes("left", "right"), {.rows = 0}),
+            "… and 1 hit more\n\n1 hit, 0 contacts, 0 clearance violations\n");
+}
+
+TEST(ClashTable, GroupsHaveTheirPlaceToo) {
+  const ClashModel m = two_boxes("/PLANT/WD1/left", "/PLANT/WD1/right");
+  const clash::Findings findings{{m.detect()}, {}};
+  const clash::Grouping by_element = clash::group_results(findings, m.model, {}).value();
+  const std::string text = clash_table({findings, m.model, &by_element}, {});
+  EXPECT_NE(
+      text.find("class            d mm  results  size m  x mm  y mm  z mm  element\n"
+                "HIT           -20.000        1     0.0  1090  2050  3050  /PLANT/WD1/left\n"),
+      std::string::npos)
+      << text;
+}
+
+}  // namespace
+}  // namespace strake::report
