@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -14,6 +15,7 @@
 #include "core/number.hpp"
 #include "core/seeded_hash.hpp"
 #include "model/attributes.hpp"
+#include "rules/assemblies.hpp"
 
 namespace strake::rules {
 namespace {
@@ -185,6 +187,8 @@ struct Labelling {
 
   Test operator()(const AssemblyRule& assembly) const {
     const Hierarchy hierarchy(rule_context.model());
+    std::optional<Assemblies> assemblies;
+    if (assembly.by_type) assemblies.emplace(rule_context.model());
     SameLabel test = unlabelled(rule_context);
     Numbers paths;
     bool some = false;
@@ -192,7 +196,8 @@ struct Labelling {
       const Object& object = rule_context.model().objects[o];
       if (!among[o]) continue;
       const std::vector<GroupId> path = hierarchy.path(object);
-      const std::size_t depth = depth_of(assembly, object, path, hierarchy);
+      const std::size_t depth =
+          assemblies ? assemblies->depth(path) : depth_of(assembly, object, path, hierarchy);
       if (depth == 0) continue;
       some = true;
       if (!assembly.across_files) {
@@ -205,7 +210,12 @@ struct Labelling {
       if (hierarchy.name(path[depth - 1]).empty()) text += std::to_string(index(path[depth - 1]));
       test.label[o] = paths.of(text);
     }
-    if (!some) rule_context.warn_no_match(rule.where, "no object lies in such a group");
+    if (!some)
+      rule_context.warn_no_match(rule.where, assembly.by_type
+                                                 ? "neither the attribute Type nor a name as "
+                                                   "'BOX 1 of EQUIPMENT /P-101' tells what is an "
+                                                   "equipment, a structure or a branch"
+                                                 : "no object lies in such a group");
     return test;
   }
 

@@ -76,6 +76,9 @@ among = "b*"
 name = "owner"
 level = "parent"
 [[same_assembly]]
+name = "item"
+level = "assembly"
+[[same_assembly]]
 name = "skid"
 group = "SKID*"
 [[connected]]
