@@ -30,8 +30,9 @@ using Sink = parallel::FunctionRef<void(std::string_view)>;
 
 /// The rules file that findings were made with.
 struct RulesSource {
-  std::string file;  ///< its name, without folders
-  Hash128 hash;      ///< the hash of its bytes
+  std::string file;          ///< its name, without folders
+  Hash128 hash;              ///< the hash of its bytes
+  std::string profile = {};  ///< the profile that it is, if it is one that the program brings along
 };
 
 /// What a report is written from.
