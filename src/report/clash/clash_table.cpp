@@ -169,7 +169,7 @@ std::string profile_line(const Report& report, std::string_view profile) {
   const auto add = [](std::string& text, std::uint64_t pairs, std::string_view rule) {
     if (pairs > 0)
       text += (text.empty() ? "" : ", ") + counted(pairs, "pair", "pairs") + " (" +
-              printable(std::string(rule)) + ")";
+              printable(rule) + ")";
   };
   for (const clash::Exempted& e : report.exempted) add(left_out, e.pairs, e.rule);
   for (const clash::AllowedCount& a : report.allowed) add(allowed, a.pairs, a.rule);
@@ -182,7 +182,7 @@ std::string profile_line(const Report& report, std::string_view profile) {
     else if (is_of(clash::Level::insulation))
       ++insulation;
   }
-  std::string line = "left out by profile " + printable(std::string(profile)) + ": " +
+  std::string line = "left out by profile " + printable(profile) + ": " +
                      (left_out.empty() ? "nothing" : left_out);
   if (!allowed.empty()) line += "; allowed: " + allowed;
   if (soft > 0) line += "; with space kept free: " + counted(soft, "result", "results");
