@@ -53,7 +53,7 @@ struct UnitRule {
 struct AssemblyRule {
   std::uint32_t level = 0;  ///< 1: the outermost group of the path; 0: not said
   bool parent = false;
-  bool by_type = false;  ///< the equipment, structure or branch (Assemblies)
+  bool by_type = false;  ///< the equipment, structure or branch (model::Assemblies)
   std::string group;     ///< a pattern of names: the innermost group that matches
   bool across_files = false;
 };

@@ -371,7 +371,7 @@ docs/selection.md has the language.
 Examples:
   strake clash ship.glb
   strake clash hvac.rvm steel.rvm --clearance 25mm -o clashes.json
-  strake clash hvac.rvm steel.rvm --profile plant --group-by proximity
+  strake clash hvac.rvm steel.rvm --profile plant --group-by assembly
   strake clash ship.glb --group-by element --sort size
   strake clash ship.glb --log-pairs pairs.csv --stats
   strake clash diff monday.json tuesday.json

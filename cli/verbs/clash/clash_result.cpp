@@ -24,8 +24,9 @@ namespace {
 
 Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
   clash::GroupRules rules;
-  for (const clash::GroupBy by : {clash::GroupBy::element, clash::GroupBy::proximity,
-                                  clash::GroupBy::test, clash::GroupBy::files})
+  for (const clash::GroupBy by :
+       {clash::GroupBy::element, clash::GroupBy::assembly, clash::GroupBy::proximity,
+        clash::GroupBy::test, clash::GroupBy::files})
     if (name(by) == input.group_by) rules.by = by;
   rules.sort = sort_by(input.sort);
   rules.contacts = input.group_contacts;
@@ -41,9 +42,11 @@ Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
 void add_result_options(CLI::App& command, ClashResultInput& options) {
   constexpr const char* kGroup = "Result";
   add_choice(
-      command, "--group-by", options.group_by, {"element", "proximity", "test", "files"},
-      "Group results: by the object that most of them share, by proximity, by test or by the "
-      "files of the two")
+      command, "--group-by", options.group_by,
+      {"element", "assembly", "proximity", "test", "files"},
+      "Group results: by the object that most of them share, by the equipment, structure or "
+      "branch that most share (models from AVEVA), by proximity, by test or by the files of the "
+      "two")
       ->group(kGroup);
   command
       .add_option("--group-distance", options.group_distance,

@@ -19,6 +19,9 @@ enum class GroupBy : std::uint8_t {
   /// The object with most results takes them all (one beam with forty pipes through it), then the
   /// one with most of what is left, and so on; of equals the first in the durable order.
   element,
+  /// As by element, with the equipment, structures and branches of models from AVEVA in place of
+  /// their parts (docs/rules.md, `level = "assembly"`); other objects stand for themselves.
+  assembly,
   /// Results whose points lie within a distance of each other form a group, and those near these,
   /// and so on.
   proximity,
@@ -71,7 +74,7 @@ struct Grouping {
 [[nodiscard]] Result<Grouping> group_results(const Findings& findings, const model::Model& model,
                                              const GroupRules& rules);
 
-/// Returns "element", "proximity", "test" or "files".
+/// Returns "element", "assembly", "proximity", "test" or "files".
 [[nodiscard]] std::string_view name(GroupBy by);
 
 }  // namespace strake::clash

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
 #include <cstddef>
 #include <queue>
-#include <utility>
+#include <vector>
 
 #include "clash/group/partition.hpp"
 
@@ -11,21 +10,33 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffU;
 
+/// What an item is between; `second` is absent where both are of one assembly.
+struct Sides {
+  std::uint32_t first = 0, second = kNone;
+
+  template <class Visit>
+  void each(Visit&& visit) const {
+    visit(first);
+    if (second != kNone) visit(second);
+  }
+};
+
+Sides sides_of(const Pair& pair, std::span<const model::ObjectId> stands_for) {
+  const std::uint32_t a = index(stands_for[index(pair.a)]), b = index(stands_for[index(pair.b)]);
+  return {a, a == b ? kNone : b};
+}
+
 /// The items of each object.
 class Uses {
  public:
-  explicit Uses(std::span<const GroupingItem> items) {
-    std::uint32_t objects = 0;
-    for (const GroupingItem& item : items) objects = std::max(objects, index(item.pair->b) + 1);
+  Uses(std::span<const Sides> items, std::size_t objects) {
     first_.assign(objects + 1, 0);
-    for (const GroupingItem& item : items)
-      for (const model::ObjectId id : {item.pair->a, item.pair->b}) ++first_[index(id) + 1];
+    for (const Sides& item : items) item.each([&](std::uint32_t o) { ++first_[o + 1]; });
     for (std::size_t o = 1; o < first_.size(); ++o) first_[o] += first_[o - 1];
     std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-    uses_.resize(2 * items.size());
-    for (std::size_t i = 0; i < items.size(); ++i)
-      for (const model::ObjectId id : {items[i].pair->a, items[i].pair->b})
-        uses_[next[index(id)]++] = static_cast<std::uint32_t>(i);
+    uses_.resize(first_.back());
+    for (std::uint32_t i = 0; i < items.size(); ++i)
+      items[i].each([&](std::uint32_t o) { uses_[next[o]++] = i; });
   }
   [[nodiscard]] std::uint32_t objects() const {
     return static_cast<std::uint32_t>(first_.size() - 1);
@@ -49,10 +60,14 @@ struct CoverCandidate {
 
 }  // namespace
 
-Partition by_element(std::span<const GroupingItem> items) {
+Partition by_element(std::span<const GroupingItem> items,
+                     std::span<const model::ObjectId> stands_for) {
   Partition partition;
   partition.group.assign(items.size(), kNone);
-  const Uses uses(items);
+  std::vector<Sides> sides;
+  sides.reserve(items.size());
+  for (const GroupingItem& item : items) sides.push_back(sides_of(*item.pair, stands_for));
+  const Uses uses(sides, stands_for.size());
   std::vector<std::size_t> left(uses.objects());
   std::priority_queue<CoverCandidate> queue;
   for (std::uint32_t o = 0; o < uses.objects(); ++o) {
@@ -70,8 +85,7 @@ Partition by_element(std::span<const GroupingItem> items) {
     for (const std::uint32_t i : uses.of(top.object)) {
       if (partition.group[i] != kNone) continue;
       partition.group[i] = partition.count;
-      --left[index(items[i].pair->a)];
-      --left[index(items[i].pair->b)];
+      sides[i].each([&](std::uint32_t o) { --left[o]; });
     }
     partition.about.push_back(model::ObjectId{top.object});
     ++partition.count;

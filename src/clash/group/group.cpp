@@ -4,18 +4,23 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 
 #include "clash/group/partition.hpp"
 #include "clash/results/clash_key.hpp"
 #include "core/number.hpp"
+#include "model/assemblies.hpp"
 #include "strake/core/hash.hpp"
 
 namespace strake::clash {
 namespace {
 
 constexpr double kLeastDistanceMm = 1;
+/// Where groups are their own parents a path has no end.
+constexpr std::size_t kLongestPath = 65536;
 
 std::vector<GroupingItem> items_of(const Findings& findings, bool contacts) {
   std::vector<GroupingItem> items;
@@ -46,11 +51,25 @@ Partition by_value(std::span<const GroupingItem> items, Value&& value) {
   return partition;
 }
 
+/// Returns for each object the one that it counts as: itself, or the first of its assembly.
+std::vector<model::ObjectId> stand_ins(const model::Model& model, GroupBy by) {
+  std::vector<model::ObjectId> all(model.objects.size());
+  for (std::uint32_t o = 0; o < all.size(); ++o) all[o] = model::ObjectId{o};
+  if (by != GroupBy::assembly) return all;
+  const std::vector<model::GroupId> assemblies = model::assemblies_of(model);
+  std::map<model::GroupId, model::ObjectId> firsts;
+  for (std::uint32_t o = 0; o < all.size(); ++o)
+    if (assemblies[o] != model::GroupId::none)
+      all[o] = firsts.try_emplace(assemblies[o], all[o]).first->second;
+  return all;
+}
+
 Partition partition_of(std::span<const GroupingItem> items, const model::Model& model,
                        const GroupRules& rules) {
   switch (rules.by) {
     case GroupBy::element:
-      return by_element(items);
+    case GroupBy::assembly:
+      return by_element(items, stand_ins(model, rules.by));
     case GroupBy::proximity:
       return by_proximity(items, rules.distance_mm);
     case GroupBy::test:
@@ -86,7 +105,10 @@ std::string place_of(const geometry::Box3d& box) {
 
 class Namer {
  public:
-  Namer(const Findings& findings, const model::Model& model) : findings_(findings), model_(model) {}
+  Namer(const Findings& findings, const model::Model& model, GroupBy by)
+      : findings_(findings), model_(model) {
+    if (by == GroupBy::assembly) assemblies_ = model::assemblies_of(model);
+  }
 
   void name(Group& group, GroupBy by, const Partition& partition, std::size_t number) const {
     Hasher hasher;
@@ -97,6 +119,12 @@ class Namer {
       const model::Object& object = model_.object(partition.about[number]);
       hasher.add(model_.files[object.file].label).add(object.id);
       group.name = object.name.empty() ? object.id : object.name;
+    } else if (by == GroupBy::assembly) {
+      const model::ObjectId about = partition.about[number];
+      const model::GroupId assembly = assemblies_[index(about)];
+      hasher.add(model_.files[model_.object(about).file].label)
+          .add(assembly == model::GroupId::none ? model_.object(about).id : path_of(assembly));
+      group.name = called(about) + with_others(group, about);
     } else if (by == GroupBy::test) {
       hasher.add(test.name);
       group.name = test.name;
@@ -113,6 +141,36 @@ class Namer {
   }
 
  private:
+  /// Returns the name of the assembly that an object is of, or its own.
+  [[nodiscard]] std::string called(model::ObjectId id) const {
+    const model::GroupId assembly = assemblies_[index(id)];
+    if (assembly != model::GroupId::none && !model_.groups[index(assembly)].name.empty())
+      return model_.groups[index(assembly)].name;
+    const model::Object& object = model_.object(id);
+    return object.name.empty() ? object.id : object.name;
+  }
+  /// Returns the names of the groups down to an assembly, of which each ends.
+  [[nodiscard]] std::string path_of(model::GroupId group) const {
+    std::string path;
+    for (model::GroupId g = group; g != model::GroupId::none && path.size() < kLongestPath;
+         g = model_.groups[index(g)].parent)
+      path += model_.groups[index(g)].name + '\n';
+    return path;
+  }
+  /// Returns " and B" where all results of a group are with one other assembly, else how many
+  /// others there are; nothing where they are within one.
+  [[nodiscard]] std::string with_others(const Group& group, model::ObjectId about) const {
+    const std::string own = called(about);
+    std::set<std::string> others;
+    for (const ResultRef& r : group.results) {
+      const Pair& pair = findings_.tests[r.test].pairs[r.pair];
+      for (const model::ObjectId id : {pair.a, pair.b})
+        if (std::string name = called(id); name != own) others.insert(std::move(name));
+    }
+    if (others.empty()) return {};
+    return " and " +
+           (others.size() == 1 ? *others.begin() : std::to_string(others.size()) + " others");
+  }
   [[nodiscard]] std::string lowest_key(const Group& group) const {
     std::string lowest;
     for (const ResultRef& r : group.results) {
@@ -124,6 +182,7 @@ class Namer {
   }
   const Findings& findings_;
   const model::Model& model_;
+  std::vector<model::GroupId> assemblies_;  ///< of each object, where groups are by assembly
 };
 
 void sort_groups(std::vector<Group>& groups, SortBy by) {
@@ -151,7 +210,7 @@ Result<Grouping> group_results(const Findings& findings, const model::Model& mod
   const Partition partition = partition_of(items, model, rules);
   std::vector<Group> groups(partition.count);
   for (std::size_t i = 0; i < items.size(); ++i) add(groups[partition.group[i]], items[i]);
-  const Namer namer(findings, model);
+  const Namer namer(findings, model, rules.by);
   for (std::size_t g = 0; g < groups.size(); ++g) namer.name(groups[g], rules.by, partition, g);
   sort_groups(groups, rules.sort);
   return Grouping{rules, std::move(groups)};
@@ -161,6 +220,8 @@ std::string_view name(GroupBy by) {
   switch (by) {
     case GroupBy::element:
       return "element";
+    case GroupBy::assembly:
+      return "assembly";
     case GroupBy::proximity:
       return "proximity";
     case GroupBy::test:

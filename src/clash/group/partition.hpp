@@ -18,12 +18,14 @@ struct GroupingItem {
 /// The numbers of groups, one per item; `about` is the object that a group is about.
 struct Partition {
   std::vector<std::uint32_t> group;
-  std::vector<model::ObjectId> about;  ///< filled by by_element() only
+  std::vector<model::ObjectId> about;  ///< filled by by_element() only; of an assembly the first
   std::uint32_t count = 0;
 };
 
-/// Groups items by a greedy cover by objects, most items first.
-[[nodiscard]] Partition by_element(std::span<const GroupingItem> items);
+/// Groups items by a greedy cover by objects, most items first. `stands_for` has for each object
+/// the one that it counts as: itself, or the first of its assembly.
+[[nodiscard]] Partition by_element(std::span<const GroupingItem> items,
+                                   std::span<const model::ObjectId> stands_for);
 
 /// Groups items by single linkage of their points.
 [[nodiscard]] Partition by_proximity(std::span<const GroupingItem> items, double distance_mm);

@@ -132,7 +132,7 @@ class Schemas(unittest.TestCase):
         empty = self.follows(self.run_strake('clash', 'odd.obj', 'ship.glb', '--json'), 'clash')
         volumes = self.follows(self.run_strake('clash', 'ship.glb', '--volumes', '--json'), 'clash')
         self.assertTrue(all('volume_mm3' in r for r in volumes['results'] if r['class'] == 'HIT'))
-        for by in 'element', 'proximity', 'test', 'files':
+        for by in 'element', 'assembly', 'proximity', 'test', 'files':
             grouped = self.follows(self.run_strake('clash', 'ship.glb', '--group-by', by, '--json'), 'clash')
             self.assertEqual([r['class'] == 'CONTACT' for r in grouped['results']],
                              ['group' not in r for r in grouped['results']])

@@ -86,7 +86,8 @@ TEST(Groups, IdsStayWhenOtherResultsComeAndGo) {
   const GroupRules largest{.by = GroupBy::element, .sort = SortBy::size};
   EXPECT_EQ(groups(today, model, largest)[0].id, groups(tomorrow, model, largest)[0].id);
   std::set<std::string> ids;
-  for (const GroupBy by : {GroupBy::element, GroupBy::proximity, GroupBy::test, GroupBy::files})
+  for (const GroupBy by :
+       {GroupBy::element, GroupBy::assembly, GroupBy::proximity, GroupBy::test, GroupBy::files})
     for (const Group& g : groups(today, model, {.by = by})) {
       EXPECT_EQ(g.id.size(), 26U);
       EXPECT_TRUE(ids.insert(g.id).second);
@@ -172,9 +173,38 @@ TEST(Groups, ProximityIsSingleLinkage) {
   }
 }
 
+TEST(Groups, ByAssembly) {
+  // o0 to o2 are one pump, o3 and o4 one tank, o5 is known to be of none.
+  model::Model model = named_objects(6);
+  const auto group = [&](const std::string& name, model::GroupId parent) {
+    model.groups.push_back({name, parent});
+    return model::GroupId{static_cast<std::uint32_t>(model.groups.size() - 1)};
+  };
+  const auto zone = group("/ZONE", model::GroupId::none);
+  const auto pump = group("/P-1", zone), tank = group("/T-1", zone);
+  model.objects[0].name = "BOX 1 of EQUIPMENT /P-1";
+  model.objects[3].name = "BOX 1 of EQUIPMENT /T-1";
+  for (std::size_t o = 0; o < 5; ++o) model.objects[o].parent = o < 3 ? pump : tank;
+  const GroupRules by{.by = GroupBy::assembly};
+  const Findings findings = findings_of(
+      {pair(0, 1), pair(0, 3), pair(1, 4, {}, -20), pair(2, 3), pair(3, 4), pair(4, 5)});
+  const auto found = groups(findings, model, by);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].name, "/T-1 and 2 others") << "with five results against four";
+  EXPECT_EQ(found[0].results.size(), 5U);
+  EXPECT_EQ(found[1].name, "/P-1");
+  const auto two = groups(findings_of({pair(0, 3), pair(2, 4)}), model, by);
+  ASSERT_EQ(two.size(), 1U);
+  EXPECT_EQ(two[0].name, "/P-1 and /T-1");
+  EXPECT_EQ(groups(findings_of({pair(1, 4)}), model, by)[0].id, two[0].id)
+      << "of another pair of parts";
+  EXPECT_EQ(groups(findings_of({pair(4, 5)}), model, by)[0].name, "/T-1 and o5");
+}
+
 TEST(Groups, NothingFoundAndBadDistance) {
   const model::Model model = named_objects(2);
-  for (const GroupBy by : {GroupBy::element, GroupBy::proximity, GroupBy::test, GroupBy::files})
+  for (const GroupBy by :
+       {GroupBy::element, GroupBy::assembly, GroupBy::proximity, GroupBy::test, GroupBy::files})
     EXPECT_TRUE(groups(findings_of({}), model, {.by = by}).empty());
   for (const double distance : {0.0, -1.0, std::nan("")})
     EXPECT_EQ(group_results(findings_of({}), model, {.distance_mm = distance}).error().code,

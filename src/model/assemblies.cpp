@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rules/assemblies.hpp"
+#include "model/assemblies.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,12 +8,10 @@
 #include <vector>
 
 #include "model/attributes.hpp"
+#include "model/hierarchy.hpp"
 
-namespace strake::rules {
+namespace strake::model {
 namespace {
-
-using model::GroupId;
-using model::Model;
 
 /// A type of AVEVA's hierarchy. A pipe or a duct is known by its branches: its own word may mean a
 /// whole discipline elsewhere.
@@ -64,24 +62,24 @@ class KnownGroups {
 
   std::vector<KnownGroup> all() {
     for (std::uint32_t g = 0; g < model_.groups.size(); ++g) {
-      const model::Group& group = model_.groups[g];
+      const Group& group = model_.groups[g];
       if (group.attributes < model_.group_attributes.size())
         for (const std::string_view value :
-             model::values_of(model_.group_attributes[group.attributes], "Type"))
+             values_of(model_.group_attributes[group.attributes], "Type"))
           add(GroupId{g}, type_called(value, &ElementType::code));
       add_owner(group.parent, group.name);
     }
-    for (const model::Object& object : model_.objects) add_owner(object.parent, object.name);
+    for (const Object& object : model_.objects) add_owner(object.parent, object.name);
     return std::move(known_);
   }
 
  private:
   [[nodiscard]] bool exists(GroupId g) const {
-    return g != GroupId::none && model::index(g) < model_.groups.size();
+    return g != GroupId::none && index(g) < model_.groups.size();
   }
 
   void add_owner(GroupId owner, std::string_view name) {
-    if (exists(owner)) add(owner, owner_type(name, model_.groups[model::index(owner)].name));
+    if (exists(owner)) add(owner, owner_type(name, model_.groups[index(owner)].name));
   }
 
   void add(GroupId group, const ElementType* type) {
@@ -89,7 +87,7 @@ class KnownGroups {
     KnownGroup& known = known_.emplace_back();
     known.type = type;
     for (GroupId g = group; exists(g) && known.path.size() <= model_.groups.size();
-         g = model_.groups[model::index(g)].parent)
+         g = model_.groups[index(g)].parent)
       known.path.push_back(g);
     std::ranges::reverse(known.path);
   }
@@ -130,4 +128,17 @@ std::size_t Assemblies::depth(std::span<const GroupId> path) const {
   return branch <= path.size() ? branch : 0;
 }
 
-}  // namespace strake::rules
+std::vector<GroupId> assemblies_of(const Model& model) {
+  const Assemblies assemblies(model);
+  const Hierarchy hierarchy(model);
+  std::vector<GroupId> all;
+  all.reserve(model.objects.size());
+  for (const Object& object : model.objects) {
+    const std::vector<GroupId> path = hierarchy.path(object);
+    const std::size_t depth = assemblies.depth(path);
+    all.push_back(depth == 0 ? GroupId::none : path[depth - 1]);
+  }
+  return all;
+}
+
+}  // namespace strake::model

@@ -6,10 +6,11 @@
 #include <map>
 #include <set>
 #include <span>
+#include <vector>
 
 #include "strake/model/model.hpp"
 
-namespace strake::rules {
+namespace strake::model {
 
 /// The equipment, structures and branches of a model whose hierarchy is that of AVEVA:
 ///
@@ -24,15 +25,18 @@ namespace strake::rules {
 /// counts: some types may be nested, and no level may be left out.
 class Assemblies {
  public:
-  explicit Assemblies(const model::Model& model);
+  explicit Assemblies(const Model& model);
 
   /// Returns how many groups of a path, outermost first, lead to the equipment, the structure or
   /// the branch; 0 if there is none or nothing tells.
-  [[nodiscard]] std::size_t depth(std::span<const model::GroupId> path) const;
+  [[nodiscard]] std::size_t depth(std::span<const GroupId> path) const;
 
  private:
-  std::map<model::GroupId, std::int64_t> level_;  ///< of equipment, by outermost group
-  std::set<model::GroupId> items_;                ///< the groups that are equipment or structures
+  std::map<GroupId, std::int64_t> level_;  ///< of equipment, by outermost group
+  std::set<GroupId> items_;                ///< the groups that are equipment or structures
 };
 
-}  // namespace strake::rules
+/// Returns the assembly of each object; none where nothing tells.
+[[nodiscard]] std::vector<GroupId> assemblies_of(const Model& model);
+
+}  // namespace strake::model
