@@ -344,7 +344,8 @@ class RulesParser {
     if (value == nullptr) return;
     TableReader table(reading_, *value, "[obstruction]");
     ObstructionRule& rule = rules_.obstruction.emplace();
-    rule.attribute = table.text("attribute").value_or(rule.attribute);
+    if (auto attributes = table.texts("attribute"); !attributes.empty())
+      rule.attributes = std::move(attributes);
     constexpr std::array<std::string_view, 3> kWords{"soft", "hard", "none"};
     const std::string bodies = table.word("volumes", kWords).value_or("soft");
     rule.bodies = bodies == "hard" ? Level::hard : bodies == "none" ? Level::none : Level::soft;

@@ -94,8 +94,8 @@ struct ExemptingRule {
 };
 
 struct ObstructionRule {
-  std::string attribute = "OBST";
-  clash::Level bodies = clash::Level::soft;  ///< none: obstruction volumes are not placed
+  std::vector<std::string> attributes{"OBST"};  ///< the first that an object has counts
+  clash::Level bodies = clash::Level::soft;     ///< none: obstruction volumes are not placed
   bool soft_against_soft = true;
   std::optional<Chooser> soft, none;
 };

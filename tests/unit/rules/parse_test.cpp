@@ -99,7 +99,7 @@ name = "not ours"
 a = "file = x.rvm"
 b = "file = y.rvm"
 [obstruction]
-attribute = ":OBST"
+attribute = [":OBST", "Obstruction"]
 volumes = "hard"
 soft_against_soft = false
 soft = "ACCESS*"
