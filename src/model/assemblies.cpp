@@ -130,13 +130,13 @@ std::size_t Assemblies::depth(std::span<const GroupId> path) const {
 
 std::vector<GroupId> assemblies_of(const Model& model) {
   const Assemblies assemblies(model);
+  std::vector<GroupId> all(model.objects.size(), GroupId::none);
+  if (assemblies.empty()) return all;
   const Hierarchy hierarchy(model);
-  std::vector<GroupId> all;
-  all.reserve(model.objects.size());
-  for (const Object& object : model.objects) {
-    const std::vector<GroupId> path = hierarchy.path(object);
+  for (std::size_t o = 0; o < all.size(); ++o) {
+    const std::vector<GroupId> path = hierarchy.path(model.objects[o]);
     const std::size_t depth = assemblies.depth(path);
-    all.push_back(depth == 0 ? GroupId::none : path[depth - 1]);
+    if (depth > 0) all[o] = path[depth - 1];
   }
   return all;
 }

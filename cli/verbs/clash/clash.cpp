@@ -16,6 +16,7 @@
 
 #include "clash/rules/tolerance_lengths.hpp"
 #include "cli/run/load.hpp"
+#include "cli/verbs/clash/clash_hints.hpp"
 #include "cli/verbs/clash/clash_profile.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/clash/clash_sets.hpp"
@@ -272,6 +273,9 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
                         source ? &*source : nullptr, &loading});
       !status)
     return status.error();
+  if (!request->rules && given.profile.empty())
+    for (const std::string& hint : clash_hints(*findings, *loaded->model))
+      session.console().note(hint);
   return clash_exit_code(*findings, given.fail_on, given.input, *loaded, session.console());
 }
 
