@@ -88,6 +88,7 @@ int run(int argc, char** argv) {
                                 add_draw_diff(*draw.command, common),
                                 draw,
                                 add_info(program, common),
+                                add_rules_verb(program),
                                 add_generate(program, common),
                                 add_evaluate(program, common),
                                 add_help(program),

@@ -67,9 +67,11 @@ set(manual
   docs/decisions
   docs/drawing.md
   docs/evaluation.md
+  docs/first-run.md
   docs/hidden-line-algorithms.md
   docs/hlr.md
   docs/pictures
+  docs/profiles.md
   docs/reading-results.md
   docs/rules.md
   docs/selection.md
@@ -149,5 +151,6 @@ install(FILES ${PROJECT_BINARY_DIR}/strake.pc DESTINATION ${CMAKE_INSTALL_LIBDIR
 
 # For users of the program and of the library alike.
 install(DIRECTORY schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/strake COMPONENT program)
+install(DIRECTORY rules DESTINATION ${CMAKE_INSTALL_DATADIR}/strake COMPONENT program)
 install(FILES examples/ship_rules.toml examples/ship_sheet.toml
   DESTINATION ${CMAKE_INSTALL_DATADIR}/strake/examples COMPONENT program)

@@ -24,6 +24,8 @@ struct Verb {
 [[nodiscard]] Verb add_draw(CLI::App& program, CommonOptions& common);
 /// `draw` is the command of add_draw().
 [[nodiscard]] Verb add_draw_diff(CLI::App& draw, CommonOptions& common);
+/// 'rules list' and 'rules show' are options of one verb.
+[[nodiscard]] Verb add_rules_verb(CLI::App& program);
 [[nodiscard]] Verb add_generate(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_evaluate(CLI::App& program, CommonOptions& common);
 /// The three commands describe all that was added to the program by the time that they run.

@@ -2,64 +2,143 @@
 #include "model/assemblies.hpp"
 
 #include <algorithm>
-#include <cstddef>
-#include <map>
+#include <array>
+#include <string_view>
 #include <utility>
+#include <vector>
+
+#include "model/attributes.hpp"
+#include "model/hierarchy.hpp"
 
 namespace strake::model {
 namespace {
 
-bool is_group(const Model& model, GroupId id) { return index(id) < model.groups.size(); }
+/// A type of AVEVA's hierarchy. A pipe or a duct is known by its branches: its own word may mean a
+/// whole discipline elsewhere.
+struct ElementType {
+  std::string_view code;   ///< as attributes have it
+  std::string_view word;   ///< as names have it
+  std::int64_t below = 0;  ///< how many levels it stands below equipment and structures
+  bool item = false;       ///< whether it is, or is part of, an equipment or a structure
+};
 
-/// Returns the groups that objects lie in, directly or not, by their parent and name.
-std::map<std::pair<GroupId, std::string_view>, GroupId> holders(const Model& model) {
-  std::vector<bool> holds(model.groups.size());
-  for (const Object& object : model.objects)
-    for (GroupId at = object.parent; is_group(model, at) && !holds[index(at)];
-         at = model.groups[index(at)].parent)
-      holds[index(at)] = true;
-  std::map<std::pair<GroupId, std::string_view>, GroupId> found;
-  for (std::uint32_t g = 0; g < model.groups.size(); ++g)
-    if (holds[g]) found.try_emplace({model.groups[g].parent, model.groups[g].name}, GroupId{g});
-  return found;
+constexpr std::array<ElementType, 7> kTypes{{{"EQUI", "EQUIPMENT", 0, true},
+                                             {"STRU", "STRUCTURE", 0, true},
+                                             {"SUBE", "SUBEQUIPMENT", 1, true},
+                                             {"SUBS", "SUBSTRUCTURE", 1, true},
+                                             {"FRMW", "FRMWORK", 1, true},
+                                             {"BRAN", "BRANCH", 1, false},
+                                             {"SBFR", "SBFRAMEWORK", 2, true}}};
+
+const ElementType* type_called(std::string_view text, std::string_view ElementType::* column) {
+  const auto* const found = std::ranges::find(kTypes, text, column);
+  return found == kTypes.end() ? nullptr : found;
 }
 
-/// Returns the nearest group with a name of its own, this one or one above it.
-GroupId nearest_named(const Model& model, GroupId at) {
-  for (std::size_t steps = 0; is_group(model, at) && steps < model.groups.size(); ++steps) {
-    const Group& group = model.groups[index(at)];
-    if (!group.name.empty() && !is_counted_name(group.name)) return at;
-    at = group.parent;
+/// Returns what the name of an unnamed element, "BOX 2 of EQUIPMENT /P-101", tells of the type of
+/// `owner`, the name of the group right above; null if it tells nothing.
+const ElementType* owner_type(std::string_view name, std::string_view owner) {
+  constexpr std::string_view kOf = " of ";
+  const std::size_t of = name.find(kOf);
+  if (of == std::string_view::npos || of == 0 || name[of - 1] < '0' || name[of - 1] > '9')
+    return nullptr;
+  const std::string_view told = name.substr(of + kOf.size());
+  const std::size_t blank = told.find(' ');
+  if (blank == std::string_view::npos) return nullptr;
+  // An owner without a name of its own is called by all of the text.
+  if (told != owner && told.substr(blank + 1) != owner) return nullptr;
+  return type_called(told.substr(0, blank), &ElementType::word);
+}
+
+/// A group whose type is known, by its place in the hierarchy.
+struct KnownGroup {
+  std::vector<GroupId> path;  ///< outermost first, the group itself last
+  const ElementType* type = nullptr;
+};
+
+class KnownGroups {
+ public:
+  explicit KnownGroups(const Model& model) : model_(model) {}
+
+  std::vector<KnownGroup> all() {
+    for (std::uint32_t g = 0; g < model_.groups.size(); ++g) {
+      const Group& group = model_.groups[g];
+      if (group.attributes < model_.group_attributes.size())
+        for (const std::string_view value :
+             values_of(model_.group_attributes[group.attributes], "Type"))
+          add(GroupId{g}, type_called(value, &ElementType::code));
+      add_owner(group.parent, group.name);
+    }
+    for (const Object& object : model_.objects) add_owner(object.parent, object.name);
+    return std::move(known_);
   }
-  return GroupId::none;
+
+ private:
+  [[nodiscard]] bool exists(GroupId g) const {
+    return g != GroupId::none && index(g) < model_.groups.size();
+  }
+
+  void add_owner(GroupId owner, std::string_view name) {
+    if (exists(owner)) add(owner, owner_type(name, model_.groups[index(owner)].name));
+  }
+
+  void add(GroupId group, const ElementType* type) {
+    if (type == nullptr || !told_.insert({group, type}).second) return;
+    KnownGroup& known = known_.emplace_back();
+    known.type = type;
+    for (GroupId g = group; exists(g) && known.path.size() <= model_.groups.size();
+         g = model_.groups[index(g)].parent)
+      known.path.push_back(g);
+    std::ranges::reverse(known.path);
+  }
+
+  const Model& model_;
+  std::set<std::pair<GroupId, const ElementType*>> told_;
+  std::vector<KnownGroup> known_;
+};
+
+/// Returns how many groups lead to a level; what was exported from below it counts as one whole.
+std::size_t groups_to(std::int64_t level) {
+  return static_cast<std::size_t>(std::max<std::int64_t>(1, level));
 }
 
 }  // namespace
 
-bool is_counted_name(std::string_view name) {
-  constexpr std::string_view kDigits = "0123456789";
-  const std::size_t number = name.find(' ') + 1;
-  if (number < 2) return false;
-  const std::size_t end = name.find_first_not_of(kDigits, number);
-  return end != std::string_view::npos && end > number && name.substr(end).starts_with(" of ");
-}
-
-Assemblies::Assemblies(const Model& model) : model_(model) {
-  const auto groups = holders(model);
-  of_.reserve(model.objects.size());
-  for (const Object& object : model.objects) {
-    const auto itself = groups.find({object.parent, object.name});
-    of_.push_back(nearest_named(model, itself == groups.end() ? object.parent : itself->second));
+Assemblies::Assemblies(const Model& model) {
+  const std::vector<KnownGroup> known = KnownGroups(model).all();
+  for (const KnownGroup& group : known) {
+    const std::int64_t level = static_cast<std::int64_t>(group.path.size()) - group.type->below;
+    const auto [at, added] = level_.try_emplace(group.path.front(), level);
+    if (!added) at->second = std::min(at->second, level);
+  }
+  for (const KnownGroup& group : known) {
+    if (!group.type->item) continue;
+    const bool whole = group.type->below == 0;
+    items_.insert(whole ? group.path.back()
+                        : group.path[groups_to(level_.at(group.path.front())) - 1]);
   }
 }
 
-std::string Assemblies::path(GroupId assembly) const {
-  std::vector<std::string_view> names;
-  for (GroupId at = assembly; is_group(model_, at) && names.size() <= model_.groups.size();
-       at = model_.groups[index(at)].parent)
-    names.emplace_back(model_.groups[index(at)].name);
-  std::ranges::reverse(names);
-  return joined_path(names);
+std::size_t Assemblies::depth(std::span<const GroupId> path) const {
+  const auto level = path.empty() ? level_.end() : level_.find(path.front());
+  if (level == level_.end()) return 0;
+  for (std::size_t depth = path.size(); depth > 0; --depth)
+    if (items_.contains(path[depth - 1])) return depth;
+  const std::size_t branch = groups_to(level->second + 1);
+  return branch <= path.size() ? branch : 0;
+}
+
+std::vector<GroupId> assemblies_of(const Model& model) {
+  const Assemblies assemblies(model);
+  std::vector<GroupId> all(model.objects.size(), GroupId::none);
+  if (assemblies.empty()) return all;
+  const Hierarchy hierarchy(model);
+  for (std::size_t o = 0; o < all.size(); ++o) {
+    const std::vector<GroupId> path = hierarchy.path(model.objects[o]);
+    const std::size_t depth = assemblies.depth(path);
+    if (depth > 0) all[o] = path[depth - 1];
+  }
+  return all;
 }
 
 }  // namespace strake::model

@@ -1,34 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <string_view>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
 #include <vector>
 
 #include "strake/model/model.hpp"
 
 namespace strake::model {
 
-/// Whether a name is like "BOX 2 of EQUIPMENT /P-101": an element that its database has no name for
-/// is called by its type and its number among those of its owner.
-[[nodiscard]] bool is_counted_name(std::string_view name);
-
-/// What each object is a part of: the nearest group with a name of its own. That is the object
-/// itself where it has other objects below it, else a group above it; a name that only counts (see
-/// is_counted_name()) is none.
+/// The equipment, structures and branches of a model whose hierarchy is that of AVEVA:
+///
+///     SITE  ZONE  EQUI        SUBE
+///                 STRU        SUBS, FRMW  SBFR
+///                 PIPE, HVAC  BRAN
+///
+/// The attribute `Type` tells what a group is, or the name of an element below that has none of its
+/// own: "BOX 2 of EQUIPMENT /P-101" makes "/P-101" an equipment. As levels are fixed, one group of
+/// a known type tells at which level all equipment, structures and pipes of its site stand, also
+/// where a zone or a branch was exported alone. Where groups tell different levels the outermost
+/// counts: some types may be nested, and no level may be left out.
 class Assemblies {
  public:
-  /// The model has to last as long.
   explicit Assemblies(const Model& model);
 
-  /// Returns GroupId::none for an object below no such group.
-  [[nodiscard]] GroupId of(ObjectId id) const { return of_[index(id)]; }
-  /// Returns the names from the outermost group to this one as a path.
-  [[nodiscard]] std::string path(GroupId assembly) const;
+  /// Whether nothing tells of any group what it is: the model is not from AVEVA.
+  [[nodiscard]] bool empty() const { return level_.empty(); }
+
+  /// Returns how many groups of a path, outermost first, lead to the equipment, the structure or
+  /// the branch; 0 if there is none or nothing tells.
+  [[nodiscard]] std::size_t depth(std::span<const GroupId> path) const;
 
  private:
-  const Model& model_;
-  std::vector<GroupId> of_;
+  std::map<GroupId, std::int64_t> level_;  ///< of equipment, by outermost group
+  std::set<GroupId> items_;                ///< the groups that are equipment or structures
 };
+
+/// Returns the assembly of each object; none where nothing tells.
+[[nodiscard]] std::vector<GroupId> assemblies_of(const Model& model);
 
 }  // namespace strake::model

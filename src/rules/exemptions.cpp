@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -13,14 +14,18 @@
 #include "core/glob.hpp"
 #include "core/number.hpp"
 #include "core/seeded_hash.hpp"
+#include "model/assemblies.hpp"
 #include "model/attributes.hpp"
+#include "model/hierarchy.hpp"
 
 namespace strake::rules {
 namespace {
 
 using clash::kNoLabel;
 using clash::SameLabel;
+using model::Assemblies;
 using model::GroupId;
+using model::Hierarchy;
 using model::listed_values_of;
 using model::Model;
 using model::Object;
@@ -36,46 +41,6 @@ class Numbers {
 
  private:
   std::unordered_map<std::string, std::uint32_t, SeededHash> numbers_;
-};
-
-/// The hierarchy as paths from the outermost group.
-class Hierarchy {
- public:
-  explicit Hierarchy(const Model& model) : model_(model) {
-    for (std::uint32_t g = 0; g < model.groups.size(); ++g) {
-      const auto key = std::pair(model.groups[g].parent, std::string_view(model.groups[g].name));
-      const auto [at, added] = own_.try_emplace(key, GroupId{g});
-      if (!added) at->second = GroupId::none;  // two have one name: it is not known which is meant
-    }
-  }
-
-  /// Returns the object's groups, outermost first; the group that it is itself, if it is one, last.
-  [[nodiscard]] std::vector<GroupId> path(const Object& object) const {
-    std::vector<GroupId> path;
-    for (GroupId g = object.parent; known(g) && path.size() <= model_.groups.size();
-         g = model_.groups[index(g)].parent)
-      path.push_back(g);
-    std::reverse(path.begin(), path.end());
-    const auto own = own_.find({object.parent, std::string_view(object.name)});
-    if (own != own_.end() && own->second != GroupId::none) path.push_back(own->second);
-    return path;
-  }
-
-  [[nodiscard]] const std::string& name(GroupId group) const {
-    return model_.groups[index(group)].name;
-  }
-  /// Returns what a group states; null if nothing.
-  [[nodiscard]] const model::Attributes* attributes(GroupId group) const {
-    const std::uint32_t own = model_.groups[index(group)].attributes;
-    return own < model_.group_attributes.size() ? &model_.group_attributes[own] : nullptr;
-  }
-
- private:
-  [[nodiscard]] bool known(GroupId g) const {
-    return g != GroupId::none && index(g) < model_.groups.size();
-  }
-  const Model& model_;
-  std::map<std::pair<GroupId, std::string_view>, GroupId> own_;
 };
 
 /// Finds the objects for which references that groups state hold: a branch names what it connects
@@ -185,6 +150,8 @@ struct Labelling {
 
   Test operator()(const AssemblyRule& assembly) const {
     const Hierarchy hierarchy(rule_context.model());
+    std::optional<Assemblies> assemblies;
+    if (assembly.by_type) assemblies.emplace(rule_context.model());
     SameLabel test = unlabelled(rule_context);
     Numbers paths;
     bool some = false;
@@ -192,7 +159,8 @@ struct Labelling {
       const Object& object = rule_context.model().objects[o];
       if (!among[o]) continue;
       const std::vector<GroupId> path = hierarchy.path(object);
-      const std::size_t depth = depth_of(assembly, object, path, hierarchy);
+      const std::size_t depth =
+          assemblies ? assemblies->depth(path) : depth_of(assembly, object, path, hierarchy);
       if (depth == 0) continue;
       some = true;
       if (!assembly.across_files) {
@@ -205,7 +173,12 @@ struct Labelling {
       if (hierarchy.name(path[depth - 1]).empty()) text += std::to_string(index(path[depth - 1]));
       test.label[o] = paths.of(text);
     }
-    if (!some) rule_context.warn_no_match(rule.where, "no object lies in such a group");
+    if (!some)
+      rule_context.warn_no_match(rule.where, assembly.by_type
+                                                 ? "neither the attribute Type nor a name as "
+                                                   "'BOX 1 of EQUIPMENT /P-101' tells what is an "
+                                                   "equipment, a structure or a branch"
+                                                 : "no object lies in such a group");
     return test;
   }
 

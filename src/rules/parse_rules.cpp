@@ -274,12 +274,14 @@ class RulesParser {
       const auto* const number = std::get_if<std::int64_t>(&level->held);
       const auto* const word = std::get_if<std::string>(&level->held);
       assembly.parent = word != nullptr && *word == "parent";
+      assembly.by_type = word != nullptr && *word == "assembly";
       const bool deep =
           number != nullptr && *number >= 1 && *number <= std::numeric_limits<std::int32_t>::max();
       if (deep) assembly.level = static_cast<std::uint32_t>(*number);
-      if (!deep && !assembly.parent)
+      if (!deep && !assembly.parent && !assembly.by_type)
         reading_.fault(level->at, "'level' of [[same_assembly]] is no level of the hierarchy",
-                       "write level = 1 for the outermost group, 2 for the next, or \"parent\"");
+                       "write level = 1 for the outermost group, 2 for the next, \"parent\", or "
+                       "\"assembly\" for the equipment, structure or branch");
     }
     if ((level == nullptr) == assembly.group.empty())
       reading_.fault(value.at, "[[same_assembly]] takes either 'level' or 'group'",
@@ -342,7 +344,8 @@ class RulesParser {
     if (value == nullptr) return;
     TableReader table(reading_, *value, "[obstruction]");
     ObstructionRule& rule = rules_.obstruction.emplace();
-    rule.attribute = table.text("attribute").value_or(rule.attribute);
+    if (auto attributes = table.texts("attribute"); !attributes.empty())
+      rule.attributes = std::move(attributes);
     constexpr std::array<std::string_view, 3> kWords{"soft", "hard", "none"};
     const std::string bodies = table.word("volumes", kWords).value_or("soft");
     rule.bodies = bodies == "hard" ? Level::hard : bodies == "none" ? Level::none : Level::soft;

@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "model/attributes.hpp"
 #include "rules/exemptions.hpp"
@@ -38,6 +39,13 @@ std::optional<Level> level_of(std::string_view value) {
   for (const auto& [word, level] : kWords)
     if (upper == word) return level;
   return std::nullopt;
+}
+
+/// Returns "'OBST' or 'Obstruction'".
+std::string alternatives(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "'" : " or '") + name + "'";
+  return text;
 }
 
 /// Works the rules out for a scene once; each test takes those that it follows.
@@ -104,6 +112,30 @@ class PlanBuilder {
       leave_out(Level::insulation, Level::soft, kInsulationSoftRule);
   }
 
+  /// Returns the level that the first of some attributes gives an object, hard with a warning where
+  /// that has no meaning; nothing where the object has none of them.
+  std::optional<Level> stated_level(const model::Object& object,
+                                    const std::vector<std::string>& attributes) {
+    for (const std::string& attribute : attributes) {
+      const model::Attributes* const stated =
+          rule_context_.model().stated(object, attribute).attributes;
+      if (stated == nullptr) continue;
+      for (const auto& [name, text] : *stated) {
+        if (name != attribute) continue;
+        // "none" is a level here, where other attributes have no value.
+        const auto level = level_of(unquoted(text));
+        if (level) return level;
+        if (is_null_value(unquoted(text))) continue;
+        rule_context_.diagnostics().add(Severity::warning, "obstruction-not-known",
+                                        "the attribute '" + name + "' is '" + text +
+                                            "', not 0, 1 or 2; the object counts as hard",
+                                        object.id);
+        return Level::hard;
+      }
+    }
+    return std::nullopt;
+  }
+
   void read_levels(const ObstructionRule& rule, std::vector<Level>& levels) {
     bool some = rule.soft.has_value() || rule.none.has_value();
     for (std::size_t o = 0; o < levels.size(); ++o) {
@@ -111,29 +143,14 @@ class PlanBuilder {
       for (const model::Body& body :
            std::span(rule_context_.model().bodies).subspan(object.first_body, object.body_count))
         some = some || body.category == model::Category::obstruction;
-      const model::Attributes* const stated =
-          rule_context_.model().stated(object, rule.attribute).attributes;
-      if (stated == nullptr) continue;
-      for (const auto& [name, text] : *stated) {
-        if (name != rule.attribute) continue;
-        // "none" is a level here, where other attributes have no value.
-        const auto level = level_of(unquoted(text));
-        if (!level && is_null_value(unquoted(text))) continue;
-        some = true;
-        if (level)
-          levels[o] = *level;
-        else
-          rule_context_.diagnostics().add(Severity::warning, "obstruction-not-known",
-                                          "the attribute '" + name + "' is '" + text +
-                                              "', not 0, 1 or 2; the object counts as hard",
-                                          object.id);
-        break;
-      }
+      const auto stated = stated_level(object, rule.attributes);
+      some = some || stated;
+      if (stated) levels[o] = *stated;
     }
     if (!some)
       rule_context_.warn_no_match(rules_.file + ": [obstruction]",
-                                  "no object has the attribute '" + rule.attribute +
-                                      "' and there are no obstruction volumes");
+                                  "no object has the attribute " + alternatives(rule.attributes) +
+                                      " and there are no obstruction volumes");
     apply(rule.soft, Level::soft, levels);
     apply(rule.none, Level::none, levels);
     if (!rule.soft || !rule.none) return;

@@ -49,11 +49,12 @@ struct UnitRule {
   std::vector<UnitGroup> groups;  ///< the first that picks an object decides
 };
 
-/// Objects of one assembly are no pair; the rule says in one of three ways which group is one.
+/// Objects of one assembly are no pair; the rule says in one of four ways which group is one.
 struct AssemblyRule {
   std::uint32_t level = 0;  ///< 1: the outermost group of the path; 0: not said
   bool parent = false;
-  std::string group;  ///< a pattern of names: the innermost group that matches
+  bool by_type = false;  ///< the equipment, structure or branch (model::Assemblies)
+  std::string group;     ///< a pattern of names: the innermost group that matches
   bool across_files = false;
 };
 
@@ -93,8 +94,8 @@ struct ExemptingRule {
 };
 
 struct ObstructionRule {
-  std::string attribute = "OBST";
-  clash::Level bodies = clash::Level::soft;  ///< none: obstruction volumes are not placed
+  std::vector<std::string> attributes{"OBST"};  ///< the first that an object has counts
+  clash::Level bodies = clash::Level::soft;     ///< none: obstruction volumes are not placed
   bool soft_against_soft = true;
   std::optional<Chooser> soft, none;
 };

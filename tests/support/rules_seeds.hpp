@@ -56,6 +56,9 @@ attribute = "UNIT"
 number = 7
 select = "name = 'b'"
 [[same_assembly]]
+name = "item"
+level = "assembly"
+[[same_assembly]]
 name = "one"
 level = 3
 [[connected]]

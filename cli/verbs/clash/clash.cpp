@@ -18,6 +18,7 @@
 #include "cli/run/load.hpp"
 #include "cli/verbs/clash/clash_hint.hpp"
 #include "cli/verbs/clash/clash_output.hpp"
+#include "cli/verbs/clash/clash_profile.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/clash/clash_sets.hpp"
 #include "cli/verbs/verb.hpp"
@@ -37,7 +38,7 @@ struct ClashOptions {
   std::array<std::string, clash::kToleranceLengths.size()> tolerances;
   std::string contact_distance;
   std::string broad_phase, narrow_phase, thickness_cap, contacts, fail_on, most_pairs, most_spheres,
-      rules;
+      rules, profile;
   bool list_exempted = false, curves = false;
   ClashResultInput result;
   ClashOutputInput output;
@@ -143,7 +144,8 @@ Status write_report(Session& session, const ClashOptions& given,
 struct ClashRequest {
   clash::Options options;  ///< of the only test; with rules, what they leave open
   SetRequest sets;
-  std::optional<rules::Rules> rules;
+  std::optional<rules::Rules> rules;    ///< they have the tests, too
+  std::optional<rules::Rules> profile;  ///< rules for the test of the command line
   model::SceneOptions scene;
   ClashOutput output;
 };
@@ -172,8 +174,18 @@ Result<ClashRequest> request_of(const ClashOptions& given, bool json) {
     if (!read) return read.error();
     request.rules = std::move(*read);
   }
-  const model::SceneOptions wanted =
+  Result<std::optional<rules::Rules>> profile = profile_rules(given.profile);
+  if (!profile) return profile.error();
+  request.profile = std::move(*profile);
+  if (given.list_exempted && !request.rules && !request.profile)
+    return Error{ErrorCode::usage, "there are no rules that exempt", "--list-exempted",
+                 "add --rules or --profile"};
+  model::SceneOptions wanted =
       request.rules ? request.rules->scene_options() : clash::scene_options(*options);
+  if (request.profile) {
+    wanted.obstruction = request.profile->scene_options().obstruction;
+    wanted.insulation = request.profile->scene_options().insulation;
+  }
   const Result<model::SceneOptions> scene = scene_options(given.scene, wanted.sag_mm);
   if (!scene) return scene.error();
   request.scene = *scene;
@@ -197,7 +209,13 @@ Result<rules::Plan> plan_of(Session& session, const Loaded& loaded, const ClashR
   Result<ChosenSets> chosen = choose_sets(session, loaded, request.sets);
   if (!chosen) return chosen.error();
   rules::PlannedTest test{{}, request.options, std::move(chosen->sets), {}};
-  return rules::Plan{{std::move(test)}, std::move(chosen->diagnostics)};
+  rules::Plan plan{{std::move(test)}, std::move(chosen->diagnostics)};
+  if (request.profile)
+    if (const Status applied =
+            apply_profile(*request.profile, loaded.scene, session.context(), plan);
+        !applied)
+      return applied.error();
+  return plan;
 }
 
 Result<clash::Findings> find(Session& session, const Loaded& loaded, rules::Plan plan,
@@ -271,6 +289,7 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
   std::optional<report::RulesSource> source;
   const Diagnostics loading = loaded.diagnostics();
   if (request.rules) source = {request.rules->file(), request.rules->hash()};
+  if (request.profile) source = {request.profile->file(), request.profile->hash(), given.profile};
   return write_report(
       session, given,
       {findings, *loaded.model, *grouping ? &**grouping : nullptr, source ? &*source : nullptr,
@@ -294,14 +313,15 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   const FailingPairs failing = failing_pairs(*findings, given.fail_on);
   if (const Status status = put_out(session, given, *request, *loaded, *findings); !status)
     return status.error();
-  if (!session.json() && given.result.group_by.empty() && request->output.classes.hit)
+  const bool first_look = !request->rules && !request->profile && given.result.group_by.empty();
+  if (!session.json() && first_look && request->output.classes.hit)
     if (const std::string hint = concentration_hint(*findings, *loaded->model); !hint.empty())
       session.console().note(hint);
   return clash_exit_code(*findings, failing, given.fail_on, given.input, *loaded,
                          session.console());
 }
 
-/// Adds --rules; this comes after the options that it excludes.
+/// Adds --rules and --profile; this comes after the options that --rules excludes.
 void add_rules_file(CLI::App& command, ClashOptions& options) {
   CLI::Option* const rules =
       command
@@ -317,8 +337,8 @@ void add_rules_file(CLI::App& command, ClashOptions& options) {
       .add_flag("--list-exempted", options.list_exempted,
                 "List the pairs that rules exempt, in " +
                     list_suffixes(formats_of(report::clash_writers()), "and"))
-      ->group("Rules")
-      ->needs(rules);
+      ->group("Rules");
+  add_profile_option(command, options.profile);
 }
 
 void add_rules(CLI::App& command, ClashOptions& options) {
@@ -402,6 +422,7 @@ Examples:
   strake clash ship.glb --group-by element --group-distance 3m
   strake clash ship.glb --class hit,clearance --top 50
   strake clash hvac.rvm steel.rvm --columns @Tag,@Area --csv excel-comma -o clashes.csv
+  strake clash hvac.rvm steel.rvm --profile plant --group-by assembly
   strake clash ship.glb --log-pairs pairs.csv --stats
   strake clash diff monday.json tuesday.json
   strake clash ship.glb --a 'PIP*' --b 'type = mesh and not PIP*' -o pipes.csv

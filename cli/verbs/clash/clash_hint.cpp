@@ -35,8 +35,8 @@ std::string hint_of_parts(const std::vector<clash::Group>& groups, std::uint64_t
     if (is_within(group)) within += group.count_hit;
   if (within * kLeastPart < hits) return {};
   return fmt::format(
-      "{} of {} hits lie between parts of one assembly: --group-by assembly has a "
-      "line for each, [[same_assembly]] of a rules file leaves them out",
+      "{} of {} hits lie between parts of one assembly: --group-by assembly has a line for each; "
+      "--profile plant, or [[same_assembly]] of a rules file, leaves them out",
       within, hits);
 }
 

@@ -31,8 +31,9 @@ using Sink = parallel::FunctionRef<void(std::string_view)>;
 
 /// The rules file that findings were made with.
 struct RulesSource {
-  std::string file;  ///< its name, without folders
-  Hash128 hash;      ///< the hash of its bytes
+  std::string file;          ///< its name, without folders
+  Hash128 hash;              ///< the hash of its bytes
+  std::string profile = {};  ///< the profile that it is, if it is one that the program brings along
 };
 
 /// How CSV is written. By default as RFC 4180 has it. A spreadsheet that is opened by a double

@@ -11,14 +11,15 @@ namespace {
 /// What an object is a part of: its assembly, or its file where it has none.
 using Whole = std::pair<std::uint32_t, model::GroupId>;
 
-Whole whole_of(const model::Model& model, const model::Assemblies& assemblies, model::ObjectId id) {
+Whole whole_of(const model::Model& model, const model::ObjectAssemblies& assemblies,
+               model::ObjectId id) {
   return {model.object(id).file, assemblies.of(id)};
 }
 
 }  // namespace
 
 Partition by_assembly(std::span<const GroupingItem> items, const model::Model& model,
-                      const model::Assemblies& assemblies) {
+                      const model::ObjectAssemblies& assemblies) {
   std::map<std::pair<Whole, Whole>, std::uint32_t> numbers;
   Partition partition;
   for (const GroupingItem& item : items) {

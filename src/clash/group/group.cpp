@@ -49,7 +49,7 @@ Partition by_value(std::span<const GroupingItem> items, Value&& value) {
 }
 
 Partition partition_of(std::span<const GroupingItem> items, const model::Model& model,
-                       const model::Assemblies* assemblies, const GroupRules& rules) {
+                       const model::ObjectAssemblies* assemblies, const GroupRules& rules) {
   switch (rules.by) {
     case GroupBy::element:
       return by_element(items);
@@ -94,7 +94,8 @@ std::string place_of(const geometry::Box3d& box) {
 class Namer {
  public:
   /// `assemblies` may be null where groups are not by assembly.
-  Namer(const Findings& findings, const model::Model& model, const model::Assemblies* assemblies)
+  Namer(const Findings& findings, const model::Model& model,
+        const model::ObjectAssemblies* assemblies)
       : findings_(findings), model_(model), assemblies_(assemblies) {}
 
   void name(Group& group, const GroupRules& rules, const Partition& partition,
@@ -161,7 +162,7 @@ class Namer {
 
   const Findings& findings_;
   const model::Model& model_;
-  const model::Assemblies* assemblies_;
+  const model::ObjectAssemblies* assemblies_;
 };
 
 void sort_groups(std::vector<Group>& groups, SortBy by) {
@@ -186,9 +187,9 @@ Result<Grouping> group_results(const Findings& findings, const model::Model& mod
     return Error{ErrorCode::usage, "the distance of groups is less than a millimetre",
                  "group distance", "give a length such as 3m"};
   const std::vector<GroupingItem> items = items_of(findings, rules.contacts);
-  std::optional<model::Assemblies> assemblies;
+  std::optional<model::ObjectAssemblies> assemblies;
   if (rules.by == GroupBy::assembly) assemblies.emplace(model);
-  const model::Assemblies* const known = assemblies ? &*assemblies : nullptr;
+  const model::ObjectAssemblies* const known = assemblies ? &*assemblies : nullptr;
   Partition partition = partition_of(items, model, known, rules);
   if (splits(rules)) partition = apart(items, partition, rules.distance_mm);
   std::vector<Group> groups(partition.count);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "model/assemblies.hpp"
+#include "model/object_assemblies.hpp"
 #include "strake/clash/clash.hpp"
 
 namespace strake::clash {
@@ -31,7 +31,7 @@ struct Partition {
 
 /// Groups items by the assemblies of the two objects, or their files where they have none.
 [[nodiscard]] Partition by_assembly(std::span<const GroupingItem> items, const model::Model& model,
-                                    const model::Assemblies& assemblies);
+                                    const model::ObjectAssemblies& assemblies);
 
 /// Splits groups into those whose points are linked by single linkage.
 [[nodiscard]] Partition apart(std::span<const GroupingItem> items, const Partition& together,

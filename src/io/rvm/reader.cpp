@@ -15,7 +15,7 @@
 #include "io/rvm/text_variant.hpp"
 #include "io/source/reader_support.hpp"
 #include "io/source/text_decoder.hpp"
-#include "model/assemblies.hpp"
+#include "model/object_assemblies.hpp"
 
 namespace strake::io {
 

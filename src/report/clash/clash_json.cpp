@@ -34,7 +34,12 @@ void files(std::string& out, const model::Model& model) {
 void rules(std::string& out, const RulesSource& source) {
   out += "\"rules\": {\"file\": ";
   append_json(out, source.file);
-  out += ", \"hash\": \"" + source.hash.text() + "\"}";
+  out += ", \"hash\": \"" + source.hash.text() + '"';
+  if (!source.profile.empty()) {
+    out += ", \"profile\": ";
+    append_json(out, source.profile);
+  }
+  out += '}';
 }
 
 void classes(std::string& out, const WrittenClasses& written) {

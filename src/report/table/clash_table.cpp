@@ -150,8 +150,36 @@ std::string not_listed(const ClassRows& c) {
   return text.empty() ? text : " (" + text + ")";
 }
 
+/// Returns how many pairs each rule of a profile left out and allowed, and how many of the results
+/// are soft, in one line.
+std::string profile_line(const Report& report, std::string_view profile) {
+  std::string left_out, allowed;
+  const auto add = [](std::string& text, std::uint64_t pairs, std::string_view rule) {
+    if (pairs > 0)
+      text += (text.empty() ? "" : ", ") + counted(pairs, "pair", "pairs") + " (" +
+              printable(rule) + ")";
+  };
+  for (const clash::Exempted& e : report.exempted) add(left_out, e.pairs, e.rule);
+  for (const clash::AllowedCount& a : report.allowed) add(allowed, a.pairs, a.rule);
+  std::uint64_t soft = 0, insulation = 0;
+  for (const Pair& p : report.pairs) {
+    if (p.allowed >= 0) continue;
+    const auto is_of = [&](clash::Level level) { return p.level_a == level || p.level_b == level; };
+    if (is_of(clash::Level::soft))
+      ++soft;
+    else if (is_of(clash::Level::insulation))
+      ++insulation;
+  }
+  std::string line = "left out by profile " + printable(profile) + ": " +
+                     (left_out.empty() ? "nothing" : left_out);
+  if (!allowed.empty()) line += "; allowed: " + allowed;
+  if (soft > 0) line += "; with space kept free: " + counted(soft, "result", "results");
+  if (insulation > 0) line += "; with insulation: " + counted(insulation, "result", "results");
+  return line + "\n";
+}
+
 std::string summary_of(const Report& report, const model::Model& model,
-                       const std::array<ClassRows, 3>& classes) {
+                       const std::array<ClassRows, 3>& classes, std::string_view profile) {
   std::string summary;
   for (const ClassRows& c : classes) {
     summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
@@ -162,9 +190,10 @@ std::string summary_of(const Report& report, const model::Model& model,
     summary +=
         ", " + counted(report.count_allowed_regions, "place", "places") + " of others allowed";
   for (const clash::Exempted& e : report.exempted)
-    if (e.pairs > 0)
+    if (e.pairs > 0 && profile.empty())
       summary += ", " + std::to_string(e.pairs) + " exempted by " + printable(e.rule);
-  return summary + uncertain(report) + not_compared(report, model) + "\n";
+  summary += uncertain(report) + not_compared(report, model) + "\n";
+  return profile.empty() ? summary : summary + profile_line(report, profile);
 }
 
 std::string cell_row(std::string_view cell, const std::array<std::string, 4>& counts,
@@ -226,8 +255,8 @@ PairTableHead head_of(const Report& report, const model::Model& model,
   return head;
 }
 
-std::string test_table(const Report& report, const model::Model& model,
-                       const TableOptions& options) {
+std::string test_table(const Report& report, const model::Model& model, const TableOptions& options,
+                       std::string_view profile) {
   const std::array<ClassRows, 3> classes = shares(report, options.rows);
   std::array<PairBlock, 3> blocks;
   for (std::size_t c = 0; c < classes.size(); ++c) {
@@ -238,7 +267,7 @@ std::string test_table(const Report& report, const model::Model& model,
   }
   std::string out = pair_table(blocks, head_of(report, model, options));
   if (!out.empty()) out += "\n";
-  return out + matrix_table(report, options.width) + summary_of(report, model, classes);
+  return out + matrix_table(report, options.width) + summary_of(report, model, classes, profile);
 }
 
 }  // namespace
@@ -247,14 +276,17 @@ std::string clash_table(const ClashContents& contents, const TableOptions& optio
   std::string out;
   const bool grouped = contents.grouping != nullptr && !contents.grouping->groups.empty();
   if (grouped) out = group_table(*contents.grouping, options);
+  const std::string_view profile =
+      contents.rules != nullptr ? std::string_view(contents.rules->profile) : std::string_view();
   bool first = true;
   for (const Report& test : contents.findings.tests) {
     if (!first && contents.grouping == nullptr) out += "\n";
     first = false;
     if (!test.name.empty()) out += "== " + printable(test.name) + "\n";
-    out += contents.grouping != nullptr ? matrix_table(test, options.width) +
-                                              summary_of(test, contents.model, shares(test, 0))
-                                        : test_table(test, contents.model, options);
+    out += contents.grouping != nullptr
+               ? matrix_table(test, options.width) +
+                     summary_of(test, contents.model, shares(test, 0), profile)
+               : test_table(test, contents.model, options, profile);
   }
   return out;
 }

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from scenario import VERBS, Scenario, main
 
-PROGRAM_VERBS = {'clash', 'draw', 'info', 'evaluate', 'generate', 'help', 'man', 'completion'}
+PROGRAM_VERBS = {'clash', 'draw', 'info', 'rules', 'evaluate', 'generate', 'help', 'man', 'completion'}
 
 
 class Completion:
@@ -30,6 +30,8 @@ class Completion:
         self.assertEqual(self.offers('strake '), PROGRAM_VERBS)
         self.assertEqual(self.offers('strake generate '), {'ship'})
         self.assertEqual(self.offers('strake completion '), {'bash', 'zsh', 'fish'})
+        self.assertEqual(self.offers('strake rules '), {'list', 'show'})
+        self.assertEqual(self.offers('strake rules show '), {'plant', 'ship', 'building'})
         self.assertEqual(self.offers('strake cl'), {'clash'})
 
     def test_files_where_files_can_stand(self):

@@ -8,7 +8,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-VERBS = [[], ['clash'], ['clash', 'diff'], ['draw'], ['draw', 'diff'], ['info'], ['evaluate'], ['generate'],
+VERBS = [[], ['clash'], ['clash', 'diff'], ['draw'], ['draw', 'diff'], ['info'],
+         ['rules'], ['rules', 'list'], ['rules', 'show'], ['evaluate'], ['generate'],
          ['generate', 'ship'], ['help'], ['man'], ['completion']]
 CUBE_FACES = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8)]
 
@@ -30,7 +31,8 @@ def bar_between_walls():
 
 
 def rvm(boxes, whole=True):
-    """The bytes of an RVM file: for each (name, place in mm) a group with a cube of 100 mm; without an END, not whole."""
+    """The bytes of an RVM file: for each (name, place in mm) a group with a cube of 100 mm, for (name, place, 'OBST') one
+    that is an obstruction volume or, with 'INSU', insulation; without an END, not whole."""
     content = b''
 
     def words(*numbers):
@@ -50,10 +52,11 @@ def rvm(boxes, whole=True):
 
     chunk('HEAD', words(2) + b''.join(map(text, ('test', '', '', '', 'Unicode UTF-8'))))
     chunk('MODL', words(1) + text('P') + text('/M'))
-    for name, place in boxes:
+    for name, place, *kind in boxes:
         chunk('CNTB', words(2) + text(name) + floats(0, 0, 0) + words(1))
-        chunk('PRIM', words(1, 2) + floats(.001, 0, 0, 0, .001, 0, 0, 0, .001, *(x / 1000 for x in place))
-              + floats(-50, -50, -50, 50, 50, 50) + floats(100, 100, 100))
+        chunk(*(kind or ['PRIM']), words(1, 2)
+              + floats(.001, 0, 0, 0, .001, 0, 0, 0, .001, *(x / 1000 for x in place))
+              + floats(-50, -50, -50, 50, 50, 50) + (bytes([50, 0, 0, 0]) if kind else b'') + floats(100, 100, 100))
         chunk('CNTE', words(2))
     if whole:
         chunk('END:', words(1))

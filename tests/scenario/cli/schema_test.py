@@ -172,6 +172,10 @@ class Schemas(unittest.TestCase):
         self.assertGreater(len(report['exempted']), 0)
         self.assertGreater(sum('allowed' in result for result in report['results']), 0)
 
+    def test_clash_by_a_profile(self):
+        report = self.follows(self.run_strake('clash', 'ship.glb', '--profile', 'ship', '--json'), 'clash')
+        self.assertEqual(report['rules']['profile'], 'ship')
+
     def test_clash_with_a_place_that_a_rule_allows(self):
         (self.folder / 'bar.obj').write_text(bar_between_walls(), encoding='utf-8')
         ruled = ['clash', 'bar.obj', '--unit', 'mm', '--rules']

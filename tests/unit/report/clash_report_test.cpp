@@ -254,6 +254,12 @@ TEST(ClashReports, TellWhatRulesDid) {
   EXPECT_NE(table.find("hull, port x pipes"), std::string::npos) << table;
   EXPECT_EQ(table.find("pipes x pipes"), std::string::npos) << "nothing was found there";
   EXPECT_EQ(table.find("HIT"), std::string::npos) << "what is allowed is no clash to look at";
+  const RulesSource profile{"ship.toml", {}, "ship"};
+  const std::string by_profile = clash_table({{{report}, {}}, m.model, nullptr, &profile}, {});
+  EXPECT_NE(by_profile.find("0 hits, 0 contacts, 1 clearance violation, 1 allowed\n"
+                            "left out by profile ship: 1 pair (matrix); allowed: 1 pair (sleeve)"),
+            std::string::npos)
+      << by_profile;
 }
 
 /// Written for the schema test, as above.

@@ -76,6 +76,9 @@ among = "b*"
 name = "owner"
 level = "parent"
 [[same_assembly]]
+name = "item"
+level = "assembly"
+[[same_assembly]]
 name = "skid"
 group = "SKID*"
 [[connected]]
@@ -96,7 +99,7 @@ name = "not ours"
 a = "file = x.rvm"
 b = "file = y.rvm"
 [obstruction]
-attribute = ":OBST"
+attribute = [":OBST", "Obstruction"]
 volumes = "hard"
 soft_against_soft = false
 soft = "ACCESS*"

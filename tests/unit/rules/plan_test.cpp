@@ -266,6 +266,17 @@ TEST(RulesPlan, ObstructionLevels) {
   EXPECT_EQ(outcome.reports[0].pairs[0].level_b, clash::Level::soft);
 }
 
+TEST(RulesPlan, ObstructionLevelsOfTheFirstAttributeThatAnObjectHas) {
+  const Row row = Row()
+                      .cube("a", {{"Obstruction", "0"}})
+                      .cube("b", {{"OBST", "2"}, {"Obstruction", "0"}})
+                      .cube("c", {{"OBST", "unset"}, {"Obstruction", "1"}});
+  const auto outcome = row.run("[obstruction]\nattribute = [\"OBST\", \"Obstruction\"]");
+  EXPECT_EQ(outcome.told[0], (Told{"b-c HIT"}));
+  EXPECT_EQ(outcome.reports[0].pairs[0].level_b, clash::Level::soft);
+  EXPECT_EQ(row.hits("[obstruction]"), (Told{"a-b HIT", "b-c HIT"}));
+}
+
 TEST(RulesPlan, Insulation) {
   const Row row = Row()
                       .cube("a")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "model/assemblies.hpp"
+#include "model/object_assemblies.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ TEST(CountedNames, AreThoseThatADatabaseMakesUp) {
     EXPECT_FALSE(is_counted_name(name)) << name;
 }
 
-TEST(Assemblies, AreTheNearestGroupsWithNamesOfTheirOwn) {
+TEST(ObjectAssemblies, AreTheNearestGroupsWithNamesOfTheirOwn) {
   Model m;
   m.groups = {{"/SITE", GroupId::none},
               {"/P", GroupId{0}},
@@ -28,7 +28,7 @@ TEST(Assemblies, AreTheNearestGroupsWithNamesOfTheirOwn) {
   m.objects[2].parent = GroupId{0};  // an object with others below it
   m.objects[2].name = "/P";
   m.objects[3].parent = GroupId{4};  // nothing above it has a name
-  const Assemblies assemblies(m);
+  const ObjectAssemblies assemblies(m);
   EXPECT_EQ(assemblies.of(ObjectId{0}), GroupId{1});
   EXPECT_EQ(assemblies.of(ObjectId{1}), GroupId{1});
   EXPECT_EQ(assemblies.of(ObjectId{2}), GroupId{1});
