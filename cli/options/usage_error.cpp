@@ -81,12 +81,14 @@ Error usage_error(const CLI::App& program, const CLI::ParseError& error) {
   FoundCommand at{&program, program.get_name()};
   for (auto used = program.get_subcommands(); !used.empty(); used = at.command->get_subcommands())
     at = {used.front(), at.path + " " + used.front()->get_name()};
+  // What is left over is told under the name of its verb, not of the error.
+  const bool left_over = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   const std::string message = error.what(), kind = error.get_name();
   const std::string help = "'" + at.path + " --help' tells what there is";
   const std::vector<std::string> strange = at.command->remaining(), before = program.remaining();
   if (at.command->get_require_subcommand_min() > 0) return no_verb(at, strange);
-  if (kind == "ExtrasError" && !strange.empty()) return unknown_word(at, strange.front());
-  if (kind == "ExtrasError" && !before.empty())
+  if (left_over && !strange.empty()) return unknown_word(at, strange.front());
+  if (left_over && !before.empty())
     return usage("'" + before.front() + "' stands before the verb", "options stand behind it");
   const std::string option = message.substr(0, message.find(": "));
   if (kind == "RequiredError") {

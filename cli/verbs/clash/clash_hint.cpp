@@ -48,10 +48,9 @@ std::string concentration_hint(const clash::Findings& findings, const model::Mod
   if (hits < kLeastHits) return {};
   const Result<clash::Grouping> grouping =
       clash::group_results(findings, model, {.by = clash::GroupBy::assembly});
-  // In a model of one assembly the hint would say nothing.
-  if (!grouping || grouping->groups.size() < 2) return {};
-  const std::string hint = hint_of_one(grouping->groups, hits);
-  return hint.empty() ? hint_of_parts(grouping->groups, hits) : hint;
+  if (!grouping || grouping->groups.empty()) return {};
+  const std::string within = hint_of_parts(grouping->groups, hits);
+  return within.empty() ? hint_of_one(grouping->groups, hits) : within;
 }
 
 }  // namespace strake::cli

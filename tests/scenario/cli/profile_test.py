@@ -121,19 +121,19 @@ class Profiles(Scenario):
     def test_a_hint_where_most_hits_are_of_one_kind(self):
         tank = [(f'BOX {i} of EQUIPMENT /T-1', {}, i * .09, []) for i in range(25)]
         pump = [(f'BOX {i} of EQUIPMENT /P-1', {}, i * .09, []) for i in range(25)]
-        within = 'are between parts of one equipment, structure or branch (--profile plant leaves these out)'
+        within = 'lie between parts of one assembly: --group-by assembly has a line for each; --profile plant, or'
 
         def site(*equipment):
             return gltf(('/SITE', {}, None, [('/ZONE', {}, None, [(name, {}, None, boxes) for name, boxes in equipment])]))
 
         self.write('tank.gltf', site(('/T-1', tank)))
-        self.assertIn(f'hint: 24 of 24 hits {within}\n', self.run_strake('clash', 'tank.gltf').stderr)
+        self.assertIn(f'24 of 24 hits {within}', self.run_strake('clash', 'tank.gltf').stderr)
         for more in (['--quiet'], ['--profile', 'plant'], ['--profile', 'none']):
-            self.assertNotIn('hint', self.run_strake('clash', 'tank.gltf', *more).stderr)
+            self.assertNotIn('of 24 hits', self.run_strake('clash', 'tank.gltf', *more).stderr)
         # Each box in its like, and in the neighbours of that: two files of one thing.
         self.write('pump.gltf', site(('/P-1', pump)))
         done = self.run_strake('clash', 'tank.gltf', 'pump.gltf')
-        self.assertIn('hint: 73 of 73 hits are between /T-1 and /P-1 (--group-by assembly puts them into one row)\n',
+        self.assertIn('73 of 73 hits lie between /T-1 and /P-1: --group-by assembly makes them one line\n',
                       done.stderr.replace('/P-1 and /T-1', '/T-1 and /P-1'))
         table = self.text('clash', 'tank.gltf', 'pump.gltf', '--group-by', 'assembly')
         self.assertRegex(table, r'HIT +-\d+[.]\d+ +73 +[0-9.]+ +/(P-1 and /T-1|T-1 and /P-1)\n')

@@ -26,7 +26,8 @@ COUNTS = ['info a.obj --objects', 'clash a.obj --most-pairs', 'clash a.obj --mos
           'generate ship -o x.glb --imported-detail',
           'generate ship -o x.glb --imported-detail 1 --imported-triangles']
 CHOICES = ['clash a.obj --fail-on', 'clash a.obj --thickness-cap', 'clash a.obj --contacts', 'clash a.obj --group-by',
-           'clash a.obj --sort', 'clash a.obj --broad-phase', 'clash a.obj --narrow-phase', 'clash a.obj --distribution',
+           'clash a.obj --sort', 'clash a.obj --csv', 'clash a.obj --profile', 'clash a.obj --broad-phase',
+           'clash a.obj --narrow-phase', 'clash a.obj --distribution',
            'clash diff c.json c.json --fail-on', 'draw diff v.view v.view --fail-on', 'draw a.obj -o x.svg --view',
            'draw a.obj -o x.svg --hidden', 'draw a.obj -o x.svg --stage', 'draw a.obj -o x.svg --intersections',
            'draw a.obj -o x.svg --own-polylines', 'draw a.obj -o x.svg --smooth', 'draw a.obj -o x.svg --solver',
@@ -85,7 +86,7 @@ USAGE = [
     ('info a.obj --weld 2m', '--weld', 'longer than a metre'),
     *behind(['draw a.obj -o x.svg --select', 'draw a.obj -o x.svg --hatch 45deg --select'], [
         ('nobody', "'nobody' picks no object"), ("'@MATERIAL = AH36'", 'no object has an attribute @MATERIAL'),
-        ("'name = nobody'", 'strake info FILE --objects 20'), ("'@ = 3'", 'column 1'), ("'name ='", 'column 7'),
+        ("'name = nobody'", 'strake info --objects 20'), ("'@ = 3'", 'column 1'), ("'name ='", 'column 7'),
         ("'(a or b'", 'column 8'), ("'a and'", 'column 6'), ('"\'open"', 'column 1'), ("'@DN > wide'", 'column 7'),
         ("'name > 3'", 'column 8'), ("\"name ~ '('\"", 'column 8'), ("'inside(1,2,3)'", 'column 13'),
         ("'inside(0,0,0,1,1,nan)'", 'column 18'), ("'set(x)'", 'no set is called'), ("''", 'the value is empty')]),
@@ -118,6 +119,9 @@ USAGE = [
     ('clash a.obj --clearance 1mm --clearance 2mm', '--clearance', 'more than once'),
     ('clash a.obj --quiet=maybe', '--quiet', 'takes no value'),
     ('clash a.obj --b x --self', '--self', 'leave one of them out'),
+    ('clash a.obj --columns Tag', '--columns', '@Tag,@Area'), ('clash a.obj --columns @', '--columns', '@Tag,@Area'),
+    ('clash a.obj --top x', '--top', 'digits only'), ('clash a.obj --top -1', '--top', 'digits only'),
+    ('clash a.obj --class foo', '--class', 'hit,contact,clearance'), ('clash a.obj --class hit,,', '--class', 'hit,contact,clearance'),
     ('clash a.obj --list-exempted', '--list-exempted', 'add --rules'),
     ('clash a.obj --rules r.toml --clearance 3mm', '--clearance', 'leave one of them out'),
     ('clash a.obj --sort size', '--sort', 'add --group-by'),
@@ -332,7 +336,7 @@ class WrongInputs(Scenario):
     def test_there_is_a_row_for_every_option(self):
         named = ' '.join(line for line, _, _ in USAGE + OUTPUT) + ' --rules --sheet'
         flags = {'--help', '--version', '--json', '--stats', '--strict', '--obstructions', '--insulation', '--curves', '--volumes',
-                 '--turned', '--fresh', '--title', '--output', '--compare'}
+                 '--turned', '--fresh', '--attributes', '--title', '--output', '--compare'}
         for verb in (['clash'], ['clash', 'diff'], ['draw'], ['draw', 'diff'], ['info'], ['evaluate'], ['generate', 'ship']):
             for option in self.options(verb) - flags:
                 with self.subTest(verb=verb, option=option):

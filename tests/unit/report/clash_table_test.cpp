@@ -69,7 +69,7 @@ std::string table_of(const ClashModel& m, const TableOptions& options = {}) {
 TEST(ClashTable, HasThePlaceInMillimetres) {
   EXPECT_EQ(table_of(two_boxes("left", "right")),
             "class     d mm  relation   x mm y mm z mm  a     b\n"
-            "HIT    -20.000  INTERFERE  1090 2050 3050  left  right\n"
+            "HIT    -20.000  INTERFERE  1100 2050 3050  left  right\n"
             "\n"
             "1 hit, 0 contacts, 0 clearance violations\n");
 }
@@ -84,7 +84,7 @@ TEST(ClashTable, TellsTheCommonPathOnce) {
 
 TEST(ClashTable, PutsLongNamesBelowEachOtherRatherThanCutThem) {
   const std::string a = "SUBEQUIPMENT 1 of EQUIPMENT /A", b = "SUBEQUIPMENT 2 of EQUIPMENT /A";
-  const std::string numbers = "HIT    -20.000  INTERFERE  1090 2050 3050";
+  const std::string numbers = "HIT    -20.000  INTERFERE  1100 2050 3050";
   const std::string stacked = table_of(two_boxes(a, b));
   EXPECT_NE(
       stacked.find(numbers + "  " + a + "\n" + std::string(numbers.size() + 2, ' ') + b + "\n"),
@@ -137,7 +137,7 @@ TEST(ClashTable, GroupsHaveTheirPlaceToo) {
   const std::string text = clash_table({findings, m.model, &by_element}, {});
   EXPECT_NE(
       text.find("class            d mm  results  size m  x mm  y mm  z mm  element\n"
-                "HIT           -20.000        1     0.0  1090  2050  3050  /PLANT/WD1/left\n"),
+                "HIT           -20.000        1     0.0  1100  2050  3050  /PLANT/WD1/left\n"),
       std::string::npos)
       << text;
 }

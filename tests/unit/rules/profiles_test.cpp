@@ -15,6 +15,9 @@ namespace {
 using test::Row;
 using test::Told;
 
+/// Cubes of a row overlap by 10 mm; allowing that much makes contacts of them.
+const std::string kContacts = "[defaults]\ntouch_overlap = \"11mm\"\nthickness_cap = false\n";
+
 std::string text_of(std::string_view profile) {
   const Profile* const found = find_profile(profile);
   if (found != nullptr) return std::string(found->text);
@@ -66,12 +69,10 @@ TEST(Profiles, WeldsOfAShipAreAllowedWhileTheyAreNoHit) {
       .cube("wall", {}, cabin)
       .cube("bed", {}, cabin)
       .cube("wall 2", {}, other);
-  // Cubes of the row overlap by 10 mm; allowing that much makes contacts of them.
-  const std::string contacts = "[defaults]\ntouch_overlap = \"11mm\"\n";
   EXPECT_EQ(row.hits(text_of("ship")), (Told{"deck-beam HIT", "beam-steel pipe HIT",
                                              "steel pipe-wall HIT", "bed-wall 2 HIT"}));
   EXPECT_EQ(
-      row.hits(contacts + text_of("ship")),
+      row.hits(kContacts + text_of("ship")),
       (Told{"deck-beam CONTACT by welds of steel", "beam-steel pipe CONTACT",
             "steel pipe-wall CONTACT", "bed-wall 2 CONTACT by fitted parts of the accommodation"}));
 }
@@ -85,7 +86,7 @@ TEST(Profiles, RoomsOfABuildingAreNotBuilt) {
                       .cube("duct", {{"ifcType", "IfcDuctSegment"}})
                       .cube("IfcOpeningElement/7");
   EXPECT_EQ(row.hits(text), (Told{"wall-IfcSlab/1 HIT", "IfcSlab/1-duct HIT"}));
-  EXPECT_EQ(row.hits("[defaults]\ntouch_overlap = \"11mm\"\n" + text),
+  EXPECT_EQ(row.hits(kContacts + text),
             (Told{"wall-IfcSlab/1 CONTACT by joints of the fabric", "IfcSlab/1-duct CONTACT"}));
 }
 
