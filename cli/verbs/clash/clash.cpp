@@ -313,7 +313,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   const FailingPairs failing = failing_pairs(*findings, given.fail_on);
   if (const Status status = put_out(session, given, *request, *loaded, *findings); !status)
     return status.error();
-  const bool first_look = !request->rules && !request->profile && given.result.group_by.empty();
+  const bool first_look = !request->rules && given.profile.empty() && given.result.group_by.empty();
   if (!session.json() && first_look && request->output.classes.hit)
     if (const std::string hint = concentration_hint(*findings, *loaded->model); !hint.empty())
       session.console().note(hint);
