@@ -136,7 +136,7 @@ class Profiles(Scenario):
         self.assertIn('73 of 73 hits lie between /T-1 and /P-1: --group-by assembly makes them one line\n',
                       done.stderr.replace('/P-1 and /T-1', '/T-1 and /P-1'))
         table = self.text('clash', 'tank.gltf', 'pump.gltf', '--group-by', 'assembly')
-        self.assertRegex(table, r'HIT +-\d+[.]\d+ +73 +[0-9.]+ +/(P-1 and /T-1|T-1 and /P-1)\n')
+        self.assertRegex(table, r'HIT +-\d+[.]\d+ +73 +[0-9.]+ +-?\d+ +-?\d+ +-?\d+ +/(P-1 and /T-1|T-1 and /P-1)\n')
 
     def test_what_does_not_go_together(self):
         self.write('r.toml', '')
