@@ -24,7 +24,8 @@ strake::Status draw_view(const std::vector<std::filesystem::path>& files) {
   const Result<double> sag = drawing::sag_for_paper(*scene, all, view, layout, context);
   if (!sag) return sag.error();
 
-  const Result<hlr::Drawing> lines = hlr::draw(*scene, all, view, {.sag_mm = *sag}, context);
+  const Result<hlr::Drawing> lines =
+      hlr::draw(*scene, all, view, {.hidden = false, .sag_mm = *sag}, context);
   if (!lines) return lines.error();
   const Result<drawing::NeutralDrawing> sheet = drawing::lay_out(*lines, *model, layout, context);
   if (!sheet) return sheet.error();
