@@ -25,7 +25,7 @@ strake::Status draw_view(const std::vector<std::filesystem::path>& files) {
   if (!sag) return sag.error();
 
   const Result<hlr::Drawing> lines =
-      hlr::draw(*scene, all, view, {.hidden = false, .sag_mm = *sag}, context);
+      hlr::draw(*scene, all, view, {.sag_mm = *sag, .hidden = false}, context);
   if (!lines) return lines.error();
   const Result<drawing::NeutralDrawing> sheet = drawing::lay_out(*lines, *model, layout, context);
   if (!sheet) return sheet.error();
