@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/assemblies.hpp"
 #include "strake/clash/group.hpp"
 
 namespace strake::cli {
@@ -28,7 +29,9 @@ std::string hint_of_one(const std::vector<clash::Group>& groups, std::uint64_t h
 }
 
 /// Returns the hint about hits between parts of one equipment, if they are half of all.
-std::string hint_of_parts(const std::vector<clash::Group>& groups, std::uint64_t hits) {
+/// `from_aveva`: the profile knows what the assemblies are.
+std::string hint_of_parts(const std::vector<clash::Group>& groups, std::uint64_t hits,
+                          bool from_aveva) {
   constexpr std::uint64_t kLeastPart = 2;
   std::uint64_t within = 0;
   for (const clash::Group& group : groups)
@@ -36,8 +39,8 @@ std::string hint_of_parts(const std::vector<clash::Group>& groups, std::uint64_t
   if (within * kLeastPart < hits) return {};
   return fmt::format(
       "{} of {} hits lie between parts of one assembly: --group-by assembly has a line for each; "
-      "--profile plant, or [[same_assembly]] of a rules file, leaves them out",
-      within, hits);
+      "{}[[same_assembly]] of a rules file leaves them out",
+      within, hits, from_aveva ? "--profile plant or " : "");
 }
 
 }  // namespace
@@ -49,7 +52,8 @@ std::string concentration_hint(const clash::Findings& findings, const model::Mod
   const Result<clash::Grouping> grouping =
       clash::group_results(findings, model, {.by = clash::GroupBy::assembly});
   if (!grouping || grouping->groups.empty()) return {};
-  const std::string within = hint_of_parts(grouping->groups, hits);
+  const std::string within =
+      hint_of_parts(grouping->groups, hits, !model::Assemblies(model).empty());
   return within.empty() ? hint_of_one(grouping->groups, hits) : within;
 }
 

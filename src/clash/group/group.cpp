@@ -103,7 +103,6 @@ class Namer {
     Hasher hasher;
     hasher.add(clash::name(rules.by));
     const Report& test = findings_.tests[group.results.front().test];
-    const Pair& pair = test.pairs[group.results.front().pair];
     if (rules.by == GroupBy::element) {
       const model::Object& object = model_.object(partition.about[number]);
       hasher.add(model_.files[object.file].label).add(object.id);
@@ -112,12 +111,12 @@ class Namer {
       hasher.add(test.name);
       group.name = test.name;
     } else if (rules.by == GroupBy::files) {
-      const Labels labels = files_of(model_, pair);
+      const Labels labels = files_of(model_, pair_of(group));
       hasher.add(labels.first).add(labels.second);
       group.name =
           labels.first == labels.second ? labels.first : labels.first + " and " + labels.second;
     } else if (rules.by == GroupBy::assembly) {
-      name_by_assembly(group, pair, hasher);
+      name_by_assembly(group, hasher);
     } else {
       hasher.add(lowest_key(group));
       group.name = place_of(group.box_mm);
@@ -129,25 +128,57 @@ class Namer {
     group.id = key_text(hasher.value());
   }
 
+  /// Gives groups by assembly of one name their paths, and an id of its own to each of those that
+  /// paths do not tell apart.
+  void tell_apart(std::vector<Group>& groups, const GroupRules& rules) const {
+    std::map<std::string, std::size_t> names, ids;
+    for (const Group& group : groups) ++names[group.name], ++ids[group.id];
+    for (Group& group : groups) {
+      if (names[group.name] > 1) {
+        group.name = name_of(wholes_of(group), true);
+        if (splits(rules)) group.name += " " + place_of(group.box_mm);
+      }
+      if (ids[group.id] > 1)
+        group.id = key_text(Hasher().add(group.id).add(lowest_key(group)).value());
+    }
+  }
+
  private:
-  /// An assembly, or a file: ordered by what lasts.
+  /// An assembly, or a file: ordered by what lasts. Neighbours of one name differ in `group`.
   struct Whole {
     std::string file, path, name;
+    model::GroupId group = model::GroupId::none;
     friend auto operator<=>(const Whole&, const Whole&) = default;
   };
 
   [[nodiscard]] Whole whole_of(model::ObjectId id) const {
     const std::string& file = model_.files[model_.object(id).file].label;
     const model::GroupId assembly = assemblies_->of(id);
-    if (assembly == model::GroupId::none) return {file, {}, file};
-    return {file, assemblies_->path(assembly), model_.groups[index(assembly)].name};
+    if (assembly == model::GroupId::none) return {file, {}, file, assembly};
+    return {file, assemblies_->path(assembly), model_.groups[index(assembly)].name, assembly};
   }
 
-  void name_by_assembly(Group& group, const Pair& pair, Hasher& hasher) const {
-    const std::pair<Whole, Whole> wholes = std::minmax(whole_of(pair.a), whole_of(pair.b));
+  [[nodiscard]] std::pair<Whole, Whole> wholes_of(const Group& group) const {
+    const Pair& pair = pair_of(group);
+    return std::minmax(whole_of(pair.a), whole_of(pair.b));
+  }
+
+  [[nodiscard]] static std::string name_of(const std::pair<Whole, Whole>& wholes, bool by_path) {
+    const auto text = [by_path](const Whole& whole) {
+      return by_path && !whole.path.empty() ? whole.path : whole.name;
+    };
+    return wholes.first == wholes.second ? "within " + text(wholes.first)
+                                         : text(wholes.first) + " and " + text(wholes.second);
+  }
+
+  void name_by_assembly(Group& group, Hasher& hasher) const {
+    const std::pair<Whole, Whole> wholes = wholes_of(group);
     for (const Whole& whole : {wholes.first, wholes.second}) hasher.add(whole.file).add(whole.path);
-    group.name = wholes.first == wholes.second ? "within " + wholes.first.name
-                                               : wholes.first.name + " and " + wholes.second.name;
+    group.name = name_of(wholes, false);
+  }
+
+  [[nodiscard]] const Pair& pair_of(const Group& group) const {
+    return findings_.tests[group.results.front().test].pairs[group.results.front().pair];
   }
 
   [[nodiscard]] std::string lowest_key(const Group& group) const {
@@ -196,6 +227,7 @@ Result<Grouping> group_results(const Findings& findings, const model::Model& mod
   for (std::size_t i = 0; i < items.size(); ++i) add(groups[partition.group[i]], items[i]);
   const Namer namer(findings, model, known);
   for (std::size_t g = 0; g < groups.size(); ++g) namer.name(groups[g], rules, partition, g);
+  if (rules.by == GroupBy::assembly) namer.tell_apart(groups, rules);
   sort_groups(groups, rules.sort);
   return Grouping{rules, std::move(groups)};
 }

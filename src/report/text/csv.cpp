@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/text/csv.hpp"
 
+#include <algorithm>
+
 #include "core/text_encoding.hpp"
 
 namespace strake::report {
@@ -36,11 +38,37 @@ bool looks_like_formula(std::string_view text) {
   return false;
 }
 
+/// Whether a text is a number and nothing else, as -1500 or +2.5e3: no formula, whatever its sign.
+bool is_number(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789";
+  const auto skip = [&](std::string_view some) {
+    const std::size_t count = std::min(text.find_first_not_of(some), text.size());
+    text.remove_prefix(count);
+    return count;
+  };
+  const auto skip_sign = [&] {
+    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  };
+  skip_sign();
+  std::size_t digits = skip(kDigits);
+  if (text.starts_with('.')) {
+    text.remove_prefix(1);
+    digits += skip(kDigits);
+  }
+  if (digits == 0) return false;
+  if (text.starts_with('e') || text.starts_with('E')) {
+    text.remove_prefix(1);
+    skip_sign();
+    if (skip(kDigits) == 0) return false;
+  }
+  return text.empty();
+}
+
 }  // namespace
 
 void append_csv(std::string& out, std::string_view raw) {
   std::string text = valid_utf8(raw);
-  if (looks_like_formula(text)) text.insert(0, 1, '\'');
+  if (looks_like_formula(text) && !is_number(text)) text.insert(0, 1, '\'');
   // Where the comma is the decimal point, spreadsheets split cells at semicolons, or at tabs.
   if (text.find_first_of(",;\t\"\r\n") == std::string::npos) {
     out += text;

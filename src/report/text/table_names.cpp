@@ -50,8 +50,12 @@ std::string common_lead(std::span<const std::string_view> names) {
 std::string without_lead(std::string_view name, std::string_view lead) {
   const std::size_t begin = lead.empty() ? kNowhere : path_begin(name);
   if (begin == kNowhere) return printable(name);
-  return printable(name.substr(0, begin)) + std::string(kLeadMark) +
-         printable(name.substr(begin + lead.size()));
+  std::string rest = printable(name.substr(begin + lead.size()));
+  // A group names two, of which the second may have the lead, too.
+  const std::string again = " " + printable(lead) + "/";
+  for (std::size_t at = rest.find(again); at != kNowhere; at = rest.find(again, at + 1))
+    rest.replace(at + 1, again.size() - 2, kLeadMark);
+  return printable(name.substr(0, begin)) + std::string(kLeadMark) + rest;
 }
 
 std::vector<std::string> cut_apart(const std::vector<std::string>& texts, std::size_t columns) {

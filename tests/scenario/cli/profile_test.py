@@ -121,7 +121,7 @@ class Profiles(Scenario):
     def test_a_hint_where_most_hits_are_of_one_kind(self):
         tank = [(f'BOX {i} of EQUIPMENT /T-1', {}, i * .09, []) for i in range(25)]
         pump = [(f'BOX {i} of EQUIPMENT /P-1', {}, i * .09, []) for i in range(25)]
-        within = 'lie between parts of one assembly: --group-by assembly has a line for each; --profile plant, or'
+        within = 'lie between parts of one assembly: --group-by assembly has a line for each; --profile plant or'
 
         def site(*equipment):
             return gltf(('/SITE', {}, None, [('/ZONE', {}, None, [(name, {}, None, boxes) for name, boxes in equipment])]))

@@ -144,6 +144,28 @@ TEST(Groups, ByWhatTheTwoArePartsOf) {
   EXPECT_EQ(found[0].name, "/P and /Q");
 }
 
+TEST(Groups, ByAssemblyTellNeighboursOfOneNameApart) {
+  model::Model model = named_objects(4);
+  const auto add = [&](const char* name, model::GroupId parent) {
+    model.groups.push_back({name, parent});
+    return static_cast<model::GroupId>(model.groups.size() - 1);
+  };
+  const model::GroupId deck1 = add("DECK 1", model::GroupId::none);
+  const model::GroupId deck2 = add("DECK 2", model::GroupId::none);
+  model.objects[0].parent = add("CABIN", deck1);
+  model.objects[1].parent = add("CABIN", deck1);
+  model.objects[2].parent = model.objects[3].parent = add("CABIN", deck2);
+  const auto found = groups(findings_of({pair(0, 1), pair(2, 3), pair(0, 2), pair(1, 2)}), model,
+                            {.by = GroupBy::assembly});
+  std::vector<std::string> names;
+  std::set<std::string> ids;
+  for (const Group& group : found) names.push_back(group.name), ids.insert(group.id);
+  std::ranges::sort(names);
+  EXPECT_EQ(names, (std::vector<std::string>{"DECK 1/CABIN and DECK 1/CABIN", "DECK 1/CABIN and DECK 2/CABIN",
+                                             "DECK 1/CABIN and DECK 2/CABIN", "within CABIN"}));
+  EXPECT_EQ(ids.size(), 4U);
+}
+
 TEST(Groups, ByAssemblyKeepTheirIds) {
   const model::Model model = assembled();
   const GroupRules rules{.by = GroupBy::assembly};

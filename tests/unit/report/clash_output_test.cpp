@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "report/text/csv.hpp"
 #include "strake/report/clash.hpp"
 #include "strake/report/clash_document.hpp"
 #include "support/clash_model.hpp"
@@ -143,6 +144,18 @@ TEST(ClashClasses, AreNoDocumentToCompareWith) {
   ASSERT_FALSE(document);
   EXPECT_NE(document.error().message.find("--class"), std::string::npos)
       << document.error().message;
+}
+
+TEST(Csv, OnlyWhatCouldBeAFormulaHasAnApostrophe) {
+  const auto written = [](std::string_view text) {
+    std::string out;
+    append_csv(out, text);
+    return out;
+  };
+  for (const char* const number : {"-1500", "+2.5", "-.5", "-1.5e-3", "-2E+4"})
+    EXPECT_EQ(written(number), number);
+  for (const char* const text : {"-1500+2", "-", "-.", "-1e", "-1.5.2", "=1", "-1 m", "@SUM"})
+    EXPECT_EQ(written(text), "'" + std::string(text));
 }
 
 }  // namespace
