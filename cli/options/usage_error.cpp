@@ -51,7 +51,7 @@ Error unknown_word(const FoundCommand& at, const std::string& word) {
   if (!word.starts_with('-') || word == "-")
     return usage("'" + word + "' is one word too many", "leave it out; " + help);
   const std::string name = word.substr(0, word.find('='));
-  std::string mend = did_you_mean(name, names_of_options(*at.command), {});
+  const std::string mend = did_you_mean(name, names_of_options(*at.command), {});
   return usage("there is no option '" + name + "'", mend.empty() ? help : mend + " " + help);
 }
 

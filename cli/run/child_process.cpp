@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <fstream>
@@ -62,11 +63,29 @@ class SpawnOptions {
   posix_spawnattr_t attributes_{};
 };
 
-/// Kills what belongs to the child and waits for its end.
-void end_child(pid_t process, KilledWith killed_with) {
+/// Kills what belongs to the child, if it has not ended, and returns how it ended.
+int end_child(pid_t process, KilledWith killed_with) {
   int status = 0;
   ::kill(killed_with == KilledWith::its_group ? -process : process, SIGKILL);
   ::waitpid(process, &status, 0);
+  return status;
+}
+
+/// Whether the child has ended. It stays known to the system until end_child(), so that what it
+/// left running can still be found by its group.
+bool has_ended(pid_t process) {
+  siginfo_t info{};
+  const int fault = ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT);
+  return fault != 0 || info.si_pid == process;
+}
+
+/// Returns the end of a file: a program that repeats one warning may fill a disk.
+std::string end_of(const std::filesystem::path& file) {
+  constexpr std::streamoff kMostBytes = 1 << 20;
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in.tellg();
+  in.seekg(std::max<std::streamoff>(0, size - kMostBytes));
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 ChildEnd wait_for(pid_t process, const ChildProgram& program, const std::stop_token& stop) {
@@ -74,8 +93,7 @@ ChildEnd wait_for(pid_t process, const ChildProgram& program, const std::stop_to
   constexpr auto kLook = std::chrono::milliseconds(5);
   const auto end =
       std::chrono::steady_clock::now() + std::chrono::duration<double>(program.limit_s);
-  int status = 0;
-  while (::waitpid(process, &status, WNOHANG) == 0) {
+  while (!has_ended(process)) {
     const bool stopped = stop.stop_requested();
     if (stopped || std::chrono::steady_clock::now() >= end) {
       end_child(process, program.killed_with);
@@ -83,6 +101,7 @@ ChildEnd wait_for(pid_t process, const ChildProgram& program, const std::stop_to
     }
     std::this_thread::sleep_for(kLook);
   }
+  const int status = end_child(process, program.killed_with);
   if (WIFEXITED(status)) return {ChildEnd::How::exited, WEXITSTATUS(status), {}};
   return {ChildEnd::How::killed, WTERMSIG(status), {}};
 }
@@ -93,8 +112,7 @@ ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop) {
   const pid_t process = SpawnOptions(program.log, program.killed_with).start(program.words);
   if (process < 0) return {ChildEnd::How::not_started, 0, {}};
   ChildEnd end = wait_for(process, program, stop);
-  std::ifstream in(program.log);
-  end.output.assign(std::istreambuf_iterator<char>(in), {});
+  end.output = end_of(program.log);
   return end;
 }
 

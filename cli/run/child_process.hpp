@@ -11,8 +11,10 @@ namespace strake::cli {
 
 /// Which processes end with a child that is killed.
 enum class KilledWith : std::uint8_t {
-  its_group,  ///< all that it started: it leads a group of its own, which Ctrl-C does not reach
-  nothing,    ///< it alone: it belongs to our group, and ends with us
+  /// All that it started, also when it has ended by itself: it leads a group of its own, which
+  /// Ctrl-C does not reach.
+  its_group,
+  nothing,  ///< it alone: it belongs to our group, and ends with us
 };
 
 /// Another program, run without a shell.
@@ -33,7 +35,7 @@ struct ChildEnd {
     killed,       ///< by a signal that is not ours
   } how = How::exited;
   int code = 0;        ///< exit status, or the signal of `killed`
-  std::string output;  ///< what the log holds
+  std::string output;  ///< the last of what the log holds, a megabyte at most
 };
 
 /// Runs a program to its end, to its limit or until `stop` is requested. It reads nothing, and no

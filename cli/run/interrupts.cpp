@@ -18,11 +18,22 @@
 
 namespace strake::cli {
 
+namespace {
+
+/// Whether a closed terminal is to end the program: nohup says that it is not.
+bool heeds_hang_up() {
+  struct sigaction now{};
+  return ::sigaction(SIGHUP, nullptr, &now) == 0 && now.sa_handler != SIG_IGN;
+}
+
+}  // namespace
+
 Interrupts::Interrupts(Console& console) : console_(console) {
   sigset_t set;
   sigemptyset(&set);
   sigaddset(&set, SIGINT);
   sigaddset(&set, SIGTERM);
+  if (heeds_hang_up()) sigaddset(&set, SIGHUP);
   if (::pthread_sigmask(SIG_BLOCK, &set, nullptr) != 0) return;
   signals_ = ::signalfd(-1, &set, SFD_CLOEXEC);
   closing_ = ::eventfd(0, EFD_CLOEXEC);

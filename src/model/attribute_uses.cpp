@@ -2,6 +2,7 @@
 #include "model/attribute_uses.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -145,7 +146,10 @@ std::vector<std::string_view> spelt_alike(std::string_view name,
 std::vector<std::string_view> most_used(std::span<const AttributeUse> uses) {
   std::vector<const AttributeUse*> order;
   for (const AttributeUse& use : uses) order.push_back(&use);
-  std::ranges::stable_sort(order, std::ranges::greater(), &AttributeUse::objects);
+  // Of equally many those come first that are first in the list.
+  std::ranges::sort(order, [](const AttributeUse* x, const AttributeUse* y) {
+    return x->objects != y->objects ? x->objects > y->objects : std::less<>()(x, y);
+  });
   std::vector<std::string_view> names;
   for (const AttributeUse* const use : order) names.push_back(use->name);
   return names;

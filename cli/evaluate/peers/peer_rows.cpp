@@ -29,6 +29,8 @@ std::string fault_of(const PeerRow& row) {
   const bool has_times = row.wall_s > 0 && row.ours_cpu_s > 0;
   if (row.outcome == kMeasured && !has_times)
     return "'" + row.who + "' is measured and has no time";
+  if (row.outcome == kMeasured && !std::isfinite(row.cpu_s / row.ours_cpu_s))
+    return "'" + row.who + "' has times that cannot be compared";
   if (row.outcome != kMeasured && (row.cpu_s > 0 || row.wall_s > 0))
     return "'" + row.who + "' has a time without a result that agrees";
   return {};

@@ -39,7 +39,7 @@ bool looks_like_formula(std::string_view text) {
 }
 
 /// Whether a text is a number and nothing else, as -1500 or +2.5e3: no formula, whatever its sign.
-bool is_number(std::string_view text) {
+bool is_plain_number(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789";
   const auto skip = [&](std::string_view some) {
     const std::size_t count = std::min(text.find_first_not_of(some), text.size());
@@ -68,7 +68,7 @@ bool is_number(std::string_view text) {
 
 void append_csv(std::string& out, std::string_view raw) {
   std::string text = valid_utf8(raw);
-  if (looks_like_formula(text) && !is_number(text)) text.insert(0, 1, '\'');
+  if (looks_like_formula(text) && !is_plain_number(text)) text.insert(0, 1, '\'');
   // Where the comma is the decimal point, spreadsheets split cells at semicolons, or at tabs.
   if (text.find_first_of(",;\t\"\r\n") == std::string::npos) {
     out += text;

@@ -30,7 +30,7 @@ std::string named(Distribution distribution, unsigned threads) {
 
 TEST(Distribution, of_a_run_leaves_the_bytes_of_all_patterns_as_they_are) {
   for (const std::size_t grain : {1U, 7U, 5000U}) {
-    Region region{.name = "test", .n = test::kResultItems, .grain = grain};
+    const Region region{.name = "test", .n = test::kResultItems, .grain = grain};
     const test::Results expected = test::results({}, region, 0);
     const test::OwnResults own = test::own_results({}, region, 0);
     const auto order = longest_first(region.blocks(), [](std::size_t i) { return test::value(i); });

@@ -143,8 +143,8 @@ TEST(FileMatch, EquallyLikeFilesAreToldAndNotGuessed) {
 }
 
 TEST(FileMatch, TheOrderOfFilesMakesNoDifference) {
-  std::vector<FileContents> before{file("a", ids(0, 9)), file("b", ids(0, 9)),
-                                   file("c", ids(20, 30)), file("d", ids(30, 40))};
+  const std::vector<FileContents> before{file("a", ids(0, 9)), file("b", ids(0, 9)),
+                                         file("c", ids(20, 30)), file("d", ids(30, 40))};
   std::vector<FileContents> after{file("x", ids(30, 40)), file("y", ids(20, 30)),
                                   file("z", ids(0, 9))};
   const FileMatches first = matched(before, after);
