@@ -71,8 +71,8 @@ std::vector<std::string> cut_apart(const std::vector<std::string>& texts, std::s
   std::vector<std::string> out;
   out.reserve(texts.size());
   for (const std::string& text : texts) {
-    std::string shown = cut(text);
-    out.push_back(looks.at(shown) == nullptr ? text : std::move(shown));
+    const std::string shown = cut(text);
+    out.push_back(looks.at(shown) == nullptr ? text : shown);
   }
   return out;
 }

@@ -281,7 +281,7 @@ TEST(Document, RefusesTheSameInPiecesOfAnySize) {
 
 TEST(Document, BoundsTheNestingOfNodesAsOfAllValues) {
   const auto nested = [](std::size_t depth) {
-    std::string text = "{\"nodes\":[0," + std::string(depth - 2, '[');
+    const std::string text = "{\"nodes\":[0," + std::string(depth - 2, '[');
     return text + std::string(depth - 2, ']') + ",0]}";
   };
   for (const std::size_t piece : {64U, 10000U}) {
