@@ -52,7 +52,7 @@ void Document::take_nodes_of_index() {
 }
 
 Error Document::fault(const parallel::Context& context) const {
-  Result<JsonDocument> whole = JsonDocument::parse(text_, context);
+  const Result<JsonDocument> whole = JsonDocument::parse(text_, context);
   if (!whole) return whole.error();
   return {ErrorCode::internal, "the nodes could not be read", "", ""};
 }

@@ -72,7 +72,7 @@ void positive(CsvRow& row, std::uint64_t count) {
 void attributes(CsvRow& row, const ClashContents& contents, model::ObjectId a, model::ObjectId b) {
   for (const std::string& attribute : contents.columns)
     for (const model::ObjectId id : {a, b})
-      row.text(stated_text(contents.model, id, attribute).value_or(std::string()));
+      row.value(stated_text(contents.model, id, attribute).value_or(std::string()));
 }
 
 /// Appends the class of a pair, its relation, and where it is measured and how much.

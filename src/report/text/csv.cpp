@@ -68,7 +68,7 @@ bool is_plain_number(std::string_view text) {
 
 void append_csv(std::string& out, std::string_view raw) {
   std::string text = valid_utf8(raw);
-  if (looks_like_formula(text) && !is_plain_number(text)) text.insert(0, 1, '\'');
+  if (looks_like_formula(text)) text.insert(0, 1, '\'');
   // Where the comma is the decimal point, spreadsheets split cells at semicolons, or at tabs.
   if (text.find_first_of(",;\t\"\r\n") == std::string::npos) {
     out += text;
@@ -86,6 +86,8 @@ CsvRow& CsvRow::text(std::string_view raw) {
   append_csv(cell(), raw);
   return *this;
 }
+
+CsvRow& CsvRow::value(std::string_view raw) { return is_plain_number(raw) ? word(raw) : text(raw); }
 
 CsvRow& CsvRow::word(std::string_view word) {
   cell() += word;

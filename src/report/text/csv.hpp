@@ -31,6 +31,8 @@ class CsvRow {
   }
   /// Appends a name from a file, quoted where needed.
   CsvRow& text(std::string_view raw);
+  /// Appends the value of an attribute: a name, but for numbers, which no sign makes a formula.
+  CsvRow& value(std::string_view raw);
   /// Appends a word of ours as it is.
   CsvRow& word(std::string_view word);
   CsvRow& count(std::uint64_t number);

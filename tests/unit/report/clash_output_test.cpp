@@ -146,10 +146,10 @@ TEST(ClashClasses, AreNoDocumentToCompareWith) {
       << document.error().message;
 }
 
-TEST(Csv, OnlyWhatCouldBeAFormulaHasAnApostrophe) {
+TEST(Csv, ValuesThatAreNumbersHaveNoApostrophe) {
   const auto written = [](std::string_view text) {
     std::string out;
-    append_csv(out, text);
+    CsvRow(out, {}).value(text);
     return out;
   };
   for (const char* const number : {"-1500", "+2.5", "-.5", "-1.5e-3", "-2E+4"})
