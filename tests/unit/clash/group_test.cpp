@@ -161,7 +161,8 @@ TEST(Groups, ByAssemblyTellNeighboursOfOneNameApart) {
   std::set<std::string> ids;
   for (const Group& group : found) names.push_back(group.name), ids.insert(group.id);
   std::ranges::sort(names);
-  EXPECT_EQ(names, (std::vector<std::string>{"DECK 1/CABIN and DECK 1/CABIN", "DECK 1/CABIN and DECK 2/CABIN",
+  EXPECT_EQ(names, (std::vector<std::string>{"DECK 1/CABIN and DECK 1/CABIN",
+                                             "DECK 1/CABIN and DECK 2/CABIN",
                                              "DECK 1/CABIN and DECK 2/CABIN", "within CABIN"}));
   EXPECT_EQ(ids.size(), 4U);
 }
