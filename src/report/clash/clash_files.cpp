@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
+#include "report/files/match_documents.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/report/clash_diff.hpp"
 
@@ -115,13 +116,7 @@ FileMap map_of(const FileMatches& files, const ClashDocument& before, const Clas
 
 Result<FileMatches> match_files(const ClashDocument& before, const ClashDocument& after,
                                 std::span<const std::string> asked) {
-  const std::vector<std::string> old_labels = labels_of(before), new_labels = labels_of(after);
-  const bool by_contents = !asked.empty() || old_labels != new_labels;
-  const RunFiles old_files = files_of(before, old_labels, by_contents);
-  const RunFiles new_files = files_of(after, new_labels, by_contents);
-  const Result<std::vector<FilePair>> pairs = parse_file_pairs(asked, old_files, new_files);
-  if (!pairs) return pairs.error();
-  return match_files(old_files, new_files, *pairs);
+  return match_documents(before, after, asked, labels_of, files_of);
 }
 
 }  // namespace strake::report

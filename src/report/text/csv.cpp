@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/text/csv.hpp"
 
-#include <algorithm>
-
+#include "core/number.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::report {
@@ -38,32 +37,6 @@ bool looks_like_formula(std::string_view text) {
   return false;
 }
 
-/// Whether a text is a number and nothing else, as -1500 or +2.5e3: no formula, whatever its sign.
-bool is_plain_number(std::string_view text) {
-  constexpr std::string_view kDigits = "0123456789";
-  const auto skip = [&](std::string_view some) {
-    const std::size_t count = std::min(text.find_first_not_of(some), text.size());
-    text.remove_prefix(count);
-    return count;
-  };
-  const auto skip_sign = [&] {
-    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-  };
-  skip_sign();
-  std::size_t digits = skip(kDigits);
-  if (text.starts_with('.')) {
-    text.remove_prefix(1);
-    digits += skip(kDigits);
-  }
-  if (digits == 0) return false;
-  if (text.starts_with('e') || text.starts_with('E')) {
-    text.remove_prefix(1);
-    skip_sign();
-    if (skip(kDigits) == 0) return false;
-  }
-  return text.empty();
-}
-
 }  // namespace
 
 void append_csv(std::string& out, std::string_view raw) {
@@ -87,7 +60,7 @@ CsvRow& CsvRow::text(std::string_view raw) {
   return *this;
 }
 
-CsvRow& CsvRow::value(std::string_view raw) { return is_plain_number(raw) ? word(raw) : text(raw); }
+CsvRow& CsvRow::value(std::string_view raw) { return parse_number(raw) ? word(raw) : text(raw); }
 
 CsvRow& CsvRow::word(std::string_view word) {
   cell() += word;

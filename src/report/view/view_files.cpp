@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "report/files/match_documents.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/report/view_diff.hpp"
 
@@ -62,13 +63,7 @@ void DrawnIds::add(const ViewDocument& drawing) {
 
 Result<FileMatches> match_files(const ViewDocument& before, const ViewDocument& after,
                                 std::span<const std::string> asked) {
-  const std::vector<std::string> old_labels = labels_of(before), new_labels = labels_of(after);
-  const bool by_contents = !asked.empty() || old_labels != new_labels;
-  const RunFiles old_files = files_of(before, old_labels, by_contents);
-  const RunFiles new_files = files_of(after, new_labels, by_contents);
-  const Result<std::vector<FilePair>> pairs = parse_file_pairs(asked, old_files, new_files);
-  if (!pairs) return pairs.error();
-  return match_files(old_files, new_files, *pairs);
+  return match_documents(before, after, asked, labels_of, files_of);
 }
 
 }  // namespace strake::report
