@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "model/attributes.hpp"
-#include "model/hierarchy.hpp"
 
 namespace strake::model {
 namespace {
@@ -126,19 +125,6 @@ std::size_t Assemblies::depth(std::span<const GroupId> path) const {
     if (items_.contains(path[depth - 1])) return depth;
   const std::size_t branch = groups_to(level->second + 1);
   return branch <= path.size() ? branch : 0;
-}
-
-std::vector<GroupId> assemblies_of(const Model& model) {
-  const Assemblies assemblies(model);
-  std::vector<GroupId> all(model.objects.size(), GroupId::none);
-  if (assemblies.empty()) return all;
-  const Hierarchy hierarchy(model);
-  for (std::size_t o = 0; o < all.size(); ++o) {
-    const std::vector<GroupId> path = hierarchy.path(model.objects[o]);
-    const std::size_t depth = assemblies.depth(path);
-    if (depth > 0) all[o] = path[depth - 1];
-  }
-  return all;
 }
 
 }  // namespace strake::model

@@ -6,7 +6,6 @@
 #include <map>
 #include <set>
 #include <span>
-#include <vector>
 
 #include "strake/model/model.hpp"
 
@@ -38,8 +37,5 @@ class Assemblies {
   std::map<GroupId, std::int64_t> level_;  ///< of equipment, by outermost group
   std::set<GroupId> items_;                ///< the groups that are equipment or structures
 };
-
-/// Returns the assembly of each object; none where nothing tells.
-[[nodiscard]] std::vector<GroupId> assemblies_of(const Model& model);
 
 }  // namespace strake::model

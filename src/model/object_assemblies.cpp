@@ -3,37 +3,21 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
-#include <utility>
 
 #include "model/assemblies.hpp"
+#include "model/hierarchy.hpp"
 
 namespace strake::model {
 namespace {
 
 bool is_group(const Model& model, GroupId id) { return index(id) < model.groups.size(); }
 
-/// Returns the groups that objects lie in, directly or not, by their parent and name.
-std::map<std::pair<GroupId, std::string_view>, GroupId> holders(const Model& model) {
-  std::vector<bool> holds(model.groups.size());
-  for (const Object& object : model.objects)
-    for (GroupId at = object.parent; is_group(model, at) && !holds[index(at)];
-         at = model.groups[index(at)].parent)
-      holds[index(at)] = true;
-  std::map<std::pair<GroupId, std::string_view>, GroupId> found;
-  for (std::uint32_t g = 0; g < model.groups.size(); ++g)
-    if (holds[g]) found.try_emplace({model.groups[g].parent, model.groups[g].name}, GroupId{g});
-  return found;
-}
-
-/// Returns the nearest group with a name of its own, this one or one above it.
-GroupId nearest_named(const Model& model, GroupId at) {
-  for (std::size_t steps = 0; is_group(model, at) && steps < model.groups.size(); ++steps) {
-    const Group& group = model.groups[index(at)];
-    if (!group.name.empty() && !is_counted_name(group.name)) return at;
-    at = group.parent;
-  }
-  return GroupId::none;
+/// Returns the nearest group of a path with a name of its own.
+GroupId nearest_named(const Hierarchy& hierarchy, const std::vector<GroupId>& path) {
+  const auto named = std::find_if(path.rbegin(), path.rend(), [&](GroupId g) {
+    return !hierarchy.name(g).empty() && !is_counted_name(hierarchy.name(g));
+  });
+  return named == path.rend() ? GroupId::none : *named;
 }
 
 }  // namespace
@@ -46,13 +30,14 @@ bool is_counted_name(std::string_view name) {
   return end != std::string_view::npos && end > number && name.substr(end).starts_with(" of ");
 }
 
-ObjectAssemblies::ObjectAssemblies(const Model& model) : model_(model), of_(assemblies_of(model)) {
-  const auto groups = holders(model);
-  for (std::size_t o = 0; o < of_.size(); ++o) {
-    if (of_[o] != GroupId::none) continue;
-    const Object& object = model.objects[o];
-    const auto itself = groups.find({object.parent, object.name});
-    of_[o] = nearest_named(model, itself == groups.end() ? object.parent : itself->second);
+ObjectAssemblies::ObjectAssemblies(const Model& model) : model_(model) {
+  const Assemblies typed(model);
+  const Hierarchy hierarchy(model);
+  of_.reserve(model.objects.size());
+  for (const Object& object : model.objects) {
+    const std::vector<GroupId> path = hierarchy.path(object);
+    const std::size_t depth = typed.depth(path);
+    of_.push_back(depth > 0 ? path[depth - 1] : nearest_named(hierarchy, path));
   }
 }
 
