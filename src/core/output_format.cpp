@@ -3,13 +3,12 @@
 
 #include <filesystem>
 
+#include "core/text_encoding.hpp"
+
 namespace strake {
 
 std::string suffix_of(const std::string& file) {
-  std::string suffix = std::filesystem::path(file).extension().string();
-  for (char& c : suffix)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return suffix;
+  return lowered(std::filesystem::path(file).extension().string());
 }
 
 Result<std::size_t> format_number(std::span<const OutputFormat> formats, const std::string& file) {

@@ -60,6 +60,9 @@ void append_utf8(std::string& out, std::uint32_t code);
 /// Returns the text without blanks at either end.
 [[nodiscard]] std::string_view trimmed(std::string_view text, std::string_view blanks = " \t");
 
+/// Returns the text with small letters for the capitals of ASCII.
+[[nodiscard]] std::string lowered(std::string_view text);
+
 /// Returns the text in single quotes, as messages show what somebody wrote.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/source/input_file.hpp"
+#include "io/source/reader_support.hpp"
 #include "strake/io/reader.hpp"
 
 namespace strake::io {
@@ -29,7 +30,7 @@ const Reader* best_reader(const Readers& readers, const FileBytes& file) {
 }
 
 /// Returns how a file of that suffix is made into one that is read.
-std::string_view conversion_of(std::string suffix) {
+std::string_view conversion_of(std::string_view suffix) {
   struct Known {
     std::string_view suffix, advice;
   };
@@ -47,9 +48,7 @@ std::string_view conversion_of(std::string suffix) {
                                           {".ply", kMesh},
                                           {".fbx", kMesh},
                                           {".dae", kMesh}}};
-  for (char& c : suffix)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  const auto found = std::ranges::find(kKnown, std::string_view(suffix), &Known::suffix);
+  const auto found = std::ranges::find(kKnown, suffix, &Known::suffix);
   return found == kKnown.end() ? std::string_view("; export the model as one of these")
                                : found->advice;
 }
@@ -64,7 +63,7 @@ Error unknown_format(const Readers& readers, const FileBytes& file) {
         .append(format == "glTF" ? "glTF/GLB" : format);
   }
   return {ErrorCode::input, "unsupported format", file.path.string(),
-          "Strake reads " + formats + std::string(conversion_of(file.path.extension().string()))};
+          "Strake reads " + formats + std::string(conversion_of(lower_extension(file.path)))};
 }
 
 Result<model::Model> read_one(const Readers& readers, const std::filesystem::path& path,

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <functional>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
 
+#include "core/edit_distance.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::model {
@@ -104,38 +104,18 @@ class AttributeCounter {
   std::uint64_t object_ = 0, level_ = 0;
 };
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
-
-/// Returns how many letters have to be put in, taken out or changed (Levenshtein distance); case
-/// does not count.
-std::size_t edit_distance(std::string_view x, std::string_view y) {
-  const std::string from = lower(x), to = lower(y);
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t changed = diagonal + (from[i] == to[j] ? 0 : 1);
-      diagonal = std::exchange(row[j + 1], std::min({changed, row[j] + 1, row[j + 1] + 1}));
-    }
-  }
-  return row.back();
-}
-
-/// Returns the names that are spelt alike, the nearest first.
+/// Returns the names that are spelt alike but for case, the nearest first.
 std::vector<std::string_view> spelt_alike(std::string_view name,
                                           std::span<const AttributeUse> uses) {
+  constexpr std::size_t kLongest = 64;  // nobody misspells more
+  const std::string sought = lowered(name);
   std::vector<std::pair<std::size_t, std::string_view>> near;
   for (const AttributeUse& use : uses) {
-    const std::size_t distance = edit_distance(name, use.name);
-    const bool holds = lower(use.name).find(lower(name)) != std::string::npos;
-    if (holds || distance <= std::max<std::size_t>(2, name.size() / 3))
-      near.emplace_back(distance, use.name);
+    if (name.size() > kLongest || use.name.size() > kLongest) continue;
+    const std::string known = lowered(use.name);
+    const std::size_t distance = edit_distance(sought, known);
+    const bool holds = known.find(sought) != std::string::npos;
+    if (holds || distance <= name.size() / 3) near.emplace_back(distance, use.name);
   }
   std::ranges::sort(near);
   std::vector<std::string_view> names;

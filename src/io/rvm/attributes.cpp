@@ -18,12 +18,6 @@ namespace strake::io::rvm {
 
 namespace {
 
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 std::string_view next_line(std::string_view& text) {
   const std::size_t end = std::min(text.find('\n'), text.size());
   const std::string_view line = text.substr(0, end);
@@ -193,14 +187,14 @@ std::optional<std::filesystem::path> find_attribute_file(const std::filesystem::
   namespace fs = std::filesystem;
   if (model_path.empty()) return std::nullopt;
   const fs::path folder = model_path.has_parent_path() ? model_path.parent_path() : fs::path(".");
-  const std::string stem = lower(model_path.stem().string());
+  const std::string stem = lowered(model_path.stem().string());
   std::vector<std::pair<int, fs::path>> found;
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
     const fs::path& path = at->path();
-    const std::string extension = lower(path.extension().string());
+    const std::string extension = lowered(path.extension().string());
     if (extension != ".att" && extension != ".txt") continue;
-    if (lower(path.stem().string()) != stem || path.filename() == model_path.filename()) continue;
+    if (lowered(path.stem().string()) != stem || path.filename() == model_path.filename()) continue;
     found.emplace_back(extension == ".att" ? 0 : 1, path);
   }
   if (found.empty()) return std::nullopt;

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/text_encoding.hpp"
 #include "io/source/precision.hpp"
 
 namespace strake::io {
@@ -63,9 +64,7 @@ Error cancelled(const FileBytes& file) {
 }
 
 std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return extension;
+  return lowered(path.extension().string());
 }
 
 void note_left_out(model::Model& model, model::Object& object, const LeftOut& lacks) {

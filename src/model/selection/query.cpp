@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/glob.hpp"
+#include "core/text_encoding.hpp"
 #include "model/attributes.hpp"
 
 namespace strake::model::selection {
@@ -28,9 +29,7 @@ struct Comparable {
 std::optional<double> unit_of_value_mm(std::string_view unit) {
   if (unit.empty()) return 1.0;
   if (const auto mm = unit_mm(unit)) return mm;
-  std::string word(unit.substr(0, unit.find_first_of(" \t")));
-  for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return unit_mm(word);
+  return unit_mm(lowered(unit.substr(0, unit.find_first_of(" \t"))));
 }
 
 /// Whether two numbers differ by rounding: 6in and 152.4mm are one length, though their products

@@ -59,9 +59,7 @@ Error reference_error(std::size_t line, std::string message, std::string mend) {
 }  // namespace
 
 std::vector<std::string> url_targets(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string lower = lowered(text);
   constexpr std::string_view kUrl = "url(";
   std::vector<std::string> targets;
   for (std::size_t at = lower.find(kUrl); at != std::string::npos; at = lower.find(kUrl, at)) {
@@ -221,13 +219,6 @@ constexpr std::array<std::string_view, 5> kAttributePrefixes{
 template <std::size_t N>
 bool among(const std::array<std::string_view, N>& words, std::string_view word) {
   return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-std::string lowered(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
 }
 
 Error fault(std::size_t line, std::string message, std::string mend) {
