@@ -24,6 +24,8 @@ class Console {
   /// Whether standard error is a terminal, where a line may be drawn over.
   [[nodiscard]] bool is_terminal() const { return terminal_; }
 
+  /// Whether narration is printed: what it takes work to say need not be found out otherwise.
+  [[nodiscard]] bool narrates() const { return !quiet_; }
   /// Prints a line of narration; silent under --quiet.
   void note(std::string_view line);
   /// Prints "strake: ...", for what makes the exit code one of failure and standard output does not

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
-
-#include "model/assemblies.hpp"
-#include "model/hierarchy.hpp"
+#include <vector>
 
 namespace strake::model {
 namespace {
@@ -30,15 +28,10 @@ bool is_counted_name(std::string_view name) {
   return end != std::string_view::npos && end > number && name.substr(end).starts_with(" of ");
 }
 
-ObjectAssemblies::ObjectAssemblies(const Model& model) : model_(model) {
-  const Assemblies typed(model);
-  const Hierarchy hierarchy(model);
-  of_.reserve(model.objects.size());
-  for (const Object& object : model.objects) {
-    const std::vector<GroupId> path = hierarchy.path(object);
-    const std::size_t depth = typed.depth(path);
-    of_.push_back(depth > 0 ? path[depth - 1] : nearest_named(hierarchy, path));
-  }
+GroupId ObjectAssemblies::of(ObjectId id) const {
+  const std::vector<GroupId> path = hierarchy_.path(model_.object(id));
+  const std::size_t depth = types_.depth(path);
+  return depth > 0 ? path[depth - 1] : nearest_named(hierarchy_, path);
 }
 
 std::string ObjectAssemblies::path(GroupId assembly) const {

@@ -3,8 +3,9 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "model/assemblies.hpp"
+#include "model/hierarchy.hpp"
 #include "strake/model/model.hpp"
 
 namespace strake::model {
@@ -20,16 +21,20 @@ namespace strake::model {
 class ObjectAssemblies {
  public:
   /// The model has to last as long.
-  explicit ObjectAssemblies(const Model& model);
+  explicit ObjectAssemblies(const Model& model) : model_(model), hierarchy_(model), types_(model) {}
 
-  /// Returns GroupId::none for an object below no such group.
-  [[nodiscard]] GroupId of(ObjectId id) const { return of_[index(id)]; }
+  /// Returns GroupId::none for an object below no such group. It is found anew for each: results
+  /// name few of the objects of a model.
+  [[nodiscard]] GroupId of(ObjectId id) const;
+  /// Whether the model tells of any group that it is an equipment, a structure or a branch.
+  [[nodiscard]] bool typed() const { return !types_.empty(); }
   /// Returns the names from the outermost group to this one as a path.
   [[nodiscard]] std::string path(GroupId assembly) const;
 
  private:
   const Model& model_;
-  std::vector<GroupId> of_;
+  Hierarchy hierarchy_;
+  Assemblies types_;
 };
 
 }  // namespace strake::model

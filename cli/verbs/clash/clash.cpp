@@ -314,7 +314,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   if (const Status status = put_out(session, given, *request, *loaded, *findings); !status)
     return status.error();
   const bool first_look = !request->rules && given.profile.empty() && given.result.group_by.empty();
-  if (!session.json() && first_look && request->output.classes.hit)
+  if (session.console().narrates() && !session.json() && first_look && request->output.classes.hit)
     if (const std::string hint = concentration_hint(*findings, *loaded->model); !hint.empty())
       session.console().note(hint);
   return clash_exit_code(*findings, failing, given.fail_on, given.input, *loaded,

@@ -4,57 +4,91 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
-#include <vector>
+#include <map>
+#include <utility>
 
-#include "model/assemblies.hpp"
-#include "strake/clash/group.hpp"
+#include "core/text_encoding.hpp"
+#include "model/object_assemblies.hpp"
 
 namespace strake::cli {
 
 namespace {
 
+/// So few hits are looked at one by one.
 constexpr std::uint64_t kLeastHits = 20;
 
-/// Whether all results of a group by assembly lie within one: so its name begins.
-bool is_within(const clash::Group& group) { return group.name.starts_with("within "); }
+/// What an object is a part of: its assembly, or its file where it has none.
+struct Whole {
+  model::GroupId assembly = model::GroupId::none;
+  std::uint32_t file = 0;
 
-/// Returns the hint about the pair of assemblies with most hits, if it has a quarter of all.
-std::string hint_of_one(const std::vector<clash::Group>& groups, std::uint64_t hits) {
-  constexpr std::uint64_t kLeastPart = 4;
-  const clash::Group& most = *std::ranges::max_element(groups, {}, &clash::Group::count_hit);
-  if (most.count_hit * kLeastPart < hits) return {};
-  return fmt::format("{} of {} hits lie {}{}: --group-by assembly makes them one line",
-                     most.count_hit, hits, is_within(most) ? "" : "between ", most.name);
+  [[nodiscard]] bool is_file() const { return assembly == model::GroupId::none; }
+  friend auto operator<=>(const Whole&, const Whole&) = default;
+};
+
+/// The hits of a run by what they are between.
+struct HitsByWhole {
+  std::uint64_t all = 0, within = 0;  ///< `within` one
+  std::map<std::pair<Whole, Whole>, std::uint64_t> by_pair;
+};
+
+HitsByWhole hits_of(const clash::Findings& findings, const model::Model& model,
+                    const model::ObjectAssemblies& assemblies) {
+  const auto whole_of = [&](model::ObjectId id) {
+    return Whole{assemblies.of(id), model.object(id).file};
+  };
+  HitsByWhole hits;
+  for (const clash::Report& test : findings.tests)
+    for (const clash::Pair& pair : test.pairs) {
+      if (pair.cls != clash::Class::hit || pair.allowed >= 0) continue;
+      ++hits.all;
+      const Whole a = whole_of(pair.a), b = whole_of(pair.b);
+      // Between two files, or within one, all hits lie: that is no news.
+      if (a.is_file() && b.is_file() && model.files.size() < 3) continue;
+      if (a == b) ++hits.within;
+      ++hits.by_pair[{std::min(a, b), std::max(a, b)}];
+    }
+  return hits;
 }
 
-/// Returns the hint about hits between parts of one equipment, if they are half of all.
-/// `from_aveva`: the profile knows what the assemblies are.
-std::string hint_of_parts(const std::vector<clash::Group>& groups, std::uint64_t hits,
-                          bool from_aveva) {
+/// Returns the hint about hits between parts of one assembly, if they are half of all.
+std::string hint_of_parts(const HitsByWhole& hits, bool typed) {
   constexpr std::uint64_t kLeastPart = 2;
-  std::uint64_t within = 0;
-  for (const clash::Group& group : groups)
-    if (is_within(group)) within += group.count_hit;
-  if (within * kLeastPart < hits) return {};
+  if (hits.within * kLeastPart < hits.all) return {};
   return fmt::format(
       "{} of {} hits lie between parts of one assembly: --group-by assembly has a line for each; "
       "{}[[same_assembly]] of a rules file leaves them out",
-      within, hits, from_aveva ? "--profile plant or " : "");
+      hits.within, hits.all, typed ? "--profile plant or " : "");
+}
+
+/// Returns the hint about the pair of assemblies with most hits, if it has a quarter of all.
+std::string hint_of_pair(const HitsByWhole& hits, const model::Model& model) {
+  constexpr std::uint64_t kLeastPart = 4;
+  const auto most =
+      std::ranges::max_element(hits.by_pair, {}, [](const auto& entry) { return entry.second; });
+  if (most == hits.by_pair.end() || most->second * kLeastPart < hits.all) return {};
+  const auto name = [&](const Whole& whole) {
+    return printable(whole.is_file() ? model.files[whole.file].label
+                                     : model.groups[index(whole.assembly)].name);
+  };
+  const auto& [a, b] = most->first;
+  return fmt::format("{} of {} hits lie {}: --group-by assembly makes them one line", most->second,
+                     hits.all,
+                     a == b ? "within " + name(a) : "between " + name(a) + " and " + name(b));
 }
 
 }  // namespace
 
 std::string concentration_hint(const clash::Findings& findings, const model::Model& model) {
-  std::uint64_t hits = 0;
-  for (const clash::Report& test : findings.tests) hits += test.count_hit;
-  if (hits < kLeastHits) return {};
-  const Result<clash::Grouping> grouping =
-      clash::group_results(findings, model, {.by = clash::GroupBy::assembly});
-  if (!grouping || grouping->groups.empty()) return {};
-  const std::string within =
-      hint_of_parts(grouping->groups, hits, !model::Assemblies(model).empty());
-  return within.empty() ? hint_of_one(grouping->groups, hits) : within;
+  std::uint64_t count = 0;
+  for (const clash::Report& test : findings.tests) count += test.count_hit;
+  if (count < kLeastHits) return {};
+  const model::ObjectAssemblies assemblies(model);
+  const HitsByWhole hits = hits_of(findings, model, assemblies);
+  const std::string within = hint_of_parts(hits, assemblies.typed());
+  return within.empty() ? hint_of_pair(hits, model) : within;
 }
 
 }  // namespace strake::cli

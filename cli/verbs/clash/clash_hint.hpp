@@ -8,9 +8,9 @@
 
 namespace strake::cli {
 
-/// Says what makes most of the hits, which a list of the worst does not show: two assemblies, as a
-/// rack that stands in a duct, where these have a quarter of them; or else parts of one assembly
-/// that overlap, where these are half. Empty where nothing does, and below 20 hits.
+/// Says what makes most of the hits, which a list of the worst does not show: parts of one assembly
+/// that overlap, where these are half of them; or else two assemblies, as a rack that stands in a
+/// duct, where these have a quarter. Empty where nothing does, and below 20 hits.
 [[nodiscard]] std::string concentration_hint(const clash::Findings& findings,
                                              const model::Model& model);
 
