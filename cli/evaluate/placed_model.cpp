@@ -26,7 +26,8 @@ Result<PlacedModel> place_model(model::Model model, const model::SceneOptions& o
 
 Result<PlacedModel> place_ship(const generate::ShipOptions& ship,
                                const model::SceneOptions& options, const std::stop_token& stop) {
-  Result<generate::Ship> made = generate::generate_ship(ship, {.stop = stop});
+  parallel::Team team(parallel::default_workers());
+  Result<generate::Ship> made = generate::generate_ship(ship, {.team = &team, .stop = stop});
   if (!made) return made.error();
   return place_model(std::move(made->model), options, stop);
 }

@@ -18,7 +18,8 @@ PeerAnswer ifc_tree_overlaps(const std::filesystem::path& scene, unsigned thread
   PeerAnswer answer;
   answer.outcome = reply.outcome;
   answer.why = std::move(reply.why);
-  if (answer.outcome == cli::kNotThere) answer.why += ": pip install ifcopenshell";
+  if (answer.outcome == cli::kNotThere)
+    answer.why += ": pip install ifcopenshell, in a virtual environment that comes first in PATH";
   answer.version = std::move(reply.version);
   answer.query_s = reply.cpu_s;
   answer.wall_s = reply.wall_s;

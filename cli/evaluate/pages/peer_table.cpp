@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-#include <utility>
+#include <array>
 #include <vector>
 
+#include "core/number.hpp"
 #include "report/text/csv.hpp"
 
 namespace strake::cli {
@@ -66,27 +66,22 @@ Section peer_section(const EvaluationRecord& record) {
 }
 
 std::string peers_csv(const EvaluationRecord& record) {
-  std::string out =
-      "case,scene,objects,triangles,who,version,threads,answers,cpu_s,wall_s,ours_cpu_s,"
-      "ours_wall_s,outcome,result\n";
+  constexpr std::array kColumns{"case",       "scene",       "objects", "triangles", "who",
+                                "version",    "threads",     "answers", "cpu_s",     "wall_s",
+                                "ours_cpu_s", "ours_wall_s", "outcome", "result"};
+  const report::CsvForm form;
+  std::string out;
+  report::CsvRow head(out, form);
+  for (const char* const column : kColumns) head.word(column);
+  head.end();
   for (const PeerRecord& peer : record.peers)
-    for (const PeerRow& row : peer.rows) {
-      const auto put = [&](const std::string& text) {
-        report::append_csv(out, text);
-        out += ',';
-      };
-      put(peer.name);
-      put(row.scene);
-      fmt::format_to(std::back_inserter(out), "{},{},", row.objects, row.triangles);
-      put(row.who);
-      put(row.version);
-      fmt::format_to(std::back_inserter(out), "{},", row.threads);
-      put(row.answers);
-      fmt::format_to(std::back_inserter(out), "{},{},{},{},", row.cpu_s, row.wall_s, row.ours_cpu_s,
-                     row.ours_wall_s);
-      put(row.outcome);
-      report::append_csv(out, row.result);
-      out += '\n';
+    for (const PeerRow& one : peer.rows) {
+      report::CsvRow row(out, form);
+      row.text(peer.name).text(one.scene).count(one.objects).count(one.triangles);
+      row.text(one.who).text(one.version).count(one.threads).text(one.answers);
+      for (const double seconds : {one.cpu_s, one.wall_s, one.ours_cpu_s, one.ours_wall_s})
+        row.number(seconds, append_shortest);
+      row.text(one.outcome).text(one.result).end();
     }
   return out;
 }
