@@ -17,20 +17,34 @@ constexpr std::size_t kBandRows = 64;
 /// Relative margin for rounding: doubles hold view coordinates and what is computed from them far
 /// more exactly, and a whole unit is added where they are compared.
 constexpr double kShare = 1e-12;
+/// A box over more tiles is not looked up: its edges are, one by one.
+constexpr double kMostInBox = 1024;
 /// Margin at the sides of tiles, in tiles, for the place of a point of an edge.
 constexpr double kBeside = 1e-6;
 
 double as_double(std::int64_t x) { return static_cast<double>(x); }
 
-/// A polygon of a body that holds a tile or more.
+/// A polygon of a body, or the outline of a convex part of it, whose box holds a tile or more.
 struct Large {
-  std::uint32_t body = 0, polygon = 0;
+  const OccluderPolygon* polygon = nullptr;
+  const OccluderPart* convex = nullptr;  ///< the part, where the polygon is its outline
+  std::uint32_t body = 0;
   double v0 = 0, v1 = 0;
 };
 
 /// How the depth of a plane changes on paper, and how far behind it a point must lie.
 struct Slope {
   double by_u = 0, by_v = 0, behind = 0;
+
+  [[nodiscard]] bool is_finite() const {
+    return std::isfinite(by_u) && std::isfinite(by_v) && std::isfinite(behind);
+  }
+};
+
+/// A plane by a point of it on paper.
+struct DepthPlane {
+  ViewPoint at;
+  Slope slope;
 };
 
 /// Solves for the plane's depth with the inverse of the projection's matrix.
@@ -57,6 +71,8 @@ class Planes {
     squared_ = as_double(geometry::dot(d, d));
     direction_ = d.as<double>();
   }
+
+  [[nodiscard]] double contact() const { return contact_; }
 
   [[nodiscard]] Slope of(const ExactNormal& normal) const {
     double n[3], sum = 0;
@@ -92,17 +108,22 @@ class OcclusionBuffer::Painter {
         projection_(projection),
         planes_(projection, contact) {}
 
-  /// Lists the polygons of a body whose box holds a tile.
+  /// Lists the polygons of a body whose box holds a tile. A convex part, as a cylinder, may cover
+  /// tiles that none of its polygons covers: its outline at the depth of its farthest corner does.
   void list(std::uint32_t body, std::vector<Large>& out) const {
     const BodyInstance& placed = placed_[body];
     if (placed.shape == nullptr || !placed.opaque || placed.cut || placed.repeated ||
         !large(placed.shape->box))
       return;
-    const auto& polygons = placed.shape->polygons;
-    for (std::uint32_t i = 0; i < polygons.size(); ++i)
-      if (large(polygons[i].box) && !polygons[i].edge_on)
-        out.push_back({body, i, as_double(polygons[i].box.lo.v + placed.at.v),
-                       as_double(polygons[i].box.hi.v + placed.at.v)});
+    const auto add = [&](const OccluderPolygon& polygon, const OccluderPart* convex) {
+      out.push_back({&polygon, convex, body, as_double(polygon.box.lo.v + placed.at.v),
+                     as_double(polygon.box.hi.v + placed.at.v)});
+    };
+    for (const OccluderPolygon& polygon : placed.shape->polygons)
+      if (large(polygon.box) && !polygon.edge_on) add(polygon, nullptr);
+    for (const OccluderPart& part : placed.shape->parts)
+      if (part.has_outline && part.last - part.first > 1 && large(part.outline.box))
+        add(part.outline, &part);
   }
 
   void paint(std::span<const Large> all, std::size_t first_row, std::size_t last_row) const {
@@ -126,12 +147,10 @@ class OcclusionBuffer::Painter {
 
   void paint(const Large& large, std::size_t first_row, std::size_t last_row) const {
     const BodyInstance& placed = placed_[large.body];
-    const ProjectedShape& shape = *placed.shape;
-    const OccluderPolygon& polygon = shape.polygons[large.polygon];
-    const auto corners = std::span(shape.corners).subspan(polygon.first_corner, polygon.corners);
-    const Slope slope = planes_.of(shape.normal(polygon));
-    if (!std::isfinite(slope.by_u) || !std::isfinite(slope.by_v) || !std::isfinite(slope.behind))
-      return;
+    const auto corners = std::span(placed.shape->corners)
+                             .subspan(large.polygon->first_corner, large.polygon->corners);
+    const DepthPlane plane = plane_of(large);
+    if (!plane.slope.is_finite()) return;
     const auto row_of = [&](double v) {
       return static_cast<std::size_t>(
           std::clamp(std::floor((v - occlusion_buffer_.v0_) / occlusion_buffer_.height_), 0.0,
@@ -139,14 +158,24 @@ class OcclusionBuffer::Painter {
     };
     const std::size_t from = std::max(first_row, row_of(large.v0));
     const std::size_t to = std::min(last_row, row_of(large.v1) + 1);
-    const ViewPoint at = projection_(polygon.at.as<std::int64_t>()) + placed.at;
     for (std::size_t row = from; row < to; ++row) {
       const double v0 =
           occlusion_buffer_.v0_ + occlusion_buffer_.height_ * static_cast<double>(row);
       const double v1 = v0 + occlusion_buffer_.height_;
       const Span lower = chord(corners, placed.at, v0), upper = chord(corners, placed.at, v1);
-      paint_row(row, {std::max(lower.lo, upper.lo), std::min(lower.hi, upper.hi)}, at, slope);
+      paint_row(row, {std::max(lower.lo, upper.lo), std::min(lower.hi, upper.hi)}, plane);
     }
+  }
+
+  /// Returns the plane of a polygon; of an outline, the level of the part's farthest corner.
+  [[nodiscard]] DepthPlane plane_of(const Large& large) const {
+    const BodyInstance& placed = placed_[large.body];
+    if (large.convex == nullptr)
+      return {projection_(large.polygon->at.as<std::int64_t>()) + placed.at,
+              planes_.of(placed.shape->normal(*large.polygon))};
+    ViewPoint at = placed.at;
+    at.w += large.convex->farthest;
+    return {at, {.behind = planes_.contact() * large.convex->deep_per_contact}};
   }
 
   /// Returns the open interval of a polygon at height v, shortened by the bound of rounding.
@@ -173,8 +202,9 @@ class OcclusionBuffer::Painter {
     return span;
   }
 
-  void paint_row(std::size_t row, const Span& span, const ViewPoint& at, const Slope& slope) const {
+  void paint_row(std::size_t row, const Span& span, const DepthPlane& plane) const {
     if (!(span.lo < span.hi)) return;
+    const auto& [at, slope] = plane;
     const OcclusionBuffer& c = occlusion_buffer_;
     const double first = std::ceil((span.lo - c.u0_) / c.width_ + kBeside);
     const double last = std::floor((span.hi - c.u0_) / c.width_ - kBeside);
@@ -322,6 +352,28 @@ CoveredEnds OcclusionBuffer::covered_ends(const ViewPoint& a, const ViewPoint& b
   const double from = traversal.covered_from(lo, hi);
   if (from >= hi) return {hi, hi};
   return {from, traversal.covered_from(hi, lo)};
+}
+
+bool OcclusionBuffer::covers(const ViewBox& box) const {
+  if (empty() || box.empty()) return false;
+  const auto first = [](double x) { return std::floor(x - kBeside); };
+  const auto last = [](double x) { return std::floor(x + kBeside); };
+  const double left = first((as_double(box.lo.u) - u0_) / width_);
+  const double right = last((as_double(box.hi.u) - u0_) / width_);
+  const double low = first((as_double(box.lo.v) - v0_) / height_);
+  const double high = last((as_double(box.hi.v) - v0_) / height_);
+  if (left < 0 || low < 0 || right >= static_cast<double>(columns_) ||
+      high >= static_cast<double>(rows_) || (right - left + 1) * (high - low + 1) > kMostInBox)
+    return false;
+  const double nearest = as_double(box.hi.w);
+  const double w = nearest + 1 + kShare * std::fabs(nearest);
+  const auto count = static_cast<std::size_t>(right - left) + 1;
+  for (auto row = static_cast<std::size_t>(low); row <= static_cast<std::size_t>(high); ++row) {
+    const auto tiles =
+        std::span(depth_).subspan(row * columns_ + static_cast<std::size_t>(left), count);
+    if (!std::ranges::all_of(tiles, [&](float depth) { return depth > w; })) return false;
+  }
+  return true;
 }
 
 }  // namespace strake::hlr

@@ -23,10 +23,10 @@ struct CoveredEnds {
 };
 
 /// A conservative tile z-buffer: for each tile of the paper a depth at which it is wholly covered.
-/// One polygon's open inside holds the closed tile, and all of the polygon over the tile is nearer
-/// than that by more than any contact distance. As the depth is a lower bound, what lies deeper is
-/// hidden with no test of its occluders (the farthest-depth map of Greene, Kass and Miller, 1993,
-/// with exact coverage).
+/// One polygon's open inside holds the closed tile, or the outline of one convex part, and all of
+/// the polygon or part over the tile is nearer than that by more than any contact distance. As the
+/// depth is a lower bound, what lies deeper is hidden with no test of its occluders (the
+/// farthest-depth map of Greene, Kass and Miller, 1993, with exact coverage).
 class OcclusionBuffer {
  public:
   /// A buffer that covers nothing.
@@ -45,6 +45,10 @@ class OcclusionBuffer {
   /// Returns the ends, or all, of the part [lo, hi] of a segment that lie deeper than the buffer.
   [[nodiscard]] CoveredEnds covered_ends(const ViewPoint& a, const ViewPoint& b, double lo,
                                          double hi) const;
+
+  /// Returns whether all that lies in a box on paper lies deeper than the buffer: quick, and false
+  /// where the box is large.
+  [[nodiscard]] bool covers(const ViewBox& box) const;
 
  private:
   class Painter;

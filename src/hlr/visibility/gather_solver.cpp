@@ -37,6 +37,24 @@ void add(Counters& counters, const SolverWork& work) {
   counters.specks += work.specks;
 }
 
+void OccluderGatherer::start(const EdgeRange& item) {
+  item_ = &item;
+  neighbours_ = Neighbours::not_searched;
+  item_box_ = {};
+  if (item.lines || visibility_.perspective_map) return;
+  const BodyInstance& own = visibility_.placed[item.body];
+  for (std::uint32_t i = item.first; i < item.last; ++i) {
+    item_box_.include(own.shape->edges[i].a);
+    item_box_.include(own.shape->edges[i].b);
+  }
+  item_box_ = item_box_.moved(own.at);
+}
+
+bool OccluderGatherer::hides_item() const {
+  return !job_.options.hidden && !visibility_.placed[item_->body].cut &&
+         visibility_.occlusion_buffer.covers(item_box_);
+}
+
 std::span<const OcclusionInterval> OccluderGatherer::intervals(const EdgeQuery& edge,
                                                                const RationalParam& lo,
                                                                const RationalParam& hi) {
@@ -160,25 +178,20 @@ void OccluderGatherer::gather_others() {
 bool OccluderGatherer::find_neighbours() {
   if (neighbours_ != Neighbours::not_searched) return neighbours_ == Neighbours::found;
   neighbours_ = Neighbours::too_many;
-  if (item_->lines || visibility_.perspective_map) return false;
-  const BodyInstance& own = visibility_.placed[item_->body];
-  ViewBox box;
-  for (std::uint32_t i = item_->first; i < item_->last; ++i) {
-    box.include(own.shape->edges[i].a);
-    box.include(own.shape->edges[i].b);
-  }
-  const LooseBox own_box = rounded_outwards(box.moved(own.at));
+  if (item_box_.empty()) return false;
+  const std::uint32_t own = visibility_.placed[item_->body].object;
+  const LooseBox own_box = rounded_outwards(item_box_);
   SegmentQuery any;
   any.u0 = own_box.u0;
   any.u1 = own_box.u1;
   any.v0 = own_box.v0;
   any.v1 = own_box.v1;
-  const auto deepest = static_cast<double>(box.lo.w + own.at.w);
+  const auto deepest = static_cast<double>(item_box_.lo.w);
   any.w0 = deepest - 1e-12 * std::abs(deepest);
   near_.clear();
   bool few = true;
   visibility_.tree.traverse_boxes(any, [&](std::uint32_t body, const LooseBox& its) {
-    if (visibility_.placed[body].object != own.object) near_.push_back({its, body});
+    if (visibility_.placed[body].object != own) near_.push_back({its, body});
     return few = near_.size() <= kFewNeighbours;
   });
   if (!few) return false;
@@ -419,21 +432,47 @@ class Drawer {
 
   SolverWork run(const EdgeRange& item, std::vector<EdgePiece>& out) {
     gatherer_.start(item);
-    const auto lines = visibility_.job.lines.of(visibility_.placed[item.body].object);
-    for (std::uint32_t i = item.first; i < item.last; ++i)
-      draw(item.lines
-               ? EdgeQuery(visibility_, lines[i])
-               : EdgeQuery(visibility_, item.body, visibility_.placed[item.body].shape->edges[i]),
-           item.number + (i - item.first), out);
+    if (item.lines)
+      run_lines(item, out);
+    else
+      run_edges(item, out);
     return std::exchange(gatherer_.work, {});
   }
 
  private:
+  void run_lines(const EdgeRange& item, std::vector<EdgePiece>& out) {
+    const auto lines = visibility_.job.lines.of(visibility_.placed[item.body].object);
+    for (std::uint32_t i = item.first; i < item.last; ++i)
+      draw(EdgeQuery(visibility_, lines[i]), item.number + (i - item.first), out);
+  }
+
+  void run_edges(const EdgeRange& item, std::vector<EdgePiece>& out) {
+    const auto& edges = visibility_.placed[item.body].shape->edges;
+    const bool hidden = gatherer_.hides_item();
+    for (std::uint32_t i = item.first; i < item.last; ++i) {
+      if (hidden && !edges[i].edge.projecting && !edges[i].edge.cut_away)
+        skip_covered();
+      else
+        draw(EdgeQuery(visibility_, item.body, edges[i]), item.number + (i - item.first), out);
+    }
+  }
+
+  void skip_covered() {
+    ++gatherer_.work.edges;
+    ++gatherer_.work.covered;
+    ++gatherer_.work.left_out;
+  }
+
   void draw(const EdgeQuery& edge, std::uint32_t number, std::vector<EdgePiece>& out) {
     ++gatherer_.work.edges;
     std::span<const OcclusionInterval> intervals;
-    if (piece_builder_.begin(edge))
+    if (piece_builder_.begin(edge)) {
       intervals = gatherer_.intervals(edge, piece_builder_.lo(), piece_builder_.hi());
+      if (!visibility_.job.options.hidden && gatherer_.hides_all() && piece_builder_.is_whole()) {
+        ++gatherer_.work.left_out;
+        return;
+      }
+    }
     const EdgePieceBuilder::Absent absent = piece_builder_.finish(number, intervals, out);
     gatherer_.work.specks += absent.specks;
     if (absent.left_out) ++gatherer_.work.left_out;

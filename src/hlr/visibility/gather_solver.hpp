@@ -29,10 +29,15 @@ class OccluderGatherer {
       : visibility_(visibility), job_(visibility.job) {}
 
   /// Announces that the next queries are for the edges of an item, which must outlive them.
-  void start(const EdgeRange& item) {
-    item_ = &item;
-    neighbours_ = Neighbours::not_searched;
-  }
+  void start(const EdgeRange& item);
+
+  /// Returns whether the occlusion buffer hides every edge of the item that is no point on paper
+  /// and not cut away. It decides nothing where it matters who hides what.
+  [[nodiscard]] bool hides_item() const;
+
+  /// Returns whether the intervals that intervals() returned last leave nothing to be seen. False
+  /// without culling.
+  [[nodiscard]] bool hides_all() const { return open_.empty(); }
 
   /// Returns the intervals that are hidden of an edge between two parameters, as far as the job's
   /// stage asks, unsorted. The own object's come first and, unless it hides the edge wholly,
@@ -114,6 +119,7 @@ class OccluderGatherer {
   };
   enum class Neighbours : std::uint8_t { not_searched, found, too_many };
   const EdgeRange* item_ = nullptr;
+  ViewBox item_box_;  ///< of its edges; empty for lines, and in perspective
   Neighbours neighbours_ = Neighbours::too_many;
   std::vector<Neighbour> near_;  ///< the nearest to the viewer first
 };
@@ -130,6 +136,8 @@ class EdgePieceBuilder {
   [[nodiscard]] bool begin(const EdgeQuery& edge);
   [[nodiscard]] const RationalParam& lo() const { return lo_; }
   [[nodiscard]] const RationalParam& hi() const { return hi_; }
+  /// Returns whether nothing of the edge is clipped.
+  [[nodiscard]] bool is_whole() const { return lo_.num == 0 && hi_.num == hi_.den; }
 
   /// The pieces that finish() did not append.
   struct Absent {

@@ -222,6 +222,36 @@ void append(std::vector<VisibilityInterval>& out, std::size_t first, const Ratio
 
 }  // namespace
 
+bool OpenRange::Range::shrink(const OcclusionInterval& interval) {
+  bool changed = false;
+  if (!less(lo, interval.lo) && less(lo, interval.hi)) {
+    lo = interval.hi;
+    changed = true;
+  }
+  if (!less(interval.hi, hi) && less(interval.lo, hi)) {
+    hi = interval.lo;
+    changed = true;
+  }
+  return changed;
+}
+
+bool OpenRange::shrink(const OcclusionInterval& interval) {
+  bool changed = false;
+  if ((interval.sides & kLeft) != 0 && !left_.empty()) changed = left_.shrink(interval);
+  if ((interval.sides & kRight) != 0 && !right_.empty())
+    changed = right_.shrink(interval) || changed;
+  if (!changed) return false;
+  if (left_.empty()) {
+    hull_ = right_;
+  } else if (right_.empty()) {
+    hull_ = left_;
+  } else {
+    hull_.lo = less(left_.lo, right_.lo) ? left_.lo : right_.lo;
+    hull_.hi = less(left_.hi, right_.hi) ? right_.hi : left_.hi;
+  }
+  return true;
+}
+
 bool OpenRange::shrink_all(std::span<const OcclusionInterval> intervals) {
   if (intervals.empty() || !shrink(intervals.back())) return false;
   if (intervals.size() > kScanBack) intervals = intervals.last(kScanBack);

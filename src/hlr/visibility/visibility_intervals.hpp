@@ -113,35 +113,33 @@ struct LocalEdge {
          e.box.lo.v <= box.hi.v && e.box.lo.w < box.hi.w;
 }
 
-/// The part of an edge that is still undecided: everything outside it is hidden on both sides.
+/// The part of an edge that is still undecided: everything outside it is hidden on both sides. What
+/// hides one side alone, as a plate of which the outline runs along the edge, counts for that side.
 class OpenRange {
  public:
   OpenRange() = default;
-  OpenRange(const RationalParam& lo, const RationalParam& hi) : lo_(lo), hi_(hi) {}
+  OpenRange(const RationalParam& lo, const RationalParam& hi)
+      : left_{lo, hi}, right_{lo, hi}, hull_{lo, hi} {}
 
-  [[nodiscard]] const RationalParam& lo() const { return lo_; }
-  [[nodiscard]] const RationalParam& hi() const { return hi_; }
-  [[nodiscard]] bool empty() const { return !less(lo_, hi_); }
+  [[nodiscard]] const RationalParam& lo() const { return hull_.lo; }
+  [[nodiscard]] const RationalParam& hi() const { return hull_.hi; }
+  [[nodiscard]] bool empty() const { return hull_.empty(); }
 
-  /// Removes what an interval at either end hides on both sides; true when that changed anything.
-  bool shrink(const OcclusionInterval& interval) {
-    if (interval.sides != kBothSides) return false;
-    bool changed = false;
-    if (!less(lo_, interval.lo) && less(lo_, interval.hi)) {
-      lo_ = interval.hi;
-      changed = true;
-    }
-    if (!less(interval.hi, hi_) && less(interval.lo, hi_)) {
-      hi_ = interval.lo;
-      changed = true;
-    }
-    return changed;
-  }
+  /// Removes what an interval at either end hides; true when that changed a side.
+  bool shrink(const OcclusionInterval& interval);
   /// Shrinks by the newest interval and then by those before it, until nothing changes.
   bool shrink_all(std::span<const OcclusionInterval> intervals);
 
  private:
-  RationalParam lo_ = RationalParam::zero(), hi_ = RationalParam::one();
+  struct Range {
+    RationalParam lo = RationalParam::zero(), hi = RationalParam::one();
+
+    [[nodiscard]] bool empty() const { return !less(lo, hi); }
+    bool shrink(const OcclusionInterval& interval);
+  };
+
+  Range left_, right_;  ///< what is undecided on each side of the edge
+  Range hull_;          ///< of both
 };
 
 /// An interval of an edge in one state.
