@@ -17,6 +17,8 @@ constexpr std::size_t kBandRows = 64;
 /// Relative margin for rounding: doubles hold view coordinates and what is computed from them far
 /// more exactly, and a whole unit is added where they are compared.
 constexpr double kShare = 1e-12;
+/// With more gaps the rest of the edge is one: each is a query of its own.
+constexpr std::size_t kMostGaps = 16;
 /// A box over more tiles is not looked up: its edges are, one by one.
 constexpr double kMostInBox = 1024;
 /// Margin at the sides of tiles, in tiles, for the place of a point of an edge.
@@ -295,29 +297,36 @@ class OcclusionBuffer::TileTraversal {
     along_ = static_cast<double>(by_column_ ? occlusion_buffer.columns_ : occlusion_buffer.rows_);
   }
 
-  /// Returns how far from parameter `start` towards `end` the segment is covered.
-  [[nodiscard]] double covered_from(double start, double end) const {
-    const double sign = (end > start) == (dx_ > 0) ? 1 : -1;
+  void find_gaps(const SegmentRange& part, std::vector<SegmentRange>& gaps) const {
+    const auto& [start, end] = part;
+    const double sign = dx_ > 0 ? 1 : -1;
     const double last = x_ + dx_ * end;
     double t = start, tile = std::floor(x_ + dx_ * start);
     // Where rounding puts an end into the wrong column, the right one is beside it.
-    if (!covered(std::floor(x_ + dx_ * start - sign * kBeside), start, start)) return start;
+    if (!covered(std::floor(x_ + dx_ * start - sign * kBeside), start, start))
+      add_gap({start, start}, part, gaps);
     for (;;) {
       const double side = sign > 0 ? tile + 1 : tile;
       const bool ends = dx_ == 0 || (sign > 0 ? side >= last : side <= last);
       const double next = ends ? end : (side - x_) / dx_;
-      if (!covered(tile, t, next)) return t == start ? start : short_of(start, t);
-      if (ends) return covered(std::floor(last + sign * kBeside), end, end) ? end : start;
+      if (!covered(tile, t, next)) add_gap({t, next}, part, gaps);
+      if (ends) break;
       t = next;
       tile += sign;
     }
+    if (!covered(std::floor(last + sign * kBeside), end, end)) add_gap({end, end}, part, gaps);
   }
 
  private:
-  /// Returns a parameter a little before t, lest rounding has put t into the next column.
-  [[nodiscard]] double short_of(double start, double t) const {
-    const double step = kBeside / std::fabs(dx_);
-    return start < t ? std::max(start, t - step) : std::min(start, t + step);
+  /// Appends a gap that is a little longer, lest rounding has put its ends into the next column.
+  void add_gap(const SegmentRange& gap, const SegmentRange& part,
+               std::vector<SegmentRange>& gaps) const {
+    const double step = dx_ == 0 ? part.hi - part.lo : kBeside / std::fabs(dx_);
+    const double lo = std::max(part.lo, gap.lo - step), hi = std::min(part.hi, gap.hi + step);
+    if (!gaps.empty() && (lo <= gaps.back().hi || gaps.size() == kMostGaps))
+      gaps.back().hi = hi;
+    else
+      gaps.push_back({lo, hi});
   }
 
   /// Returns whether the interval from t to u, in one column of tiles, is covered.
@@ -345,13 +354,13 @@ class OcclusionBuffer::TileTraversal {
   double along_ = 0, across_ = 0;
 };
 
-CoveredEnds OcclusionBuffer::covered_ends(const ViewPoint& a, const ViewPoint& b, double lo,
-                                          double hi) const {
-  if (empty()) return {lo, hi};
-  const TileTraversal traversal(*this, a, b);
-  const double from = traversal.covered_from(lo, hi);
-  if (from >= hi) return {hi, hi};
-  return {from, traversal.covered_from(hi, lo)};
+void OcclusionBuffer::find_gaps(const ViewPoint& a, const ViewPoint& b, const SegmentRange& part,
+                                std::vector<SegmentRange>& gaps) const {
+  gaps.clear();
+  if (empty())
+    gaps.push_back(part);
+  else
+    TileTraversal(*this, a, b).find_gaps(part, gaps);
 }
 
 bool OcclusionBuffer::covers(const ViewBox& box) const {

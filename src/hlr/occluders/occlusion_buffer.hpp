@@ -16,10 +16,9 @@
 
 namespace strake::hlr {
 
-/// The parts of a segment [lo, hi] that are certainly hidden on both sides: [lo, from] and [to,
-/// hi]; all of it where from >= to.
-struct CoveredEnds {
-  double from = 0, to = 1;
+/// A part of a segment, by parameters.
+struct SegmentRange {
+  double lo = 0, hi = 1;
 };
 
 /// A conservative tile z-buffer: for each tile of the paper a depth at which it is wholly covered.
@@ -42,9 +41,11 @@ class OcclusionBuffer {
 
   [[nodiscard]] bool empty() const { return depth_.empty(); }
 
-  /// Returns the ends, or all, of the part [lo, hi] of a segment that lie deeper than the buffer.
-  [[nodiscard]] CoveredEnds covered_ends(const ViewPoint& a, const ViewPoint& b, double lo,
-                                         double hi) const;
+  /// Finds the gaps: what of the part [lo, hi] of a segment is not certainly hidden on both sides.
+  /// Ascending, none meets the next, kMostGaps at most: then the last is longer than it need be.
+  /// The joints of plates leave such gaps, as no plate covers the tiles there alone.
+  void find_gaps(const ViewPoint& a, const ViewPoint& b, const SegmentRange& part,
+                 std::vector<SegmentRange>& gaps) const;
 
   /// Returns whether all that lies in a box on paper lies deeper than the buffer: quick, and false
   /// where the box is large.

@@ -62,10 +62,18 @@ std::span<const OcclusionInterval> OccluderGatherer::intervals(const EdgeQuery& 
   // It does not matter who hides what where hidden pieces are left out: then the cheapest test
   // comes first.
   const bool global = job_.options.stage == Stage::global, any_order = !job_.options.hidden;
-  if (global && any_order) apply_occlusion_buffer();
-  if (!open_.empty()) gather_own_objects();
-  if (global && !any_order && !open_.empty()) apply_occlusion_buffer();
-  if (global && !open_.empty()) gather_others();
+  if (!global || !any_order) gather_own_objects();
+  hides_all_ = open_.empty();
+  if (!global || hides_all_) return intervals_;
+  find_gaps();
+  const OpenRange open = std::exchange(open_, {});
+  hides_all_ = true;
+  for (const ParamRange& gap : gaps_) {
+    open_ = open.within(gap);
+    if (any_order) gather_own_objects();
+    if (!open_.empty()) gather_others();
+    hides_all_ = hides_all_ && open_.empty();
+  }
   return intervals_;
 }
 
@@ -138,22 +146,31 @@ void OccluderGatherer::gather_object(std::uint32_t object) {
   }
 }
 
-/// Hides either end as far as the occlusion buffer covers it. Not for wires that are seen through
-/// the solids of their own object, which are in the buffer, too.
-void OccluderGatherer::apply_occlusion_buffer() {
-  if (visibility_.occlusion_buffer.empty() || job_.spares_own(edge_.kind)) return;
-  const double lo = open_.lo().value, hi = open_.hi().value;
-  const CoveredEnds ends = visibility_.occlusion_buffer.covered_ends(edge_.va, edge_.vb, lo, hi);
-  if (ends.from >= ends.to) {
-    ++work.covered;
-    add(OcclusionInterval{open_.lo(), open_.hi(), kBothSides, false});
+/// Hides what the occlusion buffer covers and finds the gaps that it leaves. Wires that are seen
+/// through the solids of their own object are one gap, as those are in the buffer, too.
+void OccluderGatherer::find_gaps() {
+  gaps_.clear();
+  if (visibility_.occlusion_buffer.empty() || job_.spares_own(edge_.kind)) {
+    gaps_.push_back({open_.lo(), open_.hi()});
     return;
   }
-  const RationalParam from =
-      RationalParam::of(static_cast<std::int64_t>(ends.from * kFine) - 1, kFine);
-  const RationalParam to = RationalParam::of(static_cast<std::int64_t>(ends.to * kFine) + 2, kFine);
-  if (less(open_.lo(), from)) add(OcclusionInterval{open_.lo(), from, kBothSides, false});
-  if (less(to, open_.hi())) add(OcclusionInterval{to, open_.hi(), kBothSides, false});
+  visibility_.occlusion_buffer.find_gaps(edge_.va, edge_.vb, {open_.lo().value, open_.hi().value},
+                                         uncovered_);
+  if (uncovered_.empty()) ++work.covered;
+  RationalParam from = open_.lo();
+  const auto cover = [&](const RationalParam& to) {
+    if (less(from, to)) intervals_.push_back({from, to, kBothSides, false});
+  };
+  for (const SegmentRange& gap : uncovered_) {
+    RationalParam lo = RationalParam::of(static_cast<std::int64_t>(gap.lo * kFine) - 1, kFine);
+    RationalParam hi = RationalParam::of(static_cast<std::int64_t>(gap.hi * kFine) + 2, kFine);
+    if (less(lo, from)) lo = from;
+    if (less(open_.hi(), hi)) hi = open_.hi();
+    cover(lo);
+    gaps_.push_back({lo, hi});
+    from = hi;
+  }
+  cover(open_.hi());
 }
 
 void OccluderGatherer::gather_others() {

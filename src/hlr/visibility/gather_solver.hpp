@@ -37,7 +37,7 @@ class OccluderGatherer {
 
   /// Returns whether the intervals that intervals() returned last leave nothing to be seen. False
   /// without culling.
-  [[nodiscard]] bool hides_all() const { return open_.empty(); }
+  [[nodiscard]] bool hides_all() const { return hides_all_; }
 
   /// Returns the intervals that are hidden of an edge between two parameters, as far as the job's
   /// stage asks, unsorted. The own object's come first and, unless it hides the edge wholly,
@@ -78,7 +78,7 @@ class OccluderGatherer {
   void gather_object(std::uint32_t object);
   void gather_others();
   bool find_neighbours();
-  void apply_occlusion_buffer();
+  void find_gaps();
   void gather_own_body();
   void test_own_body();
 
@@ -104,6 +104,9 @@ class OccluderGatherer {
   const ViewJob& job_;
   EdgeQuery edge_;
   OpenRange open_;
+  bool hides_all_ = false;
+  std::vector<ParamRange> gaps_;  ///< what the occlusion buffer leaves open, ascending
+  std::vector<SegmentRange> uncovered_;
   SegmentQuery segment_;
   // In perspective; nothing where the edge may be anywhere on paper.
   std::optional<PerspectiveSegment> perspective_segment_;

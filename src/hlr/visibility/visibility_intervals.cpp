@@ -222,25 +222,47 @@ void append(std::vector<VisibilityInterval>& out, std::size_t first, const Ratio
 
 }  // namespace
 
-bool OpenRange::Range::shrink(const OcclusionInterval& interval) {
+namespace {
+
+// Removes an interval at either end of a range; true when that changed the range.
+bool shrink_range(const OcclusionInterval& interval, ParamRange& range) {
   bool changed = false;
-  if (!less(lo, interval.lo) && less(lo, interval.hi)) {
-    lo = interval.hi;
+  if (!less(range.lo, interval.lo) && less(range.lo, interval.hi)) {
+    range.lo = interval.hi;
     changed = true;
   }
-  if (!less(interval.hi, hi) && less(interval.lo, hi)) {
-    hi = interval.lo;
+  if (!less(interval.hi, range.hi) && less(interval.lo, range.hi)) {
+    range.hi = interval.lo;
     changed = true;
   }
   return changed;
 }
 
+// Returns what two ranges have in common.
+ParamRange common(const ParamRange& x, const ParamRange& y) {
+  return {less(x.lo, y.lo) ? y.lo : x.lo, less(x.hi, y.hi) ? x.hi : y.hi};
+}
+
+}  // namespace
+
 bool OpenRange::shrink(const OcclusionInterval& interval) {
   bool changed = false;
-  if ((interval.sides & kLeft) != 0 && !left_.empty()) changed = left_.shrink(interval);
+  if ((interval.sides & kLeft) != 0 && !left_.empty()) changed = shrink_range(interval, left_);
   if ((interval.sides & kRight) != 0 && !right_.empty())
-    changed = right_.shrink(interval) || changed;
-  if (!changed) return false;
+    changed = shrink_range(interval, right_) || changed;
+  if (changed) update_hull();
+  return changed;
+}
+
+OpenRange OpenRange::within(const ParamRange& part) const {
+  OpenRange open;
+  open.left_ = common(left_, part);
+  open.right_ = common(right_, part);
+  open.update_hull();
+  return open;
+}
+
+void OpenRange::update_hull() {
   if (left_.empty()) {
     hull_ = right_;
   } else if (right_.empty()) {
@@ -249,7 +271,6 @@ bool OpenRange::shrink(const OcclusionInterval& interval) {
     hull_.lo = less(left_.lo, right_.lo) ? left_.lo : right_.lo;
     hull_.hi = less(left_.hi, right_.hi) ? right_.hi : left_.hi;
   }
-  return true;
 }
 
 bool OpenRange::shrink_all(std::span<const OcclusionInterval> intervals) {

@@ -113,6 +113,13 @@ struct LocalEdge {
          e.box.lo.v <= box.hi.v && e.box.lo.w < box.hi.w;
 }
 
+/// A part of an edge.
+struct ParamRange {
+  RationalParam lo = RationalParam::zero(), hi = RationalParam::one();
+
+  [[nodiscard]] bool empty() const { return !less(lo, hi); }
+};
+
 /// The part of an edge that is still undecided: everything outside it is hidden on both sides. What
 /// hides one side alone, as a plate of which the outline runs along the edge, counts for that side.
 class OpenRange {
@@ -125,21 +132,19 @@ class OpenRange {
   [[nodiscard]] const RationalParam& hi() const { return hull_.hi; }
   [[nodiscard]] bool empty() const { return hull_.empty(); }
 
+  /// Returns what of it lies in a part.
+  [[nodiscard]] OpenRange within(const ParamRange& part) const;
+
   /// Removes what an interval at either end hides; true when that changed a side.
   bool shrink(const OcclusionInterval& interval);
   /// Shrinks by the newest interval and then by those before it, until nothing changes.
   bool shrink_all(std::span<const OcclusionInterval> intervals);
 
  private:
-  struct Range {
-    RationalParam lo = RationalParam::zero(), hi = RationalParam::one();
+  void update_hull();
 
-    [[nodiscard]] bool empty() const { return !less(lo, hi); }
-    bool shrink(const OcclusionInterval& interval);
-  };
-
-  Range left_, right_;  ///< what is undecided on each side of the edge
-  Range hull_;          ///< of both
+  ParamRange left_, right_;  ///< what is undecided on each side of the edge
+  ParamRange hull_;          ///< of both
 };
 
 /// An interval of an edge in one state.
