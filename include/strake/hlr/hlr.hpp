@@ -133,8 +133,9 @@ struct Options {
   /// kBucketsByData: by as many as suit its faces and edges, or a tree. kNoBuckets: each face is
   /// tested. Changes the work, never the answer.
   std::int32_t bucketing = kBucketsByData;
-  /// Keep hidden pieces. Without them a drawing takes less time and memory; its other pieces and
-  /// the fates of its objects are the same.
+  /// Keep hidden pieces. Without them, and what else is left of objects of which nothing is
+  /// visible, a drawing takes less time and memory; its other pieces and the fates of its objects
+  /// are the same.
   bool hidden = true;
   /// Keep specks, pieces shorter than the precision of the sources can tell, each in its exact
   /// state. Otherwise their neighbours absorb them, and specks that join nothing become points.

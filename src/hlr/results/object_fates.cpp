@@ -74,6 +74,22 @@ void list_defects(const model::Scene& scene, std::span<const EdgePiece> pieces, 
 
 }  // namespace
 
+void leave_out_hidden_objects(Drawing& drawing) {
+  if (drawing.left_out.empty()) return;
+  auto kept = drawing.pieces.begin();
+  for (auto first = kept; first != drawing.pieces.end();) {
+    const std::uint32_t object = object_of(*first);
+    const auto last = std::find_if(first, drawing.pieces.end(),
+                                   [&](const EdgePiece& p) { return object_of(p) != object; });
+    const bool visible =
+        std::any_of(first, last, [](const EdgePiece& p) { return p.state == State::visible; });
+    if (visible || drawing.left_out[object] == 0)
+      kept = kept == first ? last : std::move(first, last, kept);
+    first = last;
+  }
+  drawing.pieces.erase(kept, drawing.pieces.end());
+}
+
 Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& drawn,
                            const Drawing& drawing, const parallel::Context& context) {
   const std::span<const EdgePiece> pieces = drawing.pieces;

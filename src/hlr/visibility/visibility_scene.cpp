@@ -206,12 +206,19 @@ void make_items(VisibilityScene& visibility) {
     });
     number += edges;
   };
+  std::size_t first_item = 0;
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
     if (visibility.placed[b].shape == nullptr) continue;
     const std::uint32_t object = visibility.placed[b].object;
-    if (b == scene.first_body[object]) number = 0;
+    if (b == scene.first_body[object]) {
+      number = 0;
+      first_item = visibility.items.size();
+    }
     add(b, visibility.placed[b].shape->edges.size(), false);
-    if (b + 1 == scene.first_body[object + 1]) add(b, visibility.job.lines.of(object).size(), true);
+    if (b + 1 != scene.first_body[object + 1]) continue;
+    add(b, visibility.job.lines.of(object).size(), true);
+    if (visibility.items.size() == first_item + 1)
+      visibility.items.back().whole = !visibility.items.back().lines;
   }
 }
 

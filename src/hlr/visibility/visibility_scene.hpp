@@ -27,6 +27,7 @@ struct EdgeRange {
   std::uint32_t body = 0, first = 0, last = 0;
   std::uint32_t number = 0;  ///< number of its first edge within the object
   bool lines = false;
+  bool whole = false;  ///< all edges of its object, which has no lines
 };
 
 /// The most bodies of an object that are searched one by one for each of its edges: more are found
