@@ -15,7 +15,7 @@ namespace {
 using geometry::Box3l;
 
 /// Returns, by body, its box; empty where it is not drawn or cut away.
-std::vector<Box3l> boxes_of(const ViewJob& job) {
+std::vector<Box3l> boxes_of_what_is_left(const ViewJob& job) {
   const model::Scene& scene = *job.scene;
   std::vector<Box3l> boxes(scene.bodies.size(), geometry::empty_box<std::int64_t>());
   for (std::uint32_t b = 0; b < boxes.size(); ++b) {
@@ -28,7 +28,7 @@ std::vector<Box3l> boxes_of(const ViewJob& job) {
 
 /// Returns which objects are left whole, or meet the box of all that is.
 std::vector<bool> objects_near_uncut(const ViewJob& job) {
-  const std::vector<Box3l> boxes = boxes_of(job);
+  const std::vector<Box3l> boxes = boxes_of_what_is_left(job);
   Box3l of_uncut = geometry::empty_box<std::int64_t>();
   for (std::uint32_t b = 0; b < boxes.size(); ++b)
     if (job.is_uncut(b) && !boxes[b].empty()) of_uncut.include(boxes[b]);
@@ -40,7 +40,7 @@ std::vector<bool> objects_near_uncut(const ViewJob& job) {
 }
 
 /// Returns the scene as sections leave it: the bodies of some objects with their cut shapes.
-model::Scene what_is_left(const ViewJob& job, const std::vector<bool>& objects) {
+model::Scene scene_of_what_is_left(const ViewJob& job, const std::vector<bool>& objects) {
   constexpr std::uint32_t kNone = 0xffffffffU;
   model::Scene left;
   left.model = job.scene->model;
@@ -68,7 +68,7 @@ Result<std::vector<IntersectionLine>> lines_with_uncut(const ViewJob& job,
       std::ranges::find(job.uncut, true) == job.uncut.end())
     return std::vector<IntersectionLine>{};
   const std::vector<bool> objects = objects_near_uncut(job);
-  const model::Scene left = what_is_left(job, objects);
+  const model::Scene left = scene_of_what_is_left(job, objects);
   auto found =
       find_intersection_lines(left, objects, job.contact, {Intersections::objects, 1}, context);
   if (!found) return found.error();

@@ -10,12 +10,12 @@ namespace strake::hlr {
 namespace {
 
 /// What a plane leaves of an object, and what it cuts away.
-struct Sides {
+struct PlaneSides {
   bool kept = false, away = false;
 };
 
 void add_body(const model::Scene& scene, const model::GridBody& body, const SectionPlane& plane,
-              Sides& sides) {
+              PlaneSides& sides) {
   const model::GridShape& shape = scene.shapes[body.grid_shape];
   if (shape.box.empty()) return;
   const geometry::Box3l box = body.box(shape);
@@ -32,8 +32,8 @@ void add_body(const model::Scene& scene, const model::GridBody& body, const Sect
     }
 }
 
-Sides sides_of(const model::Scene& scene, model::ObjectId object, const SectionPlane& plane) {
-  Sides sides;
+PlaneSides sides_of(const model::Scene& scene, model::ObjectId object, const SectionPlane& plane) {
+  PlaneSides sides;
   for (const model::GridBody& body : scene.bodies_of(object)) add_body(scene, body, plane, sides);
   return sides;
 }
@@ -42,7 +42,7 @@ bool is_left_whole(const model::Scene& scene, model::ObjectId object,
                    std::span<const SectionPlane> planes) {
   bool cut = false;
   for (const SectionPlane& plane : planes) {
-    const Sides sides = sides_of(scene, object, plane);
+    const PlaneSides sides = sides_of(scene, object, plane);
     if (!sides.kept) return false;
     cut = cut || sides.away;
   }
