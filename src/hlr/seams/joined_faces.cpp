@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <optional>
 #include <vector>
 
 #include "geometry/predicates/exact_normal.hpp"
+#include "hlr/view/taxicab.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -20,12 +20,6 @@ using geometry::Vec3l;
 
 /// The cosine of a degree.
 constexpr double kCosFlat = 0.9998476951563913;
-
-Int128 magnitude(Int128 x) { return x < 0 ? -x : x; }
-
-Int128 taxicab_norm(const ExactNormal& n) {
-  return magnitude(n[0]) + magnitude(n[1]) + magnitude(n[2]);
-}
 
 Vec3d in_doubles(const ExactNormal& n) {
   return {static_cast<double>(n[0]), static_cast<double>(n[1]), static_cast<double>(n[2])};
@@ -48,8 +42,7 @@ std::optional<Wing> wing_of(const geometry::Segment& line, const SeamFace& face)
   Wing wing{.face = &face, .normal = geometry::wide_cross(q - p, r - p), .outward = {}, .arm = {}};
   wing.outward = in_doubles(wing.normal);
   const Vec3l along = line[1] - line[0];
-  const Int128 room =
-      Int128{face.contact} * (std::abs(along.x) + std::abs(along.y) + std::abs(along.z));
+  const Int128 room = Int128{face.contact} * taxicab(along);
   bool wide = false;
   for (const Vec3l& corner : face.corners) {
     const ExactNormal off = geometry::wide_cross(along, corner - line[0]);
@@ -66,7 +59,7 @@ std::optional<Wing> wing_of(const geometry::Segment& line, const SeamFace& face)
 bool lie_in_one_plane(const Wing& a, const Wing& b) {
   const Wing& plane = a.reach >= b.reach ? a : b;
   const Wing& other = a.reach >= b.reach ? b : a;
-  const Int128 room = std::max(a.face->contact, b.face->contact) * taxicab_norm(plane.normal);
+  const Int128 room = std::max(a.face->contact, b.face->contact) * taxicab(plane.normal);
   return std::ranges::all_of(other.face->corners, [&](const Vec3l& corner) {
     return magnitude(geometry::along(plane.normal, corner - plane.face->corners[0])) <= room;
   });

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <span>
 #include <utility>
 
 #include "geometry/bvh/scene_bvh.hpp"
 #include "geometry/plane_section/plane_section.hpp"
 #include "geometry/predicates/exact_normal.hpp"
+#include "hlr/view/taxicab.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/collect.hpp"
 
@@ -55,14 +55,13 @@ Vec3l LineMeasure::at(Int128 place) const {
 }
 
 Int128 LineMeasure::room(std::int64_t distance) const {
-  const Vec3l d = line[1] - line[0];
-  return Int128{distance} * (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
+  return Int128{distance} * taxicab(line[1] - line[0]);
 }
 
 bool LineMeasure::passes(const Vec3l& point, std::int64_t distance) const {
   const Int128 most = room(distance);
   return std::ranges::all_of(geometry::wide_cross(line[1] - line[0], point - line[0]),
-                             [&](Int128 k) { return -most <= k && k <= most; });
+                             [&](Int128 k) { return magnitude(k) <= most; });
 }
 
 Segment edge_line(const geometry::PlacedPart& placed, std::uint32_t edge) {
