@@ -184,8 +184,8 @@ struct Counters {
 enum class Fate : std::uint8_t {
   unselected,
   drawn,       ///< at least one of its lines is visible
-  coincident,  ///< all that is visible of it lies on lines of others, which are drawn: see
-               ///< lay_out()
+  coincident,  ///< all that is visible of it lies on lines of others, which are drawn, or on flush
+               ///< seams that are left out: see lay_out()
   hidden,      ///< none of its lines is visible, some are hidden
   clipped,     ///< all of its lines are outside the limits, or cut away
   degenerate,  ///< it makes no line in this view: nothing but points, or too small for the grid
