@@ -143,13 +143,19 @@ bool lies_on(const Segment& line, const LineMeasure& on, std::int64_t rounded) {
 /// numbers for its edges, which are found by their places.
 const FlushSeam* seam_of(const FeatureEdge& edge, const SectionedShape& seen, const Vec3l& origin,
                          std::span<const FlushSeam> of_body) {
+  if (!seen.cut) {
+    const auto number = std::pair(edge.part, edge.part_edge);
+    const auto found = std::ranges::lower_bound(
+        of_body, number, {}, [](const FlushSeam& s) { return std::pair(s.part, s.edge); });
+    return found != of_body.end() && std::pair(found->part, found->edge) == number ? &*found
+                                                                                   : nullptr;
+  }
   const Segment line{edge.a.as<std::int64_t>() + origin, edge.b.as<std::int64_t>() + origin};
   const auto rounded = static_cast<std::int64_t>(seen.planes.size());
-  for (const FlushSeam& seam : of_body)
-    if (seam.part == edge.part &&
-        (seen.cut ? lies_on(line, seam.on, rounded) : seam.edge == edge.part_edge))
-      return &seam;
-  return nullptr;
+  const auto found = std::ranges::find_if(of_body, [&](const FlushSeam& seam) {
+    return seam.part == edge.part && lies_on(line, seam.on, rounded);
+  });
+  return found != of_body.end() ? &*found : nullptr;
 }
 
 /// Finds the edges of the drawing that have flush seams, of one object.
