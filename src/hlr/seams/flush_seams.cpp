@@ -123,7 +123,7 @@ Result<std::vector<FlushSeam>> find_flush_seams(const ViewJob& job,
 
 namespace {
 
-/// An edge of the drawing that has a flush seam.
+/// An edge or a line of the drawing that has a flush seam.
 struct DrawnSeam {
   model::ObjectId object{};
   std::uint32_t edge = 0;  ///< as EdgePiece::edge
@@ -158,43 +158,72 @@ const FlushSeam* seam_of(const FeatureEdge& edge, const SectionedShape& seen, co
   return found != of_body.end() ? &*found : nullptr;
 }
 
-/// Finds the edges of the drawing that have flush seams, of one object.
-Status add_drawn_seams(const ViewJob& job, std::span<const FlushSeam> of_object,
-                       std::vector<DrawnSeam>& out) {
-  const model::Scene& scene = *job.scene;
-  const model::ObjectId object = scene.bodies[of_object.front().body].object;
-  std::uint32_t number = 0;
-  for (std::uint32_t b = scene.first_body[model::index(object)]; b <= of_object.back().body; ++b) {
-    const SectionedShape& seen = job.sectioned_shape_of(b);
-    const auto edges = sectioned_edges(seen, job.features_of(scene.bodies[b]), {});
-    if (!edges) return edges.error();
-    const auto own = std::ranges::equal_range(of_object, b, {}, &FlushSeam::body);
-    for (const FeatureEdge& edge : *edges) {
-      const FlushSeam* const seam =
-          own.empty() ? nullptr
-                      : seam_of(edge, seen, scene.bodies[b].origin, {own.begin(), own.end()});
-      if (seam != nullptr) out.push_back({object, number, seam});
-      ++number;
+/// Finds the edges and intersection lines of the drawing that have flush seams.
+class DrawnSeams {
+ public:
+  /// `seams`: those of all objects.
+  DrawnSeams(const ViewJob& job, std::span<const FlushSeam> seams) : job_(job), seams_(seams) {}
+
+  /// Appends those of one object.
+  Status add(std::uint32_t object, std::vector<DrawnSeam>& out) const {
+    const model::Scene& scene = *job_.scene;
+    std::uint32_t number = 0;
+    for (std::uint32_t b = scene.first_body[object]; b < scene.first_body[object + 1]; ++b) {
+      const SectionedShape& seen = job_.sectioned_shape_of(b);
+      const auto edges = sectioned_edges(seen, job_.features_of(scene.bodies[b]), {});
+      if (!edges) return edges.error();
+      const std::span<const FlushSeam> own = of_body(b);
+      for (const FeatureEdge& edge : *edges)
+        push(object, number++, seam_of(edge, seen, scene.bodies[b].origin, own), out);
     }
+    for (const Line& line : job_.lines.of(object)) push(object, number++, seam_along(line), out);
+    return {};
   }
-  return {};
-}
+
+ private:
+  [[nodiscard]] std::span<const FlushSeam> of_body(std::uint32_t body) const {
+    const auto own = std::ranges::equal_range(seams_, body, {}, &FlushSeam::body);
+    return {own.begin(), own.end()};
+  }
+
+  static void push(std::uint32_t object, std::uint32_t number, const FlushSeam* seam,
+                   std::vector<DrawnSeam>& out) {
+    if (seam != nullptr) out.push_back({model::ObjectId{object}, number, seam});
+  }
+
+  /// Finds the seam along which an intersection runs that rounding made of two skins that touch:
+  /// both of its bodies have one there.
+  [[nodiscard]] const FlushSeam* seam_along(const Line& line) const {
+    if (line.kind != EdgeKind::intersection) return nullptr;
+    const auto along = [&](std::uint32_t body) -> const FlushSeam* {
+      const std::span<const FlushSeam> own = of_body(body);
+      const auto found = std::ranges::find_if(own, [&](const FlushSeam& seam) {
+        return lies_on({line.a, line.b}, seam.on, std::max(seam.contact, job_.lines.contact));
+      });
+      return found != own.end() ? &*found : nullptr;
+    };
+    const FlushSeam* const seam = along(line.body_a);
+    return seam != nullptr && along(line.body_b) != nullptr ? seam : nullptr;
+  }
+
+  const ViewJob& job_;
+  std::span<const FlushSeam> seams_;
+};
 
 Result<std::vector<DrawnSeam>> drawn_seams(const ViewJob& job, std::span<const FlushSeam> seams,
                                            const parallel::Context& context) {
-  const auto object = [&](const FlushSeam& seam) { return job.scene->bodies[seam.body].object; };
-  std::vector<std::size_t> starts;
-  for (std::size_t i = 0; i < seams.size(); ++i)
-    if (i == 0 || object(seams[i]) != object(seams[i - 1])) starts.push_back(i);
-  starts.push_back(seams.size());
+  std::vector<std::uint32_t> objects;
+  for (const FlushSeam& seam : seams)
+    objects.push_back(model::index(job.scene->bodies[seam.body].object));
+  objects.erase(std::ranges::unique(objects).begin(), objects.end());
+  const DrawnSeams drawn(job, seams);
   return parallel::collect<DrawnSeam>(
-      context, {.name = "seams: drawn edges", .n = starts.size() - 1},
-      [&](std::size_t i, std::vector<DrawnSeam>& out) {
-        return add_drawn_seams(job, seams.subspan(starts[i], starts[i + 1] - starts[i]), out);
-      });
+      context, {.name = "seams: drawn edges", .n = objects.size()},
+      [&](std::size_t i, std::vector<DrawnSeam>& out) { return drawn.add(objects[i], out); });
 }
 
-/// Appends what a seam leaves of a piece; returns whether that is less than all.
+/// Appends what a seam leaves of a piece that runs along its edge; returns whether that is less
+/// than all.
 bool append_rest(const EdgePiece& piece, const FlushSeam& seam, std::vector<EdgePiece>& out) {
   const Int128 room = seam.on.room(seam.contact);
   const Int128 begin = seam.on.along(piece.a), end = seam.on.along(piece.b);
@@ -219,6 +248,18 @@ bool append_rest(const EdgePiece& piece, const FlushSeam& seam, std::vector<Edge
   return any;
 }
 
+/// The same for a piece that may run either way, as intersections do.
+bool append_rest_either_way(EdgePiece piece, const FlushSeam& seam, std::vector<EdgePiece>& out) {
+  if (seam.on.along(piece.a) <= seam.on.along(piece.b)) return append_rest(piece, seam, out);
+  const auto turn = [](EdgePiece& p) { std::swap(p.a, p.b); };
+  turn(piece);
+  const auto before = static_cast<std::ptrdiff_t>(out.size());
+  const bool any = append_rest(piece, seam, out);
+  std::for_each(out.begin() + before, out.end(), turn);
+  std::reverse(out.begin() + before, out.end());
+  return any;
+}
+
 }  // namespace
 
 Status leave_out_flush_seams(const ViewJob& job, const parallel::Context& context,
@@ -238,7 +279,7 @@ Status leave_out_flush_seams(const ViewJob& job, const parallel::Context& contex
     const DrawnSeam* const at = next < drawn->size() ? &(*drawn)[next] : nullptr;
     if (at == nullptr || std::tuple(at->object, at->edge) != key) {
       rest.push_back(piece);
-    } else if (append_rest(piece, *at->seam, rest) && at != last) {
+    } else if (append_rest_either_way(piece, *at->seam, rest) && at != last) {
       ++drawing.counters.seams;
       last = at;
     }
