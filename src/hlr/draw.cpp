@@ -4,6 +4,7 @@
 #include "hlr/prepare/view_job.hpp"
 #include "hlr/results/edge_curves.hpp"
 #include "hlr/results/object_fates.hpp"
+#include "hlr/seams/flush_seams.hpp"
 #include "hlr/visibility/specks.hpp"
 #include "strake/hlr/hlr.hpp"
 
@@ -50,6 +51,9 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   Result<Account> account = account_of(*job->scene, job->drawn, drawing, context);
   if (!account) return account.error();
   drawing.account = std::move(*account);
+  if (!options.flush_seams)
+    if (const Status status = leave_out_flush_seams(*job, context, drawing); !status)
+      return status.error();
   for (const std::uint32_t edges : drawing.left_out) drawing.counters.left_out += edges;
   report_defects(*job->scene->model, drawing.account, drawing.diagnostics);
   return drawing;

@@ -74,6 +74,7 @@ class Composer {
       for (const settings::Chooser& chooser : view.select) ask(chooser);
       for (const HatchSpec& hatch : view.hatches)
         for (const settings::Chooser& chooser : hatch.select) ask(chooser);
+      for (const settings::Chooser& chooser : view.uncut) ask(chooser);
     }
     for (const TagSpec& tag : what_.tags) ask(*tag.select);
     Result<Picks> picked = model::pick(selections, scene_, context_);
@@ -108,17 +109,19 @@ class Composer {
     return std::move(hatching).by_object();
   }
 
-  /// The objects and hatches that selections choose for a view.
+  /// The objects and hatches that selections choose for a view, and what sections leave whole.
   struct Chosen {
     std::vector<bool> drawn;
     std::vector<hlr::Hatch> hatches;
+    std::vector<bool> uncut;
   };
 
   Status draw() {
     std::vector<Chosen> chosen;
     for (const ViewSpec& view : what_.views) {
-      chosen.push_back({next_picks(view.select.size()), {}});
+      chosen.push_back({next_picks(view.select.size()), {}, {}});
       chosen.back().hatches = hatches_of(view);
+      chosen.back().uncut = next_picks(view.uncut.size());
     }
     const Result<std::vector<double>> sags =
         options_.sag_for_paper ? sags_for_paper(chosen) : std::vector<double>{};
@@ -130,6 +133,7 @@ class Composer {
       // Lines that the sheet does not show are not computed.
       options.hidden = view.hidden != HiddenLines::off;
       options.hatches = std::move(chosen[v].hatches);
+      options.uncut = std::move(chosen[v].uncut);
       if (!sags->empty()) options.sag_mm = (*sags)[v];
       Result<hlr::Drawing> lines = hlr::draw(scene_, chosen[v].drawn, view.view, options, context_);
       if (!lines) {

@@ -41,8 +41,8 @@ struct DrawOptions {
   std::string sheet;
   std::string view, direction, up, limits, scale, title;
   std::string stage, solver, global, culling, bucketing, hidden, intersections, own_polylines,
-      smooth, sharp_angle, contact_distance;
-  std::vector<std::string> select, outputs, sections, hatches;
+      smooth, flush_seams, sharp_angle, contact_distance;
+  std::vector<std::string> select, outputs, sections, uncut, hatches;
   bool visible_only = false;
 };
 
@@ -175,6 +175,7 @@ Result<hlr::Options> engine_options(const DrawOptions& given, bool json) {
     options.own_polylines = hlr::OwnPolylines::hidden;
   for (const Smooth which : {Smooth::off, Smooth::tangent, Smooth::all})
     if (given.smooth == drawing::smooth_name(which)) options.smooth = which;
+  options.flush_seams = given.flush_seams != "off";
   if (!given.sharp_angle.empty()) {
     const Result<double> angle =
         quantity_option(given.sharp_angle, "--sharp-angle", parse_angle_deg);
@@ -217,6 +218,8 @@ void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
   stats.count("intersection tests", work.crossing_tests);
   stats.count("specks", work.specks);
   stats.count("edges with hidden pieces left out", work.left_out);
+  if (drawing.uncut) stats.count("objects uncut", work.uncut_objects);
+  if (!drawing.flush_seams) stats.count("edges with flush seams left out", work.seams);
   for (std::size_t s = 0; s < drawing::kLineStates; ++s)
     stats.count(fmt::format("lines {}", drawing::state_name(static_cast<drawing::LineState>(s))),
                 drawing.count[s]);
@@ -232,6 +235,7 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
   console.note(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
                            drawing.lines.size(), drawing.sheet.scale_text, drawing.sheet.width_mm,
                            drawing.sheet.height_mm));
+  for (const std::string& line : left_alone_lines(drawing)) console.note(line);
   if (visible > 0) return;
   console.note(of(drawing::LineState::clipped) > 0
                    ? "warning empty-sheet: nothing is left to draw inside the limits, the field of "
@@ -275,7 +279,7 @@ struct DrawRequest {
   hlr::View view;
   hlr::Options options;
   drawing::LayoutOptions layout;
-  std::vector<model::Selection> selections;
+  std::vector<model::Selection> selections, uncut;
   std::vector<HatchRule> hatches;
   bool sag_for_paper = true;
 };
@@ -291,10 +295,12 @@ Result<DrawRequest> request_of(const DrawOptions& given, Session& session) {
   if (!layout) return layout.error();
   const auto selections = parse_selections(given.select, "--select");
   if (!selections) return selections.error();
+  const auto uncut = parse_selections(given.uncut, "--uncut");
+  if (!uncut) return uncut.error();
   const auto hatches = parse_hatches(given.hatches);
   if (!hatches) return hatches.error();
-  return DrawRequest{
-      *scene, *view, *options, *layout, *selections, *hatches, given.scene.sag.empty()};
+  return DrawRequest{*scene,      *view,  *options, *layout,
+                     *selections, *uncut, *hatches, given.scene.sag.empty()};
 }
 
 Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& request,
@@ -305,6 +311,9 @@ Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& req
   if (!hatches) return hatches.error();
   hlr::Options options = request.options;
   options.hatches = std::move(*hatches);
+  auto uncut = pick_any(session, scene, request.uncut, "--uncut");
+  if (!uncut) return uncut.error();
+  options.uncut = std::move(*uncut);
   if (request.sag_for_paper) {
     const Result<double> sag =
         drawing::sag_for_paper(scene, *drawn, request.view, request.layout, session.context());
@@ -378,12 +387,25 @@ void add_view(CLI::App& command, DrawOptions& options) {
                   "units, as 4.5m. What it cuts stays open; --section closes it")
       ->type_name("BOX")
       ->group("View");
+  CLI::Option* const section =
+      command
+          .add_option(
+              "--section", options.sections,
+              "Cut away what lies beyond a plane: 'z>4500mm' above, 'z<4500mm' below, z=4500mm "
+              "what is nearer to the viewer; for z also x, y or a normal, '1,2,0>4500mm'. "
+              "Solids are closed by a hatched face where it cuts them; may be repeated")
+          ->type_name("PLANE")
+          ->expected(1)
+          ->allow_extra_args(false)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+          ->group("View");
   command
-      .add_option("--section", options.sections,
-                  "Cut away what lies beyond a plane: 'z>4500mm' above, 'z<4500mm' below, z=4500mm "
-                  "what is nearer to the viewer; for z also x, y or a normal, '1,2,0>4500mm'. "
-                  "Solids are closed by a hatched face where it cuts them; may be repeated")
-      ->type_name("PLANE")
+      .add_option("--uncut", options.uncut,
+                  "Leave the objects that this picks whole where a section cuts them, neither cut "
+                  "nor hatched, as bolts, shafts and ribs along it (ISO 128-3): 'name = BOLT*'; "
+                  "what lies wholly beyond a plane is cut away all the same; may be repeated")
+      ->type_name("SELECTION")
+      ->needs(section)
       ->expected(1)
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
@@ -438,6 +460,10 @@ void add_lines(CLI::App& command, DrawOptions& options) {
              "Edges where faces turn by less than the sharp angle, as thin lines: none, where a "
              "curved surface begins or ends, or all (default off)")
       ->group("Lines");
+  add_choice(command, "--flush-seams", options.flush_seams, {"on", "off"},
+             "Edges where parts of one colour touch flush, their faces in one plane on both sides, "
+             "as of plates welded end to end: drawn, or left out (default on)")
+      ->group("Lines");
   command
       .add_option("--sharp-angle", options.sharp_angle,
                   "An edge is drawn where its faces turn by more than this (default 20deg)")
@@ -460,9 +486,11 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
           ->type_name("FILE")
           ->group("Output");
   for (const char* const other :
-       {"--view", "--direction", "--eye", "--up", "--limits", "--section", "--hatch", "--select",
-        "--hidden", "--visible-only", "--stage", "--intersections", "--own-polylines", "--smooth",
-        "--sharp-angle", "--contact-distance", "--scale", "--title"})
+       {"--view",          "--direction",        "--eye",          "--up",
+        "--limits",        "--section",          "--uncut",        "--hatch",
+        "--select",        "--hidden",           "--visible-only", "--stage",
+        "--intersections", "--own-polylines",    "--smooth",       "--flush-seams",
+        "--sharp-angle",   "--contact-distance", "--scale",        "--title"})
     sheet->excludes(other);
 }
 

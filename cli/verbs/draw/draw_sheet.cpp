@@ -32,6 +32,8 @@ void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const mod
                              view.drawing.sheet.scale_text));
     console.note(
         fmt::format("view '{}': {}", view.name, object_summary_line(view.drawing.account, model)));
+    for (const std::string& line : left_alone_lines(view.drawing))
+      console.note(fmt::format("view '{}': {}", view.name, line));
     count_objects(session.stats(), view.drawing.account, view.name + ": ");
     for (std::size_t s = 0; s < drawing::kLineStates; ++s)
       session.stats().count(fmt::format("{}: lines {}", view.name,

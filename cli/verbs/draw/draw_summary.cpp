@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <cstddef>
+#include <cstdint>
 
 #include "cli/run/load.hpp"
 #include "strake/drawing/drawing.hpp"
@@ -30,6 +31,20 @@ std::string object_summary_line(const hlr::Account& account, const model::Model&
   if (const std::string rest = unread_rest(model); !rest.empty())
     line += fmt::format("; not drawn: {}", rest);
   return line;
+}
+
+std::vector<std::string> left_alone_lines(const drawing::NeutralDrawing& drawing) {
+  const auto counted = [](std::uint64_t n, const char* one, const char* many) {
+    return n == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", n, many);
+  };
+  const hlr::Counters& work = drawing.counters;
+  std::vector<std::string> lines;
+  if (drawing.uncut)
+    lines.push_back(counted(work.uncut_objects, "object is", "objects are") +
+                    " left whole by the sections");
+  if (!drawing.flush_seams)
+    lines.push_back("flush seams of " + counted(work.seams, "edge", "edges") + " are left out");
+  return lines;
 }
 
 void count_objects(Stats& stats, const hlr::Account& account, std::string_view prefix) {

@@ -114,6 +114,8 @@ struct NeutralDrawing {
   hlr::Smooth smooth = hlr::Smooth::off;
   hlr::Intersections intersections = hlr::Intersections::primitives;
   hlr::OwnPolylines own_polylines = hlr::OwnPolylines::visible;
+  bool flush_seams = true;  ///< false: left out, see hlr::Options::flush_seams
+  bool uncut = false;       ///< sections leave objects whole: see hlr::Options::uncut
   double contact_distance_mm = 0;
   double sag_mm = 0;    ///< the sag asked for of curved primitives; 0: unknown
   double weld_mm = -1;  ///< seams were closed within it; negative: the precision of each body

@@ -121,6 +121,9 @@ struct Options {
   double contact_distance_mm = -1;
   Intersections intersections = Intersections::primitives;
   OwnPolylines own_polylines = OwnPolylines::visible;
+  /// Draw flush seams, edges along which parts of one colour are joined into one flat surface;
+  /// docs/hlr.md defines them. Without them the other pieces and the fates of objects are the same.
+  bool flush_seams = true;
   /// The largest distance of tessellated curved primitives from their true surfaces, as far as the
   /// most segments of each kind allow. Meshes of the scene that are coarser are made anew where the
   /// view may show them; 0: as in the scene. See drawing::sag_for_paper.
@@ -146,6 +149,11 @@ struct Options {
   /// The hatch of each object; empty: chosen so that neighbours differ in angle and colours in
   /// spacing.
   std::vector<Hatch> hatches = {};
+  /// The objects that sections leave whole, one entry each (empty: none), as bolts, shafts and ribs
+  /// along the section (ISO 128-3). Of these each that some plane cuts and no plane cuts away
+  /// wholly is neither cut nor hatched; it hides and is hidden as a solid, on both sides of the
+  /// planes. The others are cut away, or not touched, like everything else.
+  std::vector<bool> uncut = {};
 };
 
 /// A piece of an edge in one state: a visible or hidden segment. Coordinates are grid units,
@@ -168,6 +176,8 @@ struct Counters {
   std::uint64_t crossing_tests = 0;  ///< tests of two triangles, for those pairs
   std::uint64_t specks = 0;  ///< pieces that were absorbed or made points: see Options::keep_specks
   std::uint64_t left_out = 0;  ///< edges with hidden pieces that were dropped, see Options::hidden
+  std::uint64_t seams = 0;     ///< edges without their flush seams: see Options::flush_seams
+  std::uint64_t uncut_objects = 0;  ///< objects that sections left whole: see Options::uncut
 };
 
 /// What became of an object. Each selected object has one fate other than `unselected`: none
@@ -175,8 +185,8 @@ struct Counters {
 enum class Fate : std::uint8_t {
   unselected,
   drawn,       ///< at least one of its lines is visible
-  coincident,  ///< all that is visible of it lies on lines of others, which are drawn: see
-               ///< lay_out()
+  coincident,  ///< all that is visible of it lies on lines of others, which are drawn, or on flush
+               ///< seams that are left out: see lay_out()
   hidden,      ///< none of its lines is visible, some are hidden
   clipped,     ///< all of its lines are outside the limits, or cut away
   degenerate,  ///< it makes no line in this view: nothing but points, or too small for the grid

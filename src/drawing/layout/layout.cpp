@@ -280,6 +280,8 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.smooth = drawing.options.smooth;
   out.intersections = drawing.options.intersections;
   out.own_polylines = drawing.options.own_polylines;
+  out.flush_seams = drawing.options.flush_seams;
+  out.uncut = !drawing.options.uncut.empty();
   out.contact_distance_mm = drawing.contact_distance_mm;
   out.sag_mm = drawing.sag_mm;
   out.weld_mm = drawing.weld_mm;

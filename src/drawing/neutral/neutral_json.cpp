@@ -65,6 +65,8 @@ void write_view(BufferedWriter& out, const NeutralDrawing& drawing) {
       << intersections_name(drawing.intersections) << "\"";
   if (drawing.own_polylines != hlr::OwnPolylines::visible)
     out << ",\"own_polylines\":\"" << own_polylines_name(drawing.own_polylines) << "\"";
+  if (!drawing.flush_seams) out << ",\"flush_seams\":\"off\"";
+  if (drawing.uncut) out << ",\"uncut\":true";
   out << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm);
   if (drawing.sag_mm > 0) out << ",\"sag_mm\":" << shortest(drawing.sag_mm);
   if (drawing.weld_mm >= 0) out << ",\"weld_mm\":" << shortest(drawing.weld_mm);
@@ -85,6 +87,8 @@ void write_counts(BufferedWriter& out, const NeutralDrawing& drawing) {
       "\"pieces\":{}",
       drawing.account.in_part, drawing.counters.feature_edges, drawing.counters.left_out,
       drawing.counters.specks, drawing.lines.size());
+  if (drawing.uncut) out << fmt::format(",\"objects_uncut\":{}", drawing.counters.uncut_objects);
+  if (!drawing.flush_seams) out << fmt::format(",\"edges_with_seams\":{}", drawing.counters.seams);
   for (std::size_t s = 0; s < kLineStates; ++s)
     out << fmt::format(",\"{}\":{}", state_name(static_cast<LineState>(s)), drawing.count[s]);
   out << "},\n";

@@ -116,6 +116,8 @@ void write_head(BufferedWriter& out, const NeutralDrawing& drawing, const Ink& i
     std::replace(name.begin(), name.end(), '_', '-');
     out << fmt::format(" {}=\"{}\"", name, drawing.count[s]);
   }
+  if (drawing.uncut) out << fmt::format(" objects-uncut=\"{}\"", drawing.counters.uncut_objects);
+  if (!drawing.flush_seams) out << fmt::format(" edges-with-seams=\"{}\"", drawing.counters.seams);
   out << fmt::format(" hidden-left-out=\"{}\"", ink.left_out) << "/>\n</drawing>\n</metadata>\n";
 }
 

@@ -3,9 +3,9 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdlib>
 
 #include "geometry/predicates/exact_normal.hpp"
+#include "hlr/view/taxicab.hpp"
 
 namespace strake::hlr {
 
@@ -14,12 +14,6 @@ namespace {
 using geometry::ExactNormal;
 using geometry::Int128;
 using geometry::Vec3l;
-
-Int128 magnitude(Int128 x) { return x < 0 ? -x : x; }
-
-Int128 taxicab(const ExactNormal& v) { return magnitude(v[0]) + magnitude(v[1]) + magnitude(v[2]); }
-
-std::int64_t taxicab(const Vec3l& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 }  // namespace
 

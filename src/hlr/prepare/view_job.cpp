@@ -10,8 +10,10 @@
 
 #include "hlr/prepare/drawn_objects.hpp"
 #include "hlr/prepare/hatch.hpp"
+#include "hlr/prepare/uncut_lines.hpp"
 #include "hlr/prepare/view_diagnostics.hpp"
 #include "hlr/sections/section_planes.hpp"
+#include "hlr/sections/uncut_objects.hpp"
 #include "hlr/view/projection.hpp"
 #include "hlr/view/view_frustum.hpp"
 #include "model/scene/view_tessellation.hpp"
@@ -71,7 +73,15 @@ Result<Lines> derive_lines(const ViewJob& job, std::span<const IntersectionLine>
   const model::Scene& scene = *job.scene;
   Lines lines;
   lines.contact = 1 + static_cast<std::int64_t>(planes.size());
-  for (const IntersectionLine& crossing : crossings) add_crossing(lines, scene, crossing, planes);
+  for (const IntersectionLine& crossing : crossings) {
+    const bool whole = job.is_uncut(crossing.body_a), other = job.is_uncut(crossing.body_b);
+    // Those of a part that is cut with one that is not follow from what is left of them.
+    if (whole == other)
+      add_crossing(lines, scene, crossing, whole ? std::span<const SectionPlane>() : planes);
+  }
+  const auto crossed = lines_with_uncut(job, context);
+  if (!crossed) return crossed.error();
+  for (const IntersectionLine& crossing : *crossed) add_crossing(lines, scene, crossing, {});
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
     if (const ShapeCut* cut = job.sectioned_shape_of(b).cut.get())
       add_section(lines, scene, b, *cut);
@@ -227,6 +237,7 @@ Result<ViewJob> prepare_view(const model::Scene& scene, const std::vector<bool>&
   const auto planes = section_planes(view.sections);
   if (!planes) return planes.error();
   if (const Status status = check_drawn(scene, drawn); !status) return status.error();
+  if (const Status status = check_drawn(scene, options.uncut); !status) return status.error();
 
   ViewJob job;
   job.view = view;
@@ -238,7 +249,9 @@ Result<ViewJob> prepare_view(const model::Scene& scene, const std::vector<bool>&
   job.drawn = drawn.empty() ? std::vector<bool>(scene.model->objects.size(), true) : drawn;
   // Contours for a direction are no contours for an eye.
   const auto towards = view.perspective ? std::nullopt : std::optional(job.direction());
-  const ViewVolume shown(view, *planes);
+  // What is left whole may reach beyond the planes.
+  const ViewVolume shown(
+      view, options.uncut.empty() ? std::span(*planes) : std::span<const SectionPlane>());
   // A margin for tessellation and the grid.
   constexpr std::int64_t kRoom = 2000;
   const auto shows = [&](const Box3l& box) { return shown.meets(box.inflated(kRoom)); };
@@ -254,7 +267,9 @@ Result<ViewJob> prepare_view(const model::Scene& scene, const std::vector<bool>&
   if (!crossings) return crossings.error();
   job.counters.crossing_pairs = crossings->pairs;
   job.counters.crossing_tests = crossings->tests;
-  auto seen = make_sectioned_shapes(*job.scene, job.drawn, *planes, context);
+  job.uncut = find_uncut(*job.scene, job.drawn, options.uncut, *planes);
+  job.counters.uncut_objects = static_cast<std::uint64_t>(std::ranges::count(job.uncut, true));
+  auto seen = make_sectioned_shapes(*job.scene, job.drawn, job.uncut, *planes, context);
   if (!seen) return seen.error();
   job.seen = std::move(*seen);
   widen_contact(job);

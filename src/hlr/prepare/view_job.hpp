@@ -73,6 +73,7 @@ struct ViewJob {
   std::vector<bool> opaque;               ///< per body: is drawn, and hides what lies behind it
   std::vector<std::int64_t> contact;      ///< per body: contact distance in grid units
   double contact_distance_mm = 0;         ///< the largest contact distance
+  std::vector<bool> uncut;                ///< per object: sections leave it whole; or empty
   SectionedShapes seen;
   Lines lines;
   Counters counters;  ///< counters of the preparation
@@ -98,6 +99,10 @@ struct ViewJob {
   /// Returns the feature options in the coordinates of a body's shape.
   [[nodiscard]] FeatureOptions features_of(const model::GridBody& body) const {
     return {viewer.seen_at(offset(body)), cos_sharp, options.smooth};
+  }
+  /// Returns whether sections leave the object of a body whole.
+  [[nodiscard]] bool is_uncut(std::uint32_t body) const {
+    return !uncut.empty() && uncut[model::index(scene->bodies[body].object)];
   }
   /// Returns the shape of a body, as sections leave it.
   [[nodiscard]] const SectionedShape& sectioned_shape_of(std::uint32_t body) const {

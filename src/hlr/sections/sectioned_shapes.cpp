@@ -153,10 +153,14 @@ class EdgeCutter {
 
 Result<SectionedShapes> make_sectioned_shapes(const model::Scene& scene,
                                               const std::vector<bool>& drawn,
+                                              const std::vector<bool>& uncut,
                                               std::span<const SectionPlane> planes,
                                               const parallel::Context& context) {
   SectionedShapes seen;
-  const auto is_drawn = [&](std::size_t b) { return drawn[model::index(scene.bodies[b].object)]; };
+  const auto is_cut = [&](std::size_t b) {
+    const std::uint32_t object = model::index(scene.bodies[b].object);
+    return drawn[object] && (uncut.empty() || !uncut[object]);
+  };
   if (planes.empty()) {
     for (const model::GridShape& shape : scene.shapes)
       seen.all.push_back({&shape, {}, {}, false, nullptr, 0});
@@ -166,7 +170,7 @@ Result<SectionedShapes> make_sectioned_shapes(const model::Scene& scene,
   const auto sights = parallel::transform(
       context, {.name = "sections: planes", .n = scene.bodies.size(), .grain = 1024},
       [&](std::size_t b) {
-        return is_drawn(b)
+        return is_cut(b)
                    ? body_sections_of(scene, scene.bodies[b], planes)
                    : BodySections{.shape = scene.bodies[b].grid_shape, .numbers = {}, .planes = {}};
       });

@@ -42,9 +42,11 @@ struct SectionedShapes {
   std::vector<std::uint32_t> of;  ///< index into `all`, by body of the scene
 };
 
-/// Cuts the shapes of the drawn bodies. Errors: cancelled.
+/// Cuts the shapes of the drawn bodies, those of the objects in `uncut` (empty: none) aside.
+/// Errors: cancelled.
 [[nodiscard]] Result<SectionedShapes> make_sectioned_shapes(const model::Scene& scene,
                                                             const std::vector<bool>& drawn,
+                                                            const std::vector<bool>& uncut,
                                                             std::span<const SectionPlane> planes,
                                                             const parallel::Context& context);
 

@@ -98,6 +98,9 @@ void write_metadata(BufferedWriter& out, const Sheet& sheet) {
       std::replace(name.begin(), name.end(), '_', '-');
       out << fmt::format(" {}=\"{}\"", name, drawing.count[s]);
     }
+    if (drawing.uncut) out << fmt::format(" objects-uncut=\"{}\"", drawing.counters.uncut_objects);
+    if (!drawing.flush_seams)
+      out << fmt::format(" edges-with-seams=\"{}\"", drawing.counters.seams);
     if (!drawing.hidden_lines) out << " hidden-lines=\"not asked for\"";
     out << fmt::format(" hidden-left-out=\"{}\"/>\n", view.ink.left_out);
   }

@@ -158,14 +158,18 @@ void ViewReader::limits(TableReader& outer, ViewSpec& view) {
 
 void ViewReader::select(TableReader& table, ViewSpec& view) {
   if (table.value("select") == nullptr) return;
-  view.select = choosers(table);
+  view.select = choosers(table, "select");
 }
 
-std::vector<settings::Chooser> ViewReader::choosers(TableReader& table) {
+void ViewReader::uncut(TableReader& table, ViewSpec& view) {
+  if (table.value("uncut") != nullptr) view.uncut = choosers(table, "uncut");
+}
+
+std::vector<settings::Chooser> ViewReader::choosers(TableReader& table, const std::string& key) {
   std::vector<settings::Chooser> all;
-  const Value* const value = table.value("select");
+  const Value* const value = table.value(key);
   if (value == nullptr) return all;
-  const std::string what = table.what() + ", select";
+  const std::string what = table.what() + ", " + key;
   const auto take = [&](const Value& one) {
     if (auto chooser = sets_.chooser(one, what)) all.push_back(std::move(*chooser));
   };
@@ -175,7 +179,8 @@ std::vector<settings::Chooser> ViewReader::choosers(TableReader& table) {
     return all;
   }
   for (const Value& one : *list) take(one);
-  if (list->empty())
+  // An empty list of `uncut` takes back what [defaults] or [arrangement] say.
+  if (list->empty() && key == "select")
     reading_.fault(value->at, "'select' of " + table.what() + " picks nothing",
                    "leave it out for everything");
   return all;
@@ -193,7 +198,7 @@ void ViewReader::hatches(TableReader& table, ViewSpec& view) {
 void ViewReader::hatch(const Value& value, const std::string& outer, ViewSpec& view) {
   TableReader table(reading_, value, "'hatch' of " + outer);
   HatchSpec spec;
-  spec.select = choosers(table);
+  spec.select = choosers(table, "select");
   if (const auto angle =
           table.quantity("angle", parse_angle_deg, "an angle in quotes, as \"45deg\"")) {
     if (!(*angle >= 0 && *angle <= 180))
@@ -231,6 +236,7 @@ void ViewReader::content(TableReader& table, ViewSpec& view) {
   select(table, view);
   limits(table, view);
   sections(table, view);
+  uncut(table, view);
   hatches(table, view);
   constexpr std::array<std::string_view, 3> kHidden{"off", "dashed", "all"};
   if (const auto word = table.word("hidden", kHidden))
@@ -257,6 +263,8 @@ void ViewReader::content(TableReader& table, ViewSpec& view) {
     view.options.smooth = *word == "on"        ? hlr::Smooth::all
                           : *word == "tangent" ? hlr::Smooth::tangent
                                                : hlr::Smooth::off;
+  constexpr std::array<std::string_view, 2> kOnOff{"on", "off"};
+  if (const auto word = table.word("flush_seams", kOnOff)) view.options.flush_seams = *word == "on";
   if (const auto angle =
           table.quantity("sharp_angle", parse_angle_deg, "an angle in quotes, as \"20deg\"")) {
     if (!(*angle >= 0 && *angle <= 180))

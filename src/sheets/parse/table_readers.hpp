@@ -34,8 +34,9 @@ class ViewReader {
   void perspective(settings::TableReader& table, ViewSpec& view);
   void limits(settings::TableReader& table, ViewSpec& view);
   void sections(settings::TableReader& table, ViewSpec& view);
+  std::vector<settings::Chooser> choosers(settings::TableReader& table, const std::string& key);
   void select(settings::TableReader& table, ViewSpec& view);
-  std::vector<settings::Chooser> choosers(settings::TableReader& table);
+  void uncut(settings::TableReader& table, ViewSpec& view);
   void hatches(settings::TableReader& table, ViewSpec& view);
   void hatch(const settings::Value& value, const std::string& outer, ViewSpec& view);
 

@@ -39,6 +39,7 @@ struct ViewSpec {
   hlr::Options options;
   std::vector<settings::Chooser> select;  ///< empty: all objects
   std::vector<HatchSpec> hatches;         ///< the first that picks an object holds for it
+  std::vector<settings::Chooser> uncut;   ///< what sections leave whole
   HiddenLines hidden = HiddenLines::off;
   std::optional<double> scale;
   std::optional<PaperPoint> position;  ///< position of the anchor, or without one of the middle

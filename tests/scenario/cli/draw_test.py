@@ -269,6 +269,76 @@ class Draw(Scenario):
         self.assertIn('section-misses', cut('--section', 'z>9m')[1])
         self.assertIn('cuts away everything', cut('--section', 'z>-9m')[1])
 
+    def test_sections_leave_chosen_objects_whole(self):
+        self.write('a.obj', cube('plate', 0, (0, 0, 0), 100) + cube('BOLT-1', 1, (40, 40, 20), 20)
+                   + cube('BOLT-2', 2, (40, 40, 70), 20))
+
+        def cut(*options):
+            done = self.run_strake('draw', 'a.obj', '--view', 'top', '--section', 'z=30mm', *options, '-o', 'x.json',
+                                   '-o', 'x.svg')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            drawing = json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))
+            kinds = {}
+            for piece in drawing['pieces']:
+                kinds.setdefault(piece['object'], set()).add((piece['kind'], piece['state']))
+            return drawing, kinds, done.stderr
+
+        plain, kinds, said = cut()
+        self.assertIn('section', {kind for kind, _ in kinds['BOLT-1']})
+        self.assertNotIn('uncut', plain['settings'])
+        self.assertNotIn('objects_uncut', plain['counts'])
+        self.assertNotIn('left whole', said)
+        for selection in (['BOLT*'], ['name = "BOLT-1"', 'BOLT-2']):
+            drawing, kinds, said = cut(*[word for text in selection for word in ('--uncut', text)])
+            self.assertEqual({kind for kind, _ in kinds['BOLT-1']} & {'section', 'hatch'}, set())
+            self.assertNotIn('clipped', {state for _, state in kinds['BOLT-1']})
+            # What lies wholly beyond the plane is cut away like everything else.
+            self.assertEqual({state for _, state in kinds['BOLT-2']}, {'clipped'})
+            self.assertIn('hatch', {kind for kind, _ in kinds['plate']})
+            self.assertEqual(drawing['counts']['objects_uncut'], 1)
+            self.assertIs(drawing['settings']['uncut'], True)
+            self.assertIn('1 object is left whole by the sections', said)
+            self.assertIn(' objects-uncut="1"', (self.folder / 'x.svg').read_text(encoding='utf-8'))
+        self.assertIn('0 objects are left whole', cut('--uncut', 'BOLT-2')[2])
+        done = self.run_strake('draw', 'a.obj', '--uncut', 'BOLT*', '-o', 'x.svg')
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn('--section', done.stderr)
+
+    def test_flush_seams_of_one_colour_are_left_out_if_asked_for(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100) + cube('b', 1, (100, 0, 0), 100)
+                   + cube('c', 2, (200, 0, 0), 80))
+
+        def drawn(*options):
+            done = self.run_strake('draw', 'a.obj', *options, '--json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            drawing = json.loads(done.stdout)
+            length = {100: 0, 200: 0}
+            for piece in drawing['pieces']:
+                (x, *a), (other, *b) = piece['a_mm'], piece['b_mm']
+                if x == other and x in length:
+                    length[x] += sum(abs(p - q) for p, q in zip(a, b))
+            return drawing, length, done.stderr
+
+        plain, length, _ = drawn()
+        self.assertEqual(length, {100: 800, 200: 400 + 320})
+        self.assertEqual(drawn('--flush-seams', 'on')[0], plain)
+        self.assertNotIn('flush_seams', plain['settings'])
+        self.assertNotIn('edges_with_seams', plain['counts'])
+        for more in ((), ('--threads', 3), ('--solver', 'brute-force'), ('--global', 'push')):
+            drawing, length, said = drawn('--flush-seams', 'off', *more)
+            # Of the smaller cube the bottom and the front are flush; what the larger one has beyond it stays.
+            self.assertEqual(length, {100: 0, 200: 2 * 20 + 200 + 2 * 80}, more)
+            self.assertEqual(drawing['settings']['flush_seams'], 'off')
+            self.assertEqual(drawing['counts']['edges_with_seams'], 8 + 4)
+            self.assertIn('flush seams of 12 edges are left out', said)
+            self.assertEqual(drawing['counts']['objects_drawn'], plain['counts']['objects_drawn'])
+        # Another colour is another material.
+        materials = 'newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n'
+        self.write('m.mtl', materials)
+        self.write('a.obj', 'mtllib m.mtl\nusemtl red\n' + cube('a', 0, (0, 0, 0), 100)
+                   + cube('b', 1, (100, 0, 0), 100).replace('f ', 'usemtl blue\nf ', 1))
+        self.assertEqual(drawn('--flush-seams', 'off')[1][100], 800)
+
     def test_hatches_are_what_the_table_says(self):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100) + cube('b', 1, (200, 0, 0), 100))
 

@@ -238,6 +238,10 @@ class Schemas(unittest.TestCase):
         cut = self.follows((self.folder / 'cut.json').read_text(encoding='utf-8'), 'view')
         self.assertEqual([s['normal'] for s in cut['view']['sections']], [[0, 0, 1], [1, 2, 0]])
         self.assertLessEqual({'section', 'hatch'}, {p['kind'] for p in cut['pieces']})
+        chosen = self.follows(self.run_strake('draw', 'ship.glb', '--view', 'top', '--section', 'z=4500mm', '--uncut',
+                                              '*', '--flush-seams', 'off', '--json'), 'view')
+        self.assertGreater(chosen['counts']['objects_uncut'], 0)
+        self.assertEqual(chosen['settings']['flush_seams'], 'off')
 
 
 if __name__ == '__main__':

@@ -31,6 +31,7 @@ CHOICES = ['clash a.obj --fail-on', 'clash a.obj --thickness-cap', 'clash a.obj 
            'clash diff c.json c.json --fail-on', 'draw diff v.view v.view --fail-on', 'draw a.obj -o x.svg --view',
            'draw a.obj -o x.svg --hidden', 'draw a.obj -o x.svg --stage', 'draw a.obj -o x.svg --intersections',
            'draw a.obj -o x.svg --own-polylines', 'draw a.obj -o x.svg --smooth', 'draw a.obj -o x.svg --solver',
+           'draw a.obj -o x.svg --flush-seams',
            'draw a.obj -o x.svg --global', 'draw a.obj -o x.svg --culling', 'draw a.obj -o x.svg --distribution',
            'generate ship -o x.glb --kind']
 
@@ -84,7 +85,8 @@ USAGE = [
     ('info a.obj --sag 0', '--sag', '1um or more'),
     ('info a.obj --sag 0.1um', '--sag', '1um or more'),
     ('info a.obj --weld 2m', '--weld', 'longer than a metre'),
-    *behind(['draw a.obj -o x.svg --select', 'draw a.obj -o x.svg --hatch 45deg --select'], [
+    *behind(['draw a.obj -o x.svg --select', 'draw a.obj -o x.svg --hatch 45deg --select',
+             'draw a.obj -o x.svg --section z=1mm --uncut'], [
         ('nobody', "'nobody' picks no object"), ("'@MATERIAL = AH36'", 'no object has an attribute @MATERIAL'),
         ("'name = nobody'", 'strake info --objects 20'), ("'@ = 3'", 'column 1'), ("'name ='", 'column 7'),
         ("'(a or b'", 'column 8'), ("'a and'", 'column 6'), ('"\'open"', 'column 1'), ("'@DN > wide'", 'column 7'),

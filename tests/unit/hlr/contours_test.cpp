@@ -285,5 +285,36 @@ TEST(SceneOfAView, IsFinerOnlyWhereItShows) {
   EXPECT_EQ(one, std::pair(as_is.first, fine.second));
 }
 
+/// The length of what runs round a pipe at a place along its axis, in whatever state.
+double rim_length_mm(const hlr::Drawing& drawing, const Vec3d& axis, double at_mm) {
+  double sum = 0;
+  for (const EdgePiece& p : drawing.pieces) {
+    const auto off = [&](const Vec3l& end) {
+      return std::fabs(dot(axis, end.as<double>()) / 1000 - at_mm);
+    };
+    const auto along = (p.b - p.a).as<double>();
+    if (off(p.a) < 0.01 && off(p.b) < 0.01) sum += std::sqrt(dot(along, along)) / 1000;
+  }
+  return sum;
+}
+
+TEST(Contours, PipesInLineHaveNoRimBetweenThemWithoutFlushSeams) {
+  constexpr double kRadius = 50;
+  const Mat3d turned{{Vec3d{0.6, 0, 0.8}, Vec3d{0, 1, 0}, Vec3d{-0.8, 0, 0.6}}};
+  for (const Mat3d& linear : {Mat3d{}, turned}) {
+    const Vec3d axis = linear * Vec3d{0, 0, 1};
+    Plant plant;
+    plant.object(geometry::CylinderPrimitive{kRadius, 300}, linear, axis * 150);
+    plant.object(geometry::CylinderPrimitive{kRadius, 500}, linear, axis * 550);
+    const model::Scene& scene = plant.scene();
+    const hlr::Drawing with = drawn(scene, {3, -2, 1});
+    const hlr::Drawing without = drawn(scene, {3, -2, 1}, {.flush_seams = false});
+    EXPECT_NEAR(rim_length_mm(with, axis, 300), 2 * 2 * geometry::kPi * kRadius, 10);
+    EXPECT_EQ(rim_length_mm(without, axis, 300), 0);
+    for (const double end : {0.0, 800.0})
+      EXPECT_NEAR(rim_length_mm(without, axis, end), 2 * geometry::kPi * kRadius, 5);
+  }
+}
+
 }  // namespace
 }  // namespace strake

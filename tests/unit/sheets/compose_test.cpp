@@ -207,6 +207,35 @@ TEST(Sheet, TheFirstHatchThatPicksAnObjectHolds) {
   EXPECT_TRUE(told(d.sheet, "selection-matches-nothing", "'nobody'"));
 }
 
+TEST(Sheet, SectionsLeaveWhatAViewSaysWhole) {
+  const std::string view =
+      "[[view]]\nname=\"v\"\ndirection=\"front\"\nscale=\"1:50\"\nsections=[\"y<300mm\"]\n";
+  const auto cut_lines = [](const Drawn& d, std::uint32_t object) {
+    return std::ranges::count_if(d.sheet.views[0].ink.lines, [&](const drawing::Line& line) {
+      return model::index(line.object) == object &&
+             (line.kind == hlr::EdgeKind::section || line.kind == hlr::EdgeKind::hatch);
+    });
+  };
+  constexpr std::uint32_t kBase = 0, kTop = 2;
+  const Drawn d = drawn(with_frame(view + "uncut=[\"top\",\"nobody\"]\n"));
+  EXPECT_EQ(cut_lines(d, kTop), 0);
+  EXPECT_GT(cut_lines(d, kBase), 0);
+  EXPECT_EQ(d.sheet.views[0].drawing.counters.uncut_objects, 1U);
+  EXPECT_EQ(count_of(d.svg, " objects-uncut=\"1\""), 1U);
+  EXPECT_TRUE(told(d.sheet, "selection-matches-nothing", "'nobody'"));
+  // An empty list takes back what holds for all views.
+  const Drawn all = drawn(with_frame("[defaults]\nuncut=\"top\"\n" + view + "uncut=[]\n"));
+  EXPECT_GT(cut_lines(all, kTop), 0);
+  EXPECT_EQ(count_of(all.svg, "objects-uncut"), 0U);
+}
+
+TEST(Sheet, FlushSeamsAreLeftOutWhereAViewSaysSo) {
+  const std::string view = "[[view]]\nname=\"v\"\nscale=\"1:50\"\n";
+  EXPECT_EQ(count_of(drawn(with_frame(view)).svg, "edges-with-seams"), 0U);
+  const Drawn d = drawn(with_frame(view + "flush_seams=\"off\"\n"));
+  EXPECT_EQ(count_of(d.svg, " edges-with-seams=\"0\""), 1U);
+}
+
 TEST(Sheet, FreeViewsShareTheLargestScaleThatKeepsThemApart) {
   const Drawn d =
       drawn(with_frame("[[view]]\nname=\"a\"\ndirection=\"front\"\nposition=[\"120mm\","

@@ -48,6 +48,8 @@ hidden = "all"
 stage = "local"
 intersections = "parts"
 own_polylines = "hidden"
+uncut = ["set(a)", "name = 'BOLT*'"]
+flush_seams = "off"
 [[view]]
 name = "detail"
 title = ""
@@ -156,6 +158,8 @@ TEST(SheetFileText, FaultsNamePlaceAndMend) {
       {std::string(kView) + "eye = [0, 0, 0]\ntarget = [\"1m\", 0, 0]\nfield_of_view = 90",
        "not an angle in quotes"},
       {"[arrangement]\neye = [0, 0, 0]", "[arrangement] has no key 'eye'"},
+      {std::string(kView) + "uncut = 3", "'v', uncut"},
+      {std::string(kView) + "flush_seams = \"hidden\"", "'flush_seams' of [[view]] 'v'"},
       {std::string(kView) + "hatch = 3", "'hatch' of [[view]] 'v' is a whole number, not a table"},
       {std::string(kView) + "hatch = { angel = \"9deg\" }",
        "'hatch' of [[view]] 'v' has no key 'angel'"},
