@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -221,12 +222,12 @@ class Composer {
 
   /// Chooses the ink of all views with one set of pens: those that the densest view can bear.
   Status ink() {
-    drawing::Pens pens;
+    std::optional<drawing::Pens> pens;
     for (const PlacedView& view : sheet_.views) {
       const drawing::Pens own = drawing::choose_pens(view.drawing);
-      if (own.edge < pens.edge) pens = own;
+      if (!pens || own.edge < pens->edge) pens = own;
     }
-    sheet_.styles = styles_of(what_.styles, pens);
+    sheet_.styles = styles_of(what_.styles, pens.value_or(drawing::Pens{}));
     for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
       const HiddenLines hidden = what_.views[v].hidden;
       auto chosen = drawing::choose_ink(sheet_.views[v].drawing,

@@ -322,6 +322,20 @@ TEST(Sheet, StylesAreWhatTheFileSays) {
   EXPECT_NE(wide.svg.find("stroke-width: 0.5; stroke-dasharray: 6 1.5;"), std::string::npos);
 }
 
+TEST(Sheet, OutlinesAndEdgesAreOfOneWeightThatGoesByTheSize) {
+  for (const auto& [size, wide] : std::map<std::string, double>{{"A1", 0.7}, {"A3", 0.5}}) {
+    const Drawn d = drawn(with_frame("[sheet]\nsize=\"" + size + "\"\n[[view]]\nname=\"v\"\n"));
+    const auto width = [&](LineClass line) {
+      return d.sheet.styles.at(static_cast<std::size_t>(line)).width_mm;
+    };
+    for (const LineClass line :
+         {LineClass::outline, LineClass::edge, LineClass::boundary, LineClass::intersection})
+      EXPECT_EQ(width(line), wide) << class_name(line);
+    for (const LineClass line : {LineClass::hidden, LineClass::hatch, LineClass::smooth})
+      EXPECT_EQ(width(line), wide / 2) << class_name(line);
+  }
+}
+
 TEST(Sheet, TagsStandAtTheirObjectsAndTouchNothing) {
   const Drawn d = drawn(with_frame(
       "arrangement=\"first-angle\"\n[[tag]]\nselect=\"*\"\ntext=\"{{name}} DN {{@DN}}\"\n"
