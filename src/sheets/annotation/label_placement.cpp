@@ -29,7 +29,7 @@ constexpr double kLatticeMm = 1.5;       ///< between two places
 constexpr double kShortestLeaderMm = 5;  ///< so that the arrow leaves some of it
 /// Places tried for all labels together at first, and again by each step that mends: a second or
 /// so, on sheets that nobody could read.
-constexpr std::size_t kMostTried = 50'000'000;
+constexpr std::size_t kMostTried = 20'000'000;
 constexpr std::size_t kFewestPlaces = 64;  ///< that each label may try even so
 constexpr std::size_t kMostEvictions = 8;
 constexpr int kMostRounds = 8;
@@ -142,7 +142,7 @@ class LabelPlacer {
   /// cheapest first, but for those without a leader which come before all others. It returns the
   /// cost from which on no place is wanted.
   template <class Take>
-  void each_place(const LabelRequest& request, Take&& take) const {
+  void each_place(const LabelRequest& request, Take&& take) {
     double wanted = kNoLimit;
     const std::size_t last = tried_ + most_tried_;
     if (request.on_object)
@@ -159,7 +159,7 @@ class LabelPlacer {
   }
 
   /// Returns the cheapest place beside the labels that have one.
-  [[nodiscard]] std::optional<LabelPlace> cheapest(Label label) const {
+  [[nodiscard]] std::optional<LabelPlace> cheapest(Label label) {
     std::optional<LabelPlace> best;
     double least = kNoLimit;
     Conflicts conflicts;
@@ -195,7 +195,7 @@ class LabelPlacer {
 
   /// Returns the nearest places of a label that one other label alone blocks, one for each of
   /// those.
-  [[nodiscard]] std::vector<std::pair<LabelPlace, Label>> evictions(Label label) const {
+  [[nodiscard]] std::vector<std::pair<LabelPlace, Label>> evictions(Label label) {
     std::vector<std::pair<LabelPlace, Label>> found;
     Conflicts conflicts;
     each_place(requests_[label], [&](const LabelPlace& place) {
@@ -254,18 +254,18 @@ class LabelPlacer {
   }
 
   /// Returns the labels whose leaders that of a label crosses.
-  [[nodiscard]] std::vector<Label> crossed_by(Label label) const {
+  [[nodiscard]] std::vector<Label> crossed_by(Label label) {
     if (!places_[label] || !places_[label]->has_leader) return {};
     Conflicts conflicts;
     placed_.find_conflicts(*places_[label], places_.size(), conflicts);
     return std::move(conflicts.crossed);
   }
 
-  [[nodiscard]] double cost_of(Label label) const {
+  [[nodiscard]] double cost_of(Label label) {
     return places_[label]->cost + kCrossingMm * static_cast<double>(crossed_by(label).size());
   }
   /// Returns what two labels cost together: a crossing of the two is one.
-  [[nodiscard]] double cost_of(Label one, Label other) const {
+  [[nodiscard]] double cost_of(Label one, Label other) {
     const LabelPlace &a = *places_[one], &b = *places_[other];
     const bool each_other = a.has_leader && b.has_leader && segments_cross(a.leader, b.leader);
     return cost_of(one) + cost_of(other) - (each_other ? kCrossingMm : 0);
@@ -274,8 +274,8 @@ class LabelPlacer {
   std::span<const LabelRequest> requests_;
   const LabelGround& ground_;
   std::vector<Offset> on_object_, by_leader_;
-  std::size_t most_tried_;         ///< places that a search for one label tries
-  mutable std::size_t tried_ = 0;  ///< places that the step has tried
+  std::size_t most_tried_;  ///< places that a search for one label tries
+  std::size_t tried_ = 0;   ///< places that the step has tried
   PlacedLabels placed_;
   std::vector<std::optional<LabelPlace>> places_;
 };

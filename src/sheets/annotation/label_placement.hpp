@@ -17,7 +17,7 @@
 namespace strake::sheets {
 
 /// A leader is no longer than this, and a text without one no farther from its object's middle.
-inline constexpr double kLabelReachMm = 70;
+inline constexpr double kLabelReachMm = 100;
 
 /// A text that wants a place.
 struct LabelRequest {

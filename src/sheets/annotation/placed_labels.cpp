@@ -66,8 +66,7 @@ void PlacedLabels::remove(Label label) {
   if (place.has_leader) each_bin(box_round(place.leader), take);
 }
 
-void PlacedLabels::find_conflicts(const LabelPlace& place, std::size_t most,
-                                  Conflicts& found) const {
+void PlacedLabels::find_conflicts(const LabelPlace& place, std::size_t most, Conflicts& found) {
   found.blockers.clear();
   found.crossed.clear();
   ++query_;

@@ -42,7 +42,7 @@ class PlacedLabels {
   };
   /// Sets `found` to the conflicts of a place, both lists in ascending order. Looks no further once
   /// there are more than `most` blockers.
-  void find_conflicts(const LabelPlace& place, std::size_t most, Conflicts& found) const;
+  void find_conflicts(const LabelPlace& place, std::size_t most, Conflicts& found);
 
  private:
   template <class Visit>
@@ -51,8 +51,8 @@ class PlacedLabels {
   std::size_t columns_, rows_;
   std::vector<std::vector<Label>> bins_;
   std::vector<LabelPlace> places_;
-  mutable std::vector<std::uint64_t> last_query_;  ///< by label: the last query that met it
-  mutable std::uint64_t query_ = 0;
+  std::vector<std::uint64_t> last_query_;  ///< by label: the last query that met it
+  std::uint64_t query_ = 0;
 };
 
 }  // namespace strake::sheets
