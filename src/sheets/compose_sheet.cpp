@@ -336,20 +336,20 @@ class Composer {
     const TagCount& count = list.count;
     const std::string where =
         list.spec->where + ", the view '" + sheet_.views[list.view].name + "'";
-    const auto warn_of = [&](std::size_t number, const char* code, const std::string& one,
-                             const std::string& many) {
+    const auto tell = [&](std::size_t number, const char* code, const std::string& one,
+                          const std::string& many) {
       if (number == 1) warn(code, "1 object " + one, where);
       if (number > 1) warn(code, std::to_string(number) + " objects " + many, where);
     };
     const std::string some = " some of what '" + list.spec->text + "' names";
-    warn_of(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
-            "have nothing to be tagged with");
-    warn_of(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
+    tell(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
+         "have nothing to be tagged with");
+    tell(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
     const std::string mend = " (smaller letters, fewer tags or a larger sheet make room)";
-    warn_of(count.crowded, "tag-no-room",
-            "is without its tag '" + count.first_crowded + "': there is no room for it" + mend,
-            "are without their tags, as '" + count.first_crowded + "': there is no room for them" +
-                mend);
+    tell(count.crowded, "tag-no-room",
+         "is without its tag '" + count.first_crowded + "': there is no room for it" + mend,
+         "are without their tags, as '" + count.first_crowded + "': there is no room for them" +
+             mend);
   }
 
   const SheetSpec& what_;

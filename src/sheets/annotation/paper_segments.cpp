@@ -13,7 +13,8 @@ double doubled_area(const PaperPoint& a, const PaperPoint& b, const PaperPoint& 
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-bool parts(const PaperSegment& line, const PaperSegment& ends) {
+/// Returns whether two points lie on different sides of a line, and neither on it.
+bool separates(const PaperSegment& line, const PaperSegment& ends) {
   const double a = doubled_area(line.a, line.b, ends.a), b = doubled_area(line.a, line.b, ends.b);
   return (a < 0 && b > 0) || (a > 0 && b < 0);
 }
@@ -41,7 +42,7 @@ std::optional<PaperSegment> clipped(const PaperSegment& segment, const PaperBox&
 }
 
 bool segments_cross(const PaperSegment& one, const PaperSegment& other) {
-  return parts(one, other) && parts(other, one);
+  return separates(one, other) && separates(other, one);
 }
 
 }  // namespace strake::sheets

@@ -112,7 +112,7 @@ TEST(Occupancy, NeverCallsABoxFreeThatALineTouches) {
                             {draw.between(-20, 120), draw.between(-20, 100)}};
     occupied.add_line(line.a, line.b);
     occupied.finish();
-    const double x = draw.between(0, 90), y = draw.between(0, 75);
+    const double x = draw.between(1, 88), y = draw.between(1, 73);
     const PaperBox box{x, y, x + draw.between(0.1, 10), y + draw.between(0.1, 5)};
     if (clipped(line, widened(box, kClearanceMm))) EXPECT_FALSE(occupied.is_free(box)) << round;
     // Nor is what lies far from the line taken.
