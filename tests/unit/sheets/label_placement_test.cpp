@@ -214,10 +214,10 @@ TEST(Labels, KeepOutOfOtherViewsWhereTheyCan) {
 
 TEST(Labels, OfAnyCrowdCoverNothingAndAreTheSameAgain) {
   test::Draw draw(29);
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < 4; ++round) {
     Paper paper;
     std::vector<LabelRequest> requests;
-    const int count = draw.whole(5, 120);
+    const int count = draw.whole(5, 60);
     for (int i = 0; i < count; ++i) {
       const double x = draw.between(60, 340), y = draw.between(60, 230);
       const PaperBox box{x, y, x + draw.between(0.5, 30), y + draw.between(0.5, 20)};
