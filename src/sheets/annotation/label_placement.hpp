@@ -40,7 +40,7 @@ struct LabelGround {
 /// Returns the place of each label; none: it has no room within kLabelReachMm.
 ///
 /// No text touches another text, a leader or a line of the ground. Leaders cross each other only
-/// where no place within kCrossingMm more of leader avoids it.
+/// where the search found no place with a little more of leader that avoids it.
 ///
 /// Labels get the cheapest place on a lattice about their anchors one after the other. Labels
 /// without room then drive out one that finds another place; and labels with crossed leaders are
