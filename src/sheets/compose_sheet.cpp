@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +12,6 @@
 #include "drawing/layout/expected_extent.hpp"
 #include "drawing/layout/view_plane.hpp"
 #include "settings/text_file.hpp"
-#include "sheets/annotation/occupancy_grid.hpp"
 #include "sheets/annotation/tags.hpp"
 #include "sheets/annotation/title_block.hpp"
 #include "sheets/arrangement/grid_lines.hpp"
@@ -225,12 +225,12 @@ class Composer {
 
   /// Chooses the ink of all views with one set of pens: those that the densest view can bear.
   Status ink() {
-    drawing::Pens pens;
+    std::optional<drawing::Pens> pens;
     for (const PlacedView& view : sheet_.views) {
       const drawing::Pens own = drawing::choose_pens(view.drawing);
-      if (own.edge < pens.edge) pens = own;
+      if (!pens || own.edge < pens->edge) pens = own;
     }
-    sheet_.styles = styles_of(what_.styles, pens);
+    sheet_.styles = styles_of(what_.styles, pens.value_or(drawing::Pens{}));
     for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
       const HiddenLines hidden = what_.views[v].hidden;
       auto chosen = drawing::choose_ink(sheet_.views[v].drawing,
@@ -309,51 +309,51 @@ class Composer {
   }
 
   void tags() {
-    if (what_.tags.empty()) return;
-    OccupancyGrid occupancy(sheet_.width_mm, sheet_.height_mm);
-    for (const PlacedView& view : sheet_.views) {
-      for (const drawing::Line& line : view.ink.lines)
-        occupancy.add_line(line.a_paper, line.b_paper);
-      for (const Path& path : view.grid.paths)
-        occupancy.add_line(path.points.front(), path.points.back());
-      for (const Marks* marks : {&view.caption, &view.grid}) {
-        for (const Text& text : marks->texts) occupancy.block(box_of(text));
-        for (const Circle& c : marks->circles)
-          occupancy.block({c.center.x - c.radius_mm, c.center.y - c.radius_mm,
-                           c.center.x + c.radius_mm, c.center.y + c.radius_mm});
-      }
-    }
+    const std::size_t first = asked_;
+    std::vector<TagList> lists;
     for (const TagSpec& tag : what_.tags) {
       const std::vector<bool>& picked = picks_[asked_++];
-      std::size_t seen = 0;
-      for (PlacedView& view : sheet_.views)
+      for (std::size_t v = 0; v < sheet_.views.size(); ++v)
         if (tag.views.empty() ||
-            std::find(tag.views.begin(), tag.views.end(), view.name) != tag.views.end())
-          seen += tag_view(tag, picked, view, occupancy);
-      if (seen == 0 && std::find(picked.begin(), picked.end(), true) != picked.end())
+            std::ranges::find(tag.views, sheet_.views[v].name) != tag.views.end())
+          lists.push_back(tags_of(tag, picked, *scene_.model, sheet_, v));
+    }
+    write_tags(lists, room_, sheet_);
+    auto list = lists.begin();
+    for (std::size_t t = 0; t < what_.tags.size(); ++t) {
+      const TagSpec& tag = what_.tags[t];
+      const auto picked = static_cast<std::size_t>(std::ranges::count(picks_[first + t], true));
+      bool seen = false;
+      for (; list != lists.end() && list->spec == &tag; ++list) {
+        warn_of(*list);
+        seen = seen || list->count.unseen < picked;
+      }
+      if (!seen && picked > 0)
         warn("tag-not-seen",
              "none of the objects of '" + tag.select->selection.text() + "' is seen in a view",
              tag.where);
     }
   }
 
-  /// Writes the tags of a view; returns how many of the objects show in it.
-  std::size_t tag_view(const TagSpec& tag, const std::vector<bool>& picked, PlacedView& view,
-                       OccupancyGrid& occupancy) {
-    const TagCount count = write_tags(tag, picked, *scene_.model, room_, view, occupancy);
-    const std::string where = tag.where + ", the view '" + view.name + "'";
-    const auto warn_of = [&](std::size_t number, const char* code, const std::string& one,
-                             const std::string& many) {
+  /// Warns of the tags of a table that a view lacks.
+  void warn_of(const TagList& list) {
+    const TagCount& count = list.count;
+    const std::string where =
+        list.spec->where + ", the view '" + sheet_.views[list.view].name + "'";
+    const auto tell = [&](std::size_t number, const char* code, const std::string& one,
+                          const std::string& many) {
       if (number == 1) warn(code, "1 object " + one, where);
       if (number > 1) warn(code, std::to_string(number) + " objects " + many, where);
     };
-    const std::string some = " some of what '" + tag.text + "' names";
-    warn_of(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
-            "have nothing to be tagged with");
-    warn_of(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
-    warn_of(count.crowded, "tag-no-room", "is without its tag: there is no room for it",
-            "are without their tags: there is no room for them");
-    return static_cast<std::size_t>(std::count(picked.begin(), picked.end(), 1)) - count.unseen;
+    const std::string some = " some of what '" + list.spec->text + "' names";
+    tell(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
+         "have nothing to be tagged with");
+    tell(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
+    const std::string mend = " (smaller letters, fewer tags or a larger sheet make room)";
+    tell(count.crowded, "tag-no-room",
+         "is without its tag '" + count.first_crowded + "': there is no room for it" + mend,
+         "are without their tags, as '" + count.first_crowded + "': there is no room for them" +
+             mend);
   }
 
   const SheetSpec& what_;

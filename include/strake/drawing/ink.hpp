@@ -11,10 +11,13 @@
 
 namespace strake::drawing {
 
-/// Widths of lines, millimetres of paper (the line groups of ISO 128).
+/// Widths of lines, millimetres of paper: a line group of ISO 128-2. What is seen of a part is of
+/// one weight, its outlines and its edges alike (decision 0068).
 struct Pens {
-  double outline = 0.5, edge = 0.35, thin = 0.25;
-  double section = 0.7;  ///< outlines of cuts
+  double outline = 0.5;  ///< wide: visible contours
+  double edge = 0.5;     ///< wide: visible edges, open edges and intersections
+  double thin = 0.25;    ///< narrow: hidden lines, smooth edges, hatches, polylines
+  double section = 0.7;  ///< outlines of cuts, a width above the wide one
 };
 
 struct InkOptions {
@@ -33,8 +36,8 @@ struct Ink {
   std::uint64_t left_out = 0;  ///< hidden lines that were left out in part or wholly
 };
 
-/// Returns the pens for a drawing, by its density where its lines are: a dense drawing in wide
-/// lines is a black patch.
+/// Returns the pens for a drawing: the widest group that suits the sheet's size, or a narrower one
+/// by the density where the lines are, as a dense drawing in wide lines is a black patch.
 [[nodiscard]] Pens choose_pens(const NeutralDrawing& drawing);
 
 /// Chooses which lines are worth drawing, with the given pens or with those of choose_pens().

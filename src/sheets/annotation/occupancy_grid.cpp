@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sheets/annotation/paper_segments.hpp"
+
 namespace strake::sheets {
 
 namespace {
@@ -16,7 +18,9 @@ std::size_t clamped(double cell, std::size_t count) {
 }  // namespace
 
 OccupancyGrid::OccupancyGrid(double width_mm, double height_mm)
-    : size_(std::max(1.0, std::sqrt(width_mm * height_mm) / 1500)),
+    : width_mm_(width_mm),
+      height_mm_(height_mm),
+      size_(std::max(1.0, std::sqrt(width_mm * height_mm) / 1500)),
       columns_(static_cast<std::size_t>(std::ceil(width_mm / size_))),
       rows_(static_cast<std::size_t>(std::ceil(height_mm / size_))),
       cells_(columns_ * rows_) {}
@@ -27,62 +31,61 @@ std::size_t OccupancyGrid::column(double x) const {
 
 std::size_t OccupancyGrid::row(double y) const { return clamped(std::floor(y / size_), rows_); }
 
-/// Calls `take` with each square that half-millimetre steps from a to b reach, and the length of a
-/// step.
+/// Calls `take` with the square of each step of at most half a square from a to b, as far as the
+/// line runs on the sheet: each of its points is within a quarter of a square of one that is taken.
 template <class Take>
 void OccupancyGrid::walk(const PaperPoint& a, const PaperPoint& b, Take&& take) const {
-  const double dx = b.x - a.x, dy = b.y - a.y;
-  const double length = std::sqrt(dx * dx + dy * dy);
-  // A line that runs far off the sheet is not followed to its end.
-  const double steps = std::min(std::ceil(length * 2 / size_), 1e5);
+  const auto seen = clipped({a, b}, {0, 0, width_mm_, height_mm_});
+  if (!seen) return;
+  const double dx = seen->b.x - seen->a.x, dy = seen->b.y - seen->a.y;
+  const double steps = std::max(1.0, std::ceil(std::sqrt(dx * dx + dy * dy) * 2 / size_));
   for (double i = 0; i < steps; ++i) {
     const double t = (i + 0.5) / steps;
-    take(row(a.y + dy * t) * columns_ + column(a.x + dx * t), length / steps);
+    take(row(seen->a.y + dy * t) * columns_ + column(seen->a.x + dx * t));
   }
 }
 
-template <class Take>
-void OccupancyGrid::each(const PaperBox& box, Take&& take) const {
-  for (std::size_t r = row(box.top); r <= row(box.bottom); ++r)
-    for (std::size_t c = column(box.left); c <= column(box.right); ++c) take(r * columns_ + c);
-}
-
 void OccupancyGrid::add_line(const PaperPoint& a, const PaperPoint& b) {
-  walk(a, b,
-       [&](std::size_t cell, double length) { cells_[cell].ink += static_cast<float>(length); });
-}
-
-void OccupancyGrid::add_leader(const PaperPoint& a, const PaperPoint& b) {
-  walk(a, b, [&](std::size_t cell, double) {
-    cells_[cell].leaders = static_cast<std::uint16_t>(std::min(cells_[cell].leaders + 1, 1000));
+  walk(a, b, [&](std::size_t cell) {
+    if (cells_[cell] == Taken::no) cells_[cell] = Taken::by_line;
   });
 }
 
 void OccupancyGrid::block(const PaperBox& box) {
-  each(box, [&](std::size_t cell) { cells_[cell].blocked = true; });
+  if (!box.overlaps({0, 0, width_mm_, height_mm_})) return;
+  for (std::size_t r = row(box.top); r <= row(box.bottom); ++r)
+    for (std::size_t c = column(box.left); c <= column(box.right); ++c)
+      cells_[r * columns_ + c] = Taken::blocked;
 }
 
-bool OccupancyGrid::is_open(const PaperBox& box) const {
-  bool open = true;
-  each(box, [&](std::size_t cell) {
-    open = open && !cells_[cell].blocked && cells_[cell].leaders == 0;
+void OccupancyGrid::finish() {
+  const std::size_t across = columns_ + 1;
+  taken_before_.assign(across * (rows_ + 1), 0);
+  for (std::size_t r = 0; r < rows_; ++r)
+    for (std::size_t c = 0; c < columns_; ++c)
+      taken_before_[(r + 1) * across + c + 1] =
+          taken_before_[r * across + c + 1] + taken_before_[(r + 1) * across + c] -
+          taken_before_[r * across + c] + (cells_[r * columns_ + c] == Taken::no ? 0U : 1U);
+}
+
+bool OccupancyGrid::is_free(const PaperBox& box) const {
+  // Of a line within the clearance, a step is within a quarter of a square more.
+  const PaperBox wide = widened(box, kClearanceMm + size_ / 4);
+  const std::size_t across = columns_ + 1;
+  const std::size_t top = row(wide.top) * across, bottom = (row(wide.bottom) + 1) * across;
+  const std::size_t left = column(wide.left), right = column(wide.right) + 1;
+  return taken_before_[bottom + right] + taken_before_[top + left] ==
+         taken_before_[bottom + left] + taken_before_[top + right];
+}
+
+OccupancyGrid::LeaderPath OccupancyGrid::leader_path(const PaperPoint& a,
+                                                     const PaperPoint& b) const {
+  LeaderPath path;
+  walk(a, b, [&](std::size_t cell) {
+    path.open = path.open && cells_[cell] != Taken::blocked;
+    if (cells_[cell] == Taken::by_line) ++path.lines;
   });
-  return open;
-}
-
-double OccupancyGrid::ink(const PaperBox& box) const {
-  double sum = 0;
-  each(box, [&](std::size_t cell) { sum += static_cast<double>(cells_[cell].ink); });
-  return sum;
-}
-
-OccupancyGrid::LeaderPath OccupancyGrid::way(const PaperPoint& a, const PaperPoint& b) const {
-  LeaderPath way;
-  walk(a, b, [&](std::size_t cell, double) {
-    way.open = way.open && !cells_[cell].blocked;
-    if (cells_[cell].leaders > 0) ++way.crossed;
-  });
-  return way;
+  return path;
 }
 
 }  // namespace strake::sheets

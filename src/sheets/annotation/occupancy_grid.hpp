@@ -9,45 +9,49 @@
 
 namespace strake::sheets {
 
-/// The occupied paper of a sheet, in squares of about a millimetre: how much ink lies in each,
-/// whether texts block it, and how many leaders run through.
+/// The distance between two texts, and between a text and a line.
+inline constexpr double kClearanceMm = 0.7;
+
+/// The occupied paper of a sheet, in squares of about a millimetre: whether a line runs through a
+/// square, and whether a text or a bubble blocks it.
+///
+/// Lines and boxes are added first; then finish() is called, once; then the grid answers.
 class OccupancyGrid {
  public:
   OccupancyGrid(double width_mm, double height_mm);
 
   void add_line(const PaperPoint& a, const PaperPoint& b);
-  void add_leader(const PaperPoint& a, const PaperPoint& b);
-  /// Blocks a box: nothing else may be written there.
+  /// Blocks a box: no text may stand and no leader run there.
   void block(const PaperBox& box);
+  void finish();
 
-  /// Returns whether no square of the box, which must lie on the sheet, is blocked.
-  [[nodiscard]] bool is_open(const PaperBox& box) const;
-  /// Returns the millimetres of lines in the box.
-  [[nodiscard]] double ink(const PaperBox& box) const;
-  /// The path of a leader: the squares with leaders that it crosses, meaningless where it is
-  /// blocked.
+  /// Returns whether a box, which must lie on the sheet, has nothing within the clearance: no line
+  /// and nothing that blocks. Takes constant time. True only if that is so; false for some boxes
+  /// that are free by less than two squares.
+  [[nodiscard]] bool is_free(const PaperBox& box) const;
+
+  /// What the leader from a to b runs over: `lines` counts half-square steps with lines, which have
+  /// no meaning where it is blocked.
   struct LeaderPath {
     bool open = true;
-    std::size_t crossed = 0;
+    std::size_t lines = 0;
   };
-  [[nodiscard]] LeaderPath way(const PaperPoint& a, const PaperPoint& b) const;
+  [[nodiscard]] LeaderPath leader_path(const PaperPoint& a, const PaperPoint& b) const;
 
  private:
-  struct OccupancyCell {
-    float ink = 0;
-    std::uint16_t leaders = 0;
-    bool blocked = false;
-  };
+  enum class Taken : std::uint8_t { no, by_line, blocked };
+
   [[nodiscard]] std::size_t column(double x) const;
   [[nodiscard]] std::size_t row(double y) const;
   template <class Take>
   void walk(const PaperPoint& a, const PaperPoint& b, Take&& take) const;
-  template <class Take>
-  void each(const PaperBox& box, Take&& take) const;
 
-  double size_ = 1;
+  double width_mm_ = 0, height_mm_ = 0, size_ = 1;
   std::size_t columns_ = 1, rows_ = 1;
-  std::vector<OccupancyCell> cells_;
+  std::vector<Taken> cells_;
+  /// For each corner of squares the number of taken squares to the left of it and above: a
+  /// summed-area table.
+  std::vector<std::uint32_t> taken_before_;
 };
 
 }  // namespace strake::sheets

@@ -3,11 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "sheets/annotation/occupancy_grid.hpp"
+#include "sheets/annotation/paper_segments.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "strake/model/model.hpp"
@@ -20,20 +21,38 @@ namespace strake::sheets {
 
 /// What became of the tags of one table in one view.
 struct TagCount {
-  std::size_t written = 0;
-  std::size_t unseen = 0;   ///< objects without a visible line
-  std::size_t blank = 0;    ///< objects that lack every value that the text names
-  std::size_t partly = 0;   ///< objects that lack some of the values
-  std::size_t crowded = 0;  ///< tags that found no room
+  std::size_t unseen = 0;     ///< objects without a visible line
+  std::size_t blank = 0;      ///< objects that lack every value that the text names
+  std::size_t partly = 0;     ///< objects that lack some of the values
+  std::size_t crowded = 0;    ///< tags that found no room
+  std::string first_crowded;  ///< the text of the first of them
 };
 
-/// Writes tags at the picked and visible objects of a view: on free paper near the longest line of
-/// each, with a leader, or plainly in its middle. No two texts touch; a tag that finds no room is
-/// left out and counted.
-///
-/// Objects come in the order of the model, so that the places of tags do not depend on the team.
-[[nodiscard]] TagCount write_tags(const TagSpec& spec, const std::vector<bool>& picked,
-                                  const model::Model& model, const SheetArea& room,
-                                  PlacedView& view, OccupancyGrid& occupancy);
+/// An object that gets a tag.
+struct TaggedObject {
+  model::ObjectId object{};
+  PaperSegment longest;  ///< its longest visible line
+  PaperBox box;          ///< box of its visible lines
+  double length = 0;     ///< length of all of them
+  std::string text;
+};
+
+/// The tags of one table in one view.
+struct TagList {
+  const TagSpec* spec = nullptr;
+  std::size_t view = 0;  ///< index into Sheet::views
+  std::vector<TaggedObject> objects;
+  TagCount count;
+};
+
+/// Returns the tags of the picked objects that a view shows, in the order of the model, so that the
+/// places of tags do not depend on the team.
+[[nodiscard]] TagList tags_of(const TagSpec& spec, const std::vector<bool>& picked,
+                              const model::Model& model, const Sheet& sheet, std::size_t view);
+
+/// Writes the tags of a sheet, all together: on free paper near their objects, with leaders, or
+/// plainly on their objects where nothing is covered there (label_placement.hpp). A tag that finds
+/// no room is left out and counted.
+void write_tags(std::span<TagList> lists, const SheetArea& room, Sheet& sheet);
 
 }  // namespace strake::sheets

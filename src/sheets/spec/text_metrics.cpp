@@ -40,13 +40,16 @@ double text_width(std::string_view text) {
   return width * kFontSize;
 }
 
-PaperBox box_of(const Text& text) {
-  const double width = text_width(text.text) * text.height_mm;
-  const double left = text.align == Align::start    ? text.at.x
-                      : text.align == Align::middle ? text.at.x - width / 2
-                                                    : text.at.x - width;
+PaperBox box_of(const PaperPoint& at, Align align, double width_mm, double height_mm) {
+  const double left = align == Align::start    ? at.x
+                      : align == Align::middle ? at.x - width_mm / 2
+                                               : at.x - width_mm;
   // A quarter of the height below the line for letters that hang.
-  return {left, text.at.y - text.height_mm, left + width, text.at.y + text.height_mm / 4};
+  return {left, at.y - height_mm, left + width_mm, at.y + height_mm / 4};
+}
+
+PaperBox box_of(const Text& text) {
+  return box_of(text.at, text.align, text_width(text.text) * text.height_mm, text.height_mm);
 }
 
 Text shrunk_to_width(Text text, double width_mm, double least_height) {

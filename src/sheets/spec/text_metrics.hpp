@@ -19,6 +19,9 @@ inline constexpr double kFontSize = 1.4;
 
 /// Returns the box that a text covers.
 [[nodiscard]] PaperBox box_of(const Text& text);
+/// Returns the box of a text of that width and height of capital letters, aligned to a point of its
+/// base line.
+[[nodiscard]] PaperBox box_of(const PaperPoint& at, Align align, double width_mm, double height_mm);
 
 /// Returns the text, shrunk so far that it is no wider than `width_mm`, but not below
 /// `least_height`.

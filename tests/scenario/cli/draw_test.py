@@ -5,7 +5,7 @@ import json
 import re
 import struct
 
-from scenario import Scenario, cube, main
+from scenario import Scenario, cube, main, prism
 
 
 class Draw(Scenario):
@@ -451,6 +451,20 @@ class Draw(Scenario):
                              (['--section', 'z=50'], ['--section', 'z=5cm']),
                              (['--eye', '500,-1000,500', '--target', '0,0,0'], ['--eye', '0.5m,-1m,500', '--target', '0mm,0,0'])):
             self.assertEqual(drawn(*plain), drawn(*units), units)
+
+    def test_the_outline_of_a_part_is_of_one_weight(self):
+        # A pin on a box: its sides are contours, its rims sharp edges, the box has sharp edges only.
+        self.write('m.obj', cube('box', 0, (0, 0, 0), 1000) + prism('pin', 8, 24, (500, 500), 200, 1000, 1600))
+        done = self.run_strake('draw', 'm.obj', '--unit', 'mm', '--up-axis', 'z', '--hidden', 'dashed', '-o', 'x.svg')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = (self.folder / 'x.svg').read_text(encoding='utf-8')
+        widths = {selector.strip(): float(width) for rule, width in re.findall(r'^(.*) \{ stroke-width: ([\d.]+)', text, re.M)
+                  for selector in rule.split(',')}
+        layers = re.findall(r'class="((?:visible|hidden) \w+)"', text)
+        self.assertTrue({'visible contour', 'visible sharp', 'hidden sharp'} <= set(layers), layers)
+        seen = {widths['.' + layer.replace(' ', '.') + ' path'] for layer in layers if layer.startswith('visible')}
+        self.assertEqual(seen, {0.5})
+        self.assertEqual(widths['.hidden path'], 0.25)
 
     def test_an_empty_sheet_is_not_silent(self):
         self.two_files()

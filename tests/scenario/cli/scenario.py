@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the scenarios of the program share: a folder of their own, the program, small models."""
+import math
 import re
 import struct
 import subprocess
@@ -21,6 +22,18 @@ def cube(name, number, at, size):
     lines += [f'v {x + dx * size} {y + dy * size} {z + dz * size}'
               for dz in (0, 1) for dx, dy in ((0, 0), (1, 0), (1, 1), (0, 1))]
     lines += ['f ' + ' '.join(str(corner + 8 * number) for corner in face) for face in CUBE_FACES]
+    return '\n'.join(lines) + '\n'
+
+
+def prism(name, first, sides, at, radius, bottom, top):
+    """An OBJ object: an upright prism of so many sides, for a pin; `first` counts the corners of the file before it."""
+    corners = [(at[0] + radius * math.cos(2 * math.pi * i / sides), at[1] + radius * math.sin(2 * math.pi * i / sides))
+               for i in range(sides)]
+    lines = [f'o {name}'] + [f'v {x:.6f} {y:.6f} {z}' for z in (bottom, top) for x, y in corners]
+    below = [first + 1 + i for i in range(sides)]
+    above = [corner + sides for corner in below]
+    faces = [below[::-1], above] + [[below[i - 1], below[i], above[i], above[i - 1]] for i in range(sides)]
+    lines += ['f ' + ' '.join(map(str, face)) for face in faces]
     return '\n'.join(lines) + '\n'
 
 

@@ -56,6 +56,26 @@ class Sheet(Scenario):
         ids = [element.get('id') for element in root.iter() if element.get('id')]
         self.assertEqual(len(ids), len(set(ids)))
 
+    def test_tags_without_room_are_told_and_the_others_are_the_same_for_any_team(self):
+        side = 9
+        self.write('m.obj', ''.join(cube(f'cube-{i}', i, (i % side * 150, i // side * 150, 0), 100)
+                                    for i in range(side * side)))
+        self.write('s.toml', '[sheet]\nsize = "A4"\n[[view]]\nname = "v"\ndirection = "top"\nscale = "1:10"\n'
+                             '[[tag]]\nselect = "*"\ntext = "A TEXT THAT IS MUCH TOO LONG FOR {{name}}"\n')
+        expected = None
+        for threads in (1, 2, 8):
+            done = self.draw('--threads', threads)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            got = (self.folder / 's.svg').read_bytes()
+            expected = expected or got
+            self.assertEqual(got, expected, threads)
+        told = re.search(r"warning tag-no-room: s.toml, line \d+: \[\[tag\]\], the view 'v': (\d+) objects are without "
+                         r"their tags, as 'A TEXT THAT IS MUCH TOO LONG FOR cube-\d+'", done.stderr)
+        self.assertTrue(told, done.stderr)
+        tags = [text.text for text in self.root().iter(f'{SVG}text') if 'TOO LONG' in (text.text or '')]
+        self.assertEqual(len(tags) + int(told[1]), side * side)
+        self.assertGreater(len(tags), 10)
+
     def test_a_template_is_never_overwritten(self):
         template = '<svg width="420mm" height="297mm" viewBox="0 0 420 297"><text>{{title}}</text></svg>'
         self.small('[sheet]\ntemplate = "frame.svg"\n[[view]]\nname = "v"\ndirection = "top"\n')

@@ -63,7 +63,7 @@ TEST(Ink, HiddenLinesWhoseInkTouchesAVisibleLineAreLeftOut) {
       from_top({line({0, 0}, {50, 0}, kVisible), line({0, 0.3}, {80, 0.3}, kHidden),
                 line({0, 1}, {50, 1}, kHidden)});
   const Ink ink = ink_of(drawing);
-  EXPECT_DOUBLE_EQ(ink.pens.edge, 0.35);
+  EXPECT_DOUBLE_EQ(ink.pens.edge, 0.5);
   ASSERT_EQ(ink.lines.size(), 3U);
   EXPECT_EQ(ink.lines[1].a_paper, (PaperPoint{50, 0.3}));
   EXPECT_EQ(ink.lines[1].b_paper, (PaperPoint{80, 0.3}));
@@ -141,11 +141,33 @@ TEST(Ink, PensFollowTheDensityWhereTheLinesAre) {
     for (double x = 0; x < 40; x += step) lines.push_back(line({x, 0}, {x, 40}, kVisible));
     return ink_of(from_top(lines)).pens.edge;
   };
-  EXPECT_DOUBLE_EQ(stripes(5), 0.35);
+  EXPECT_DOUBLE_EQ(stripes(5), 0.5);
+  EXPECT_DOUBLE_EQ(stripes(1), 0.35);
   EXPECT_DOUBLE_EQ(stripes(0.8), 0.25);
   EXPECT_DOUBLE_EQ(stripes(0.6), 0.18);
-  EXPECT_DOUBLE_EQ(stripes(0.2), 0.13);
-  EXPECT_DOUBLE_EQ(ink_of(from_top({})).pens.edge, 0.35);
+  EXPECT_DOUBLE_EQ(stripes(0.2), 0.18);
+  EXPECT_DOUBLE_EQ(ink_of(from_top({})).pens.edge, 0.5);
+}
+
+TEST(Ink, PensAreALineGroupOfTheStandard) {
+  const auto pens_on = [](double width_mm, double height_mm, double step) {
+    NeutralDrawing drawing = from_top({line({0, 290}, {400, 290}, kVisible)});
+    for (double x = 0; x < 40; x += step) drawing.lines.push_back(line({x, 0}, {x, 40}, kVisible));
+    drawing.sheet.width_mm = width_mm;
+    drawing.sheet.height_mm = height_mm;
+    return choose_pens(drawing);
+  };
+  EXPECT_DOUBLE_EQ(pens_on(841, 594, 10).edge, 0.7);  // A1
+  EXPECT_DOUBLE_EQ(pens_on(594, 420, 10).edge, 0.5);  // A2
+  EXPECT_DOUBLE_EQ(pens_on(297, 420, 10).edge, 0.5);
+  for (const double width : {1189.0, 594.0})
+    for (const double step : {10.0, 1.0, 0.8, 0.6, 0.1}) {
+      const Pens pens = pens_on(width, width * 0.7, step);
+      EXPECT_DOUBLE_EQ(pens.outline, pens.edge) << "a pin's sides and its rim";
+      // 0.35 to 0.18 and 0.25 to 0.13 are how the standard rounds.
+      EXPECT_NEAR(pens.edge / pens.thin, 2, 0.08);
+      EXPECT_GT(pens.section, pens.edge);
+    }
 }
 
 TEST(Ink, IsTheSameForAnyTeam) {

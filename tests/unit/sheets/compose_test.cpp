@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sheets/annotation/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/sheet_models.hpp"
@@ -351,6 +352,20 @@ TEST(Sheet, StylesAreWhatTheFileSays) {
   EXPECT_NE(wide.svg.find("stroke-width: 0.5; stroke-dasharray: 6 1.5;"), std::string::npos);
 }
 
+TEST(Sheet, OutlinesAndEdgesAreOfOneWeightThatGoesByTheSize) {
+  for (const auto& [size, wide] : std::map<std::string, double>{{"A1", 0.7}, {"A3", 0.5}}) {
+    const Drawn d = drawn(with_frame("[sheet]\nsize=\"" + size + "\"\n[[view]]\nname=\"v\"\n"));
+    const auto width = [&](LineClass line) {
+      return d.sheet.styles.at(static_cast<std::size_t>(line)).width_mm;
+    };
+    for (const LineClass line :
+         {LineClass::outline, LineClass::edge, LineClass::boundary, LineClass::intersection})
+      EXPECT_EQ(width(line), wide) << class_name(line);
+    for (const LineClass line : {LineClass::hidden, LineClass::hatch, LineClass::smooth})
+      EXPECT_EQ(width(line), wide / 2) << class_name(line);
+  }
+}
+
 TEST(Sheet, TagsStandAtTheirObjectsAndTouchNothing) {
   const Drawn d = drawn(with_frame(
       "arrangement=\"first-angle\"\n[[tag]]\nselect=\"*\"\ntext=\"{{name}} DN {{@DN}}\"\n"
@@ -375,6 +390,40 @@ TEST(Sheet, TagsStandAtTheirObjectsAndTouchNothing) {
   const Drawn unseen = drawn(with_frame(
       "[[view]]\nname=\"v\"\nselect=\"base\"\n[[tag]]\nselect=\"far\"\ntext=\"{{name}}\"\n"));
   EXPECT_TRUE(told(unseen.sheet, "tag-not-seen", "'far'"));
+}
+
+TEST(Sheet, TagsCoverNoLineOfAnyViewAndTheirLeadersDoNotCross) {
+  const Drawn d =
+      drawn(with_frame("arrangement=\"first-angle\"\n[defaults]\nhidden=\"dashed\"\n"
+                       "[[tag]]\nselect=\"*\"\ntext=\"{{name}} OF THE SHIP\"\n"
+                       "[[tag]]\nselect=\"*\"\ntext=\"{{id}}\"\nstyle=\"plain\"\nviews=[\"top\"]\n"
+                       "[grid]\nx=[[\"A\",0],[\"B\",\"2m\"]]\n"));
+  EXPECT_FALSE(told(d.sheet, "tag-no-room"));
+  std::vector<PaperSegment> lines, leaders;
+  for (const PlacedView& view : d.sheet.views) {
+    for (const drawing::Line& line : view.ink.lines) lines.push_back({line.a_paper, line.b_paper});
+    for (const Path& path : view.grid.paths)
+      lines.push_back({path.points.front(), path.points.back()});
+    for (const Path& path : view.tags.paths)
+      if (!path.filled) leaders.push_back({path.points[0], path.points[1]});
+  }
+  EXPECT_GE(leaders.size(), 10U);
+  for (const PlacedView& view : d.sheet.views)
+    for (const Text& text : view.tags.texts)
+      for (const PaperSegment& line : lines)
+        EXPECT_FALSE(clipped(line, box_of(text))) << view.name << ": " << text.text;
+  for (std::size_t i = 0; i < leaders.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(segments_cross(leaders[i], leaders[k]));
+}
+
+TEST(Sheet, TagsWithoutRoomAreCountedAndTheFirstIsNamed) {
+  // Letters so high that one text alone has room beside the boxes, or none.
+  const Drawn d = drawn(with_frame(
+      "[sheet]\nsize=\"A4\"\n[[view]]\nname=\"v\"\ndirection=\"top\"\n[[tag]]\nselect=\"*\"\n"
+      "text=\"THE OBJECT {{name}} OF ALL\"\nheight=\"20mm\"\n"));
+  EXPECT_TRUE(d.sheet.views[0].tags.texts.empty());
+  EXPECT_TRUE(told(d.sheet, "tag-no-room",
+                   "3 objects are without their tags, as 'THE OBJECT base OF ALL'"));
 }
 
 TEST(Sheet, GridLinesShowWhereTheViewLooksAlongThem) {

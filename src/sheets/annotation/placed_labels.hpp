@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Labels that have a place on the sheet, found by where they are.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "sheets/annotation/paper_segments.hpp"
+#include "strake/sheets/sheet.hpp"
+
+namespace strake::sheets {
+
+/// A place for a label: a text and, with a leader, the line from its elbow to the object.
+struct LabelPlace {
+  PaperPoint at;  ///< on the base line
+  Align align = Align::middle;
+  PaperBox box;  ///< of the text and, with a leader, of the landing below it
+  bool has_leader = false;
+  PaperSegment leader;  ///< from the object to the elbow
+  PaperPoint end;       ///< of the landing, which begins at the elbow
+  double cost = 0;      ///< without what crossed leaders cost
+};
+
+/// Labels by number, in square bins of paper. Each query takes time by the labels in the bins that
+/// it reaches.
+class PlacedLabels {
+ public:
+  using Label = std::uint32_t;
+
+  PlacedLabels(double width_mm, double height_mm, std::size_t labels);
+
+  /// Adds a label that has no place yet.
+  void add(Label label, const LabelPlace& place);
+  /// Takes a label away that has a place.
+  void remove(Label label);
+
+  /// What a place would have against the labels that are there.
+  struct Conflicts {
+    std::vector<Label> blockers;  ///< whose text or leader it covers, or which cover its own
+    std::vector<Label> crossed;   ///< whose leaders it only crosses
+  };
+  /// Sets `found` to the conflicts of a place, both lists in ascending order. Looks no further once
+  /// there are more than `most` blockers.
+  void find_conflicts(const LabelPlace& place, std::size_t most, Conflicts& found);
+
+ private:
+  template <class Visit>
+  void each_bin(const PaperBox& box, Visit&& visit) const;
+
+  std::size_t columns_, rows_;
+  std::vector<std::vector<Label>> bins_;
+  std::vector<LabelPlace> places_;
+  std::vector<std::uint64_t> last_query_;  ///< by label: the last query that met it
+  std::uint64_t query_ = 0;
+};
+
+}  // namespace strake::sheets
