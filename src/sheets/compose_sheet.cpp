@@ -14,6 +14,7 @@
 #include "sheets/annotation/occupancy_grid.hpp"
 #include "sheets/annotation/tags.hpp"
 #include "sheets/annotation/title_block.hpp"
+#include "sheets/arrangement/far_objects_of_views.hpp"
 #include "sheets/arrangement/grid_lines.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/output/line_styles.hpp"
@@ -120,6 +121,7 @@ class Composer {
       chosen.push_back({next_picks(view.select.size()), {}});
       chosen.back().hatches = hatches_of(view);
     }
+    if (const Status status = mind_far(chosen); !status) return status;
     const Result<std::vector<double>> sags =
         options_.sag_for_paper ? sags_for_paper(chosen) : std::vector<double>{};
     if (!sags) return sags.error();
@@ -141,6 +143,15 @@ class Composer {
       sheet_.diagnostics.append(lines->diagnostics);
       drawings_.push_back(std::move(*lines));
     }
+    return {};
+  }
+
+  Status mind_far(std::vector<Chosen>& chosen) {
+    std::vector<std::vector<bool>*> drawn;
+    for (Chosen& of_view : chosen) drawn.push_back(&of_view.drawn);
+    auto left_out = mind_far_objects(what_, scene_, drawn, sheet_.diagnostics, context_);
+    if (!left_out) return left_out.error();
+    far_left_out_ = std::move(*left_out);
     return {};
   }
 
@@ -175,6 +186,7 @@ class Composer {
       options.view_name = spec.name;
       options.title = spec.title;
       options.placement = placement(v);
+      options.far_left_out = far_left_out_[v];
       auto laid_out = drawing::lay_out(drawings_[v], *scene_.model, options, context_);
       if (!laid_out) return laid_out.error();
       drawings_[v] = {};
@@ -358,7 +370,8 @@ class Composer {
   const parallel::Context& context_;
   SheetArea room_;
   Picks picks_;
-  std::size_t asked_ = 0;  ///< how many of them have been used
+  std::size_t asked_ = 0;                                   ///< how many of them have been used
+  std::vector<std::vector<model::ObjectId>> far_left_out_;  ///< of each view
   std::vector<hlr::Drawing> drawings_;
   std::vector<ViewPlace> places_;
   Sheet sheet_;

@@ -17,6 +17,7 @@
 #include "cli/verbs/draw/draw_options.hpp"
 #include "cli/verbs/draw/draw_sheet.hpp"
 #include "cli/verbs/draw/draw_summary.hpp"
+#include "cli/verbs/draw/far_objects.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
 #include "core/units.hpp"
@@ -30,6 +31,9 @@
 namespace strake::cli {
 
 namespace {
+
+/// --limits that leave far objects out.
+constexpr std::string_view kAutoLimits = "auto";
 
 /// The largest sag; it is less where that would show on paper.
 constexpr double kSagMm = 0.5;
@@ -118,7 +122,7 @@ Result<hlr::View> view_of(const DrawOptions& given, Console& console) {
   if (!drawing::can_be_up(view.up, view.direction))
     return Error{ErrorCode::usage, "'" + given.up + "' is parallel to the view direction", "--up",
                  "give a direction that shows on paper"};
-  if (!given.limits.empty()) {
+  if (!given.limits.empty() && given.limits != kAutoLimits) {
     const Result<geometry::Box3l> limits = limits_of(given.limits);
     if (!limits) return limits.error();
     view.limits = *limits;
@@ -278,6 +282,7 @@ struct DrawRequest {
   std::vector<model::Selection> selections;
   std::vector<HatchRule> hatches;
   bool sag_for_paper = true;
+  bool far_objects = true;  ///< drawn, and warned of; otherwise left out
 };
 
 Result<DrawRequest> request_of(const DrawOptions& given, Session& session) {
@@ -293,21 +298,32 @@ Result<DrawRequest> request_of(const DrawOptions& given, Session& session) {
   if (!selections) return selections.error();
   const auto hatches = parse_hatches(given.hatches);
   if (!hatches) return hatches.error();
-  return DrawRequest{
-      *scene, *view, *options, *layout, *selections, *hatches, given.scene.sag.empty()};
+  return DrawRequest{*scene,
+                     *view,
+                     *options,
+                     *layout,
+                     *selections,
+                     *hatches,
+                     given.scene.sag.empty(),
+                     given.limits != kAutoLimits};
 }
 
 Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& request,
                                         const model::Scene& scene) {
-  const Result<std::vector<bool>> drawn = pick_any(session, scene, request.selections, "--select");
+  Result<std::vector<bool>> drawn = pick_any(session, scene, request.selections, "--select");
   if (!drawn) return drawn.error();
+  drawing::LayoutOptions layout = request.layout;
+  if (const Status status =
+          mind_far_objects(session, scene, request.view, !request.far_objects, *drawn, layout);
+      !status)
+    return status.error();
   auto hatches = hatches_of(session, scene, request.hatches);
   if (!hatches) return hatches.error();
   hlr::Options options = request.options;
   options.hatches = std::move(*hatches);
   if (request.sag_for_paper) {
     const Result<double> sag =
-        drawing::sag_for_paper(scene, *drawn, request.view, request.layout, session.context());
+        drawing::sag_for_paper(scene, *drawn, request.view, layout, session.context());
     if (!sag) return sag.error();
     options.sag_mm = *sag;
   }
@@ -322,7 +338,7 @@ Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& req
   if (!lines) return lines.error();
   print_diagnostics(session.console(), lines->diagnostics);
   const auto timer = session.step("layout");
-  return drawing::lay_out(*lines, *scene.model, request.layout, session.context());
+  return drawing::lay_out(*lines, *scene.model, layout, session.context());
 }
 
 Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
@@ -375,8 +391,9 @@ void add_view(CLI::App& command, DrawOptions& options) {
   command
       .add_option("--limits", options.limits,
                   "Draw this box of the model only: xmin,ymin,zmin,xmax,ymax,zmax in mm or with "
-                  "units, as 4.5m. What it cuts stays open; --section closes it")
-      ->type_name("BOX")
+                  "units, as 4.5m. What it cuts stays open; --section closes it. auto leaves out "
+                  "the few objects that lie so far from all others that they decide the scale")
+      ->type_name("BOX|auto")
       ->group("View");
   command
       .add_option("--section", options.sections,

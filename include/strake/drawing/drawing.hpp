@@ -99,6 +99,9 @@ struct LayoutOptions {
   /// Find pieces that lie on each other within the contact distance (3 µm at least) in the plane of
   /// the view, and draw one of them.
   bool remove_duplicates = true;
+  /// Objects that were left out of the selection because they lie far from all others; the drawing
+  /// names them.
+  std::vector<model::ObjectId> far_left_out = {};
 };
 
 /// A drawing without a format: SVG and JSON are both written from it.
@@ -123,6 +126,7 @@ struct NeutralDrawing {
   std::array<std::uint64_t, kLineStates> count{};  ///< number of lines by state
   hlr::Counters counters;
   hlr::Account account;
+  std::vector<model::ObjectId> far_left_out;  ///< as LayoutOptions has them
   Hash128 hash;  ///< of the view and of every line in the model; not of the sheet or of settings
 };
 

@@ -284,6 +284,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.sag_mm = drawing.sag_mm;
   out.weld_mm = drawing.weld_mm;
   out.counters = drawing.counters;
+  out.far_left_out = options.far_left_out;
   const Result<Hash128> hash = hash_of(drawing, model, context);
   if (!hash) return hash.error();
   out.hash = *hash;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/number.hpp"
+#include "geometry/numeric/trig.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/geometry/wide_int.hpp"
 
@@ -115,6 +117,16 @@ PlanePoint ViewPlane::seen(const geometry::Vec3l& grid) const {
   at.x *= at.magnification;
   at.y *= at.magnification;
   return at;
+}
+
+std::optional<PlaneBox> field_of_view(const hlr::View& view, const geometry::Vec3l& origin) {
+  const auto axes = paper_axes(view);
+  if (!axes || !axes->eye) return std::nullopt;
+  const PlanePoint target = ViewPlane(*axes, origin)(axes->eye->target);
+  const auto half =
+      geometry::sin_cos(view.perspective->field_of_view_deg / 2 * (std::numbers::pi / 180));
+  const double reach = axes->eye->distance_mm * half.sin / half.cos;
+  return PlaneBox{target.x - reach, target.x + reach, target.y - reach, target.y + reach};
 }
 
 std::span<const double> usual_scales() {

@@ -80,6 +80,11 @@ struct PlaneBox {
   }
 };
 
+/// Returns the square that a view in perspective shows of its plane, round the target, about a
+/// point of the model; nothing for other views and for those without axes.
+[[nodiscard]] std::optional<PlaneBox> field_of_view(const hlr::View& view,
+                                                    const geometry::Vec3l& origin);
+
 /// Returns the box of all that a finished run has within the limits, about a point of the model.
 /// Errors: cancelled.
 [[nodiscard]] Result<PlaneBox> plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes,

@@ -76,7 +76,7 @@ void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>
   out << ".strake .paper { fill: #fff; stroke: none; }\n</style>\n";
 }
 
-void write_metadata(BufferedWriter& out, const Sheet& sheet) {
+void write_metadata(BufferedWriter& out, const Sheet& sheet, const model::Model& model) {
   out << "<metadata>\n<sheet xmlns=\"urn:strake:sheet:1\">\n";
   for (const PlacedView& view : sheet.views) {
     const drawing::NeutralDrawing& drawing = view.drawing;
@@ -99,7 +99,14 @@ void write_metadata(BufferedWriter& out, const Sheet& sheet) {
       out << fmt::format(" {}=\"{}\"", name, drawing.count[s]);
     }
     if (!drawing.hidden_lines) out << " hidden-lines=\"not asked for\"";
-    out << fmt::format(" hidden-left-out=\"{}\"/>\n", view.ink.left_out);
+    out << fmt::format(" hidden-left-out=\"{}\"", view.ink.left_out);
+    if (drawing.far_left_out.empty()) {
+      out << "/>\n";
+      continue;
+    }
+    out << ">\n";
+    drawing::write_far_objects(out, drawing, model);
+    out << "</view>\n";
   }
   out << "</sheet>\n</metadata>\n";
 }
@@ -177,7 +184,7 @@ void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink
          "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
       << fmt::format("width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n", width, height)
       << "<title>" << xml_escaped(sheet.title) << "</title>\n";
-  write_metadata(out, sheet);
+  write_metadata(out, sheet, model);
   write_style(out, sheet, heights_of(sheet));
   out << "<g class=\"strake\">\n"
       << fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\"/>\n</g>\n", width, height);

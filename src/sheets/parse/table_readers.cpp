@@ -136,7 +136,15 @@ std::optional<double> ViewReader::scale(TableReader& table) {
 }
 
 void ViewReader::limits(TableReader& outer, ViewSpec& view) {
-  const Value* const value = outer.table("limits");
+  const Value* value = outer.value("limits");
+  if (value == nullptr) return;
+  view.leaves_far_objects_out = false;
+  view.view.limits.reset();
+  if (const auto* const word = std::get_if<std::string>(&value->held); word && *word == "auto") {
+    view.leaves_far_objects_out = true;
+    return;
+  }
+  value = outer.table("limits");
   if (value == nullptr) return;
   TableReader table(reading_, *value, "'limits' of " + outer.what());
   const auto lo = table.point_mm("min"), hi = table.point_mm("max");

@@ -40,6 +40,8 @@ struct ViewSpec {
   std::vector<settings::Chooser> select;  ///< empty: all objects
   std::vector<HatchSpec> hatches;         ///< the first that picks an object holds for it
   HiddenLines hidden = HiddenLines::off;
+  /// Objects that lie so far from all others that they decide the scale are left out.
+  bool leaves_far_objects_out = false;
   std::optional<double> scale;
   std::optional<PaperPoint> position;  ///< position of the anchor, or without one of the middle
   std::optional<geometry::Vec3l> anchor;
