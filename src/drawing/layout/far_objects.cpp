@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kBig = std::numeric_limits<double>::max();
 constexpr PlaneBox kNothing{kBig, -kBig, kBig, -kBig};
-/// Without the far ones a view is smaller by more than this.
-constexpr double kShrinks = 4;
+/// Without the far ones a view is smaller by more than this, the largest step between usual scales.
+constexpr double kShrinks = 2.5;
 
 /// Returns how many of so many boxes may be far.
 std::size_t most_far(std::size_t boxes) {

@@ -22,7 +22,7 @@ namespace strake::drawing {
 ///
 /// The size of a view is the larger of its width and height. Boxes are ordered by how far their
 /// farthest side lies from the medians of the middles of all boxes; of equal ones the first comes
-/// first. The fewest of that order are far without which the rest are less than a quarter as large,
+/// first. The fewest of that order are far without which the rest are less than 40 % as large,
 /// and each of which lies beside the rest, apart from it by at least the rest's size; then the same
 /// is asked of the rest. No more are far than the larger of a thousandth of all boxes, and ten or a
 /// fifth of them, whichever is less: of fewer than five none is.

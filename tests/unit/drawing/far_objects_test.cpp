@@ -31,12 +31,12 @@ TEST(FarBoxes, AFieldHasNone) {
     EXPECT_EQ(far_boxes(field(count)), Indices{}) << count;
 }
 
-TEST(FarBoxes, TheOneThatMakesTheViewMoreThanFourTimesAsLarge) {
+TEST(FarBoxes, TheOneThatMakesTheViewMoreThanTwoAndAHalfTimesAsLarge) {
   // The field is 190 x 90.
   auto boxes = field(50);
-  boxes.insert(boxes.begin() + 7, square(760, 0));
+  boxes.insert(boxes.begin() + 7, square(480, 0));
   EXPECT_EQ(far_boxes(boxes), Indices{7});
-  boxes[7] = square(740, 0);  // 750 <= 4 x 190
+  boxes[7] = square(460, 0);  // 470 <= 2.5 x 190
   EXPECT_EQ(far_boxes(boxes), Indices{});
   boxes[7] = square(0, -1000);
   EXPECT_EQ(far_boxes(boxes), Indices{7});
