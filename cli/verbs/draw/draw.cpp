@@ -22,6 +22,7 @@
 #include "core/output_format.hpp"
 #include "core/units.hpp"
 #include "drawing/drawing_writers.hpp"
+#include "drawing/layout/paper_size.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/drawing/write.hpp"
@@ -43,7 +44,7 @@ struct DrawOptions {
   SceneInput scene;
   PerspectiveOptions perspective;
   std::string sheet;
-  std::string view, direction, up, limits, scale, title;
+  std::string view, direction, up, limits, scale, paper, title;
   std::string stage, solver, global, culling, bucketing, hidden, intersections, own_polylines,
       smooth, sharp_angle, contact_distance;
   std::vector<std::string> select, outputs, sections, hatches;
@@ -206,6 +207,15 @@ Result<drawing::LayoutOptions> layout_options(const DrawOptions& given) {
     const Result<double> scale = quantity_option(given.scale, "--scale", parse_scale);
     if (!scale) return scale.error();
     options.scale = *scale;
+  }
+  if (!given.paper.empty()) {
+    const Result<drawing::PaperSize> paper = drawing::parse_paper(given.paper);
+    if (!paper) {
+      Error error = paper.error();
+      error.where = "--paper";
+      return error;
+    }
+    options.paper = *paper;
   }
   return options;
 }
@@ -479,7 +489,7 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
   for (const char* const other :
        {"--view", "--direction", "--eye", "--up", "--limits", "--section", "--hatch", "--select",
         "--hidden", "--visible-only", "--stage", "--intersections", "--own-polylines", "--smooth",
-        "--sharp-angle", "--contact-distance", "--scale", "--title"})
+        "--sharp-angle", "--contact-distance", "--scale", "--paper", "--title"})
     sheet->excludes(other);
 }
 
@@ -519,8 +529,16 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
       ->group("Running");
   command
       ->add_option("--scale", options->scale,
-                   "Paper to model, as 1:50 or 10:1 (default: the largest usual one that fits A3)")
+                   "Paper to model, as 1:50 or 10:1 (default: the largest usual one that fits the "
+                   "paper)")
       ->type_name("1:N")
+      ->group("Output");
+  command
+      ->add_option("--paper", options->paper,
+                   "A4, A3, A2, A1 or A0, with ,portrait for upright paper, or width x height as "
+                   "900mmx420mm; what does not fit it at a given --scale is an error (default: A3, "
+                   "and larger where --scale asks for it)")
+      ->type_name("SIZE")
       ->group("Output");
   command->add_option("--title", options->title, "Title of the sheet")->group("Output");
   add_output_option(*command, options->outputs, "Drawing", formats_of(drawing::drawing_writers()));
@@ -534,6 +552,7 @@ Examples:
       --limits 0,-5000,0,20000,5000,8000
   strake draw ship.glb --select 'PIP-*' --view top -o pipes.svg -o pipes.json
   strake draw ship.glb --view top --section z=4500mm -o section.svg
+  strake draw ship.glb --view top --paper A1 -o plan.svg
   strake draw ship.glb --eye 2000,-9000,6000 --target 9000,0,3000 -o seen.svg
   strake draw ship.glb --sheet deck.toml -o deck.svg)");
   return {command, [options](Session& session) { return run_draw(session, *options); }};

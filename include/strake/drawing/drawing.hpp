@@ -90,12 +90,20 @@ struct Placement {
   PaperPoint at;  ///< … and where that point lies. Views that share the anchor are aligned.
 };
 
+/// A size of paper, millimetres.
+struct PaperSize {
+  double width_mm = 420, height_mm = 297;
+};
+
 struct LayoutOptions {
   std::string view_name = "view";
   std::string title = {};                      ///< title of the sheet; empty: from the view's name
-  std::optional<double> scale = std::nullopt;  ///< model mm per paper mm; none: chosen to fit A3
+  std::optional<double> scale = std::nullopt;  ///< model mm per paper mm; none: chosen to fit
+  /// The paper, which the view must fit. None: A3 where the scale is chosen, otherwise the smallest
+  /// of A3 to A0 that the view fits, or as large a sheet as it needs.
+  std::optional<PaperSize> paper = std::nullopt;
   double margin_mm = 10;
-  std::optional<Placement> placement = std::nullopt;  ///< instead of scale, sheet and margin
+  std::optional<Placement> placement = std::nullopt;  ///< instead of scale, paper and margin
   /// Find pieces that lie on each other within the contact distance (3 µm at least) in the plane of
   /// the view, and draw one of them.
   bool remove_duplicates = true;
@@ -144,6 +152,7 @@ struct NeutralDrawing {
 /// Puts a finished hidden-line run on paper: chooses the axes from direction and up, the scale and
 /// the sheet. Objects whose visible lines are all duplicates become Fate::coincident. The result is
 /// deterministic: it uses + - * / and sqrt only.
+/// Errors: usage, where the view does not fit its paper at the scale that was given.
 [[nodiscard]] Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& model,
                                              const LayoutOptions& options,
                                              const parallel::Context& context);

@@ -261,6 +261,8 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
     if (!(std::max(sheet.width_mm, sheet.height_mm) <= kFarthestPaperMm))
       return Error{ErrorCode::usage, "the sheet would be more than 1,000 km wide", "",
                    "give a smaller --scale, or let it be chosen"};
+    if (options.paper)
+      if (const Status status = check_fit(*box, sheet, options); !status) return status.error();
     placement = in_the_middle(*box, sheet, drawing.origin);
   }
   const ViewPlane plane(*axes, placement.anchor);

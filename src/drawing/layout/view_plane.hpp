@@ -94,12 +94,22 @@ struct PlaneBox {
 /// Returns the usual scales of ISO 5455, 50:1 to 1:1000000000, the largest first.
 [[nodiscard]] std::span<const double> usual_scales();
 
+/// Returns the intermediate scale between a usual one and the next larger, where the two differ by
+/// 2.5 and both reduce: 1:2.5 for 1:5, 1:25 for 1:50 … It is for what would leave half the room
+/// empty both ways at the usual one (ISO 5455 has intermediate scales for exceptions).
+[[nodiscard]] std::optional<double> intermediate_scale(double usual);
+
 /// Returns a scale as text: "1:50", "2:1".
 [[nodiscard]] std::string scale_text(double scale);
 
-/// Returns the sheet on which a box of this size is drawn: A3 where it fits, otherwise the next A
-/// size, otherwise as large as it must be.
+/// Returns the sheet on which a box of this size is drawn: the given paper; or else A3 where it
+/// fits, otherwise the next A size, otherwise as large as it must be.
 [[nodiscard]] Sheet choose_sheet(const PlaneBox& box, const LayoutOptions& options);
+
+/// Returns nothing where a box fits its sheet; otherwise, as an error, by how much it does not, and
+/// the largest scale that fits.
+[[nodiscard]] Status check_fit(const PlaneBox& box, const Sheet& sheet,
+                               const LayoutOptions& options);
 
 /// Height of the strip at the foot of a sheet that holds the title, mm.
 inline constexpr double kTitleStrip = 8;
