@@ -70,6 +70,9 @@ USAGE = [
     *behind(['draw a.obj -o x.svg --scale'], [
         ('100', 'write 1:100'), ('1/50', '1:50'), ('0:1', '1:50'), ('1:-5', '1:50'), ('1:1e300', '1:50'), ('big', '1:50'),
         ("''", 'the value is empty')]),
+    *behind(['draw a.obj -o x.svg --paper'], [
+        ('A5', 'A4, A3, A2, A1 or A0'), ('A3,up', 'neither landscape nor portrait'), ('900', 'width x height'),
+        ('9x9', 'between 100mm and 20m'), ("'900mm x wide'", 'no length of paper'), ("''", 'the value is empty')]),
     *behind(['draw a.obj -o x.svg --bucketing'], [
         ('many', 'off, auto, or a number'), ('0', 'off, auto, or a number'), ('-1', 'off, auto, or a number'),
         ("''", 'the value is empty')]),

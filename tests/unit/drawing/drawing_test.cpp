@@ -204,11 +204,11 @@ TEST(Layout, ThePaperDecidesTheScale) {
   EXPECT_EQ(on("A1,portrait", 8).scale_text, "1:2");
   EXPECT_EQ(on("A1,portrait", 8).height_mm, 841);
   EXPECT_EQ(on("A4", 8).scale_text, "1:5");
-  EXPECT_EQ(on("2000x500", 19).scale_text, "1:1");
+  EXPECT_EQ(on("2000x500", 9).scale_text, "1:1");
   // In the middle of what is above the title.
   LayoutOptions options;
   options.paper = PaperSize{1000, 500};
-  EXPECT_EQ(laid_out(rectangle(), options).lines[0].a_paper, (PaperPoint{50, 471}));
+  EXPECT_EQ(laid_out(rectangle(), options).lines[0].a_paper, (PaperPoint{250, 371}));
 }
 
 TEST(Layout, WhatDoesNotFitItsPaperIsAnError) {
