@@ -191,10 +191,20 @@ class Composer {
       if (!laid_out) return laid_out.error();
       drawings_[v] = {};
       sheet_.views.push_back(
-          {spec.name, spec.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}});
+          {spec.name, spec.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}, {}});
+      frame_view(sheet_.views.back());
       check_lines(spec, sheet_.views.back().drawing);
     }
     return {};
+  }
+
+  static void frame_view(PlacedView& view) {
+    if (!view.drawing.frame) return;
+    const auto& [left, top, right, bottom] = *view.drawing.frame;
+    view.frame.paths.push_back(
+        {LineClass::frame_thin,
+         {{left, top}, {right, top}, {right, bottom}, {left, bottom}, {left, top}},
+         false});
   }
 
   /// Checks that no view lies far off the sheet, where coordinates would not be micrometres.
@@ -276,7 +286,7 @@ class Composer {
   void caption(std::size_t v, double sheet_scale) {
     PlacedView& view = sheet_.views[v];
     const PaperBox& box = places_[v].lines;
-    const GridMargin rim = grid_margin(what_.grid, what_.views[v]);
+    const GridMargin rim = margin_of(what_.grid, what_.views[v]);
     const double x = rounded_paper((box.left + box.right) / 2);
     const Lettering letters = lettering_of(what_);
     double y = box.bottom + rim.other_mm + letters.gap_mm;
@@ -324,6 +334,9 @@ class Composer {
         occupancy.add_line(line.a_paper, line.b_paper);
       for (const Path& path : view.grid.paths)
         occupancy.add_line(path.points.front(), path.points.back());
+      for (const Path& path : view.frame.paths)
+        for (std::size_t p = 1; p < path.points.size(); ++p)
+          occupancy.add_line(path.points[p - 1], path.points[p]);
       for (const Marks* marks : {&view.caption, &view.grid}) {
         for (const Text& text : marks->texts) occupancy.block(box_of(text));
         for (const Circle& c : marks->circles)

@@ -60,6 +60,11 @@ struct Line {
   PaperPoint a_paper, b_paper;  ///< multiples of a micrometre of paper
 };
 
+/// A frame on the sheet, mm; y points down.
+struct PaperFrame {
+  double left = 0, top = 0, right = 0, bottom = 0;
+};
+
 /// An ellipse on the sheet: centre + u cos t + v sin t, with conjugate half-diameters.
 struct PaperCurve {
   PaperPoint centre, u, v;
@@ -97,7 +102,7 @@ struct PaperSize {
 
 struct LayoutOptions {
   std::string view_name = "view";
-  std::string title = {};                      ///< title of the sheet; empty: from the view's name
+  std::string title = {};  ///< of the sheet; empty: the view's name, and its sections
   std::optional<double> scale = std::nullopt;  ///< model mm per paper mm; none: chosen to fit
   /// The paper, which the view must fit. None: A3 where the scale is chosen, otherwise the smallest
   /// of A3 to A0 that the view fits, or as large a sheet as it needs.
@@ -131,6 +136,9 @@ struct NeutralDrawing {
   Sheet sheet;
   std::vector<Line> lines;
   PaperCurves curves;
+  /// Round the lines of a view in perspective: where its field of view ends, or beside the lines
+  /// that end before.
+  std::optional<PaperFrame> frame;
   std::array<std::uint64_t, kLineStates> count{};  ///< number of lines by state
   hlr::Counters counters;
   hlr::Account account;

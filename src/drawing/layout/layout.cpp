@@ -15,6 +15,7 @@
 
 #include "drawing/layout/duplicates.hpp"
 #include "drawing/layout/view_plane.hpp"
+#include "drawing/layout/view_title.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/for_each.hpp"
@@ -168,6 +169,30 @@ Placement in_the_middle(const PlaneBox& box, const Sheet& sheet, const Vec3l& or
            (sheet.height_mm - kTitleStrip) / 2 + (box.bottom + box.height() / 2) / sheet.scale}};
 }
 
+/// Returns the frame round the lines of a view in perspective: where the field of view ends, or a
+/// little beside the lines that end before; nothing for other views and without lines.
+std::optional<PaperFrame> frame_of(const NeutralDrawing& drawing, const Placement& placement) {
+  const auto field = field_of_view(drawing.view, placement.anchor);
+  if (!field) return std::nullopt;
+  PaperFrame frame{kFarthestPaperMm, kFarthestPaperMm, -kFarthestPaperMm, -kFarthestPaperMm};
+  for (const Line& line : drawing.lines) {
+    if (line.state == LineState::clipped) continue;
+    for (const PaperPoint& end : {line.a_paper, line.b_paper}) {
+      frame.left = std::min(frame.left, end.x - kFrameGapMm);
+      frame.top = std::min(frame.top, end.y - kFrameGapMm);
+      frame.right = std::max(frame.right, end.x + kFrameGapMm);
+      frame.bottom = std::max(frame.bottom, end.y + kFrameGapMm);
+    }
+  }
+  if (frame.left > frame.right) return std::nullopt;
+  const double scale = placement.sheet.scale;
+  const PaperPoint& at = placement.at;
+  return PaperFrame{paper_coordinate(std::max(frame.left, at.x + field->left / scale)),
+                    paper_coordinate(std::max(frame.top, at.y - field->top / scale)),
+                    paper_coordinate(std::min(frame.right, at.x + field->right / scale)),
+                    paper_coordinate(std::min(frame.bottom, at.y - field->bottom / scale))};
+}
+
 /// Makes a line for each piece, or one for each of its intervals if it has any: covered ones are
 /// duplicates.
 template <class MakeLine>
@@ -274,7 +299,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   NeutralDrawing out;
   out.sheet = placement.sheet;
   out.view_name = options.view_name;
-  out.title = options.title.empty() ? options.view_name : options.title;
+  out.title = options.title.empty() ? title_of(options.view_name, drawing.view) : options.title;
   out.view = drawing.view;
   out.stage = drawing.options.stage;
   out.hidden_lines = drawing.options.hidden;
@@ -313,6 +338,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
       context);
   if (!lines) return lines.error();
   out.lines = std::move(*lines);
+  out.frame = frame_of(out, placement);
   out.account = drawing.account;
   if (const Status status = count_lines(out, context); !status) return status.error();
   return out;

@@ -114,6 +114,9 @@ struct PlaneBox {
 /// Height of the strip at the foot of a sheet that holds the title, mm.
 inline constexpr double kTitleStrip = 8;
 
+/// How far beside the lines of a view in perspective its frame lies at most, mm.
+inline constexpr double kFrameGapMm = 3;
+
 /// Rounds to the nearest whole micrometre of paper.
 [[nodiscard]] double rounded_paper(double mm);
 

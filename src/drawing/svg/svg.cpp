@@ -131,6 +131,17 @@ void write_head(BufferedWriter& out, const NeutralDrawing& drawing, const Ink& i
   out << "</drawing>\n</metadata>\n";
 }
 
+/// Writes the frame of a view in perspective, where it has one.
+void write_frame(BufferedWriter& out, const NeutralDrawing& drawing) {
+  if (!drawing.frame) return;
+  const auto& [left, top, right, bottom] = *drawing.frame;
+  out << "<g inkscape:groupmode=\"layer\" inkscape:label=\"Frame\" id=\"view-frame\" "
+         "class=\"frame\">\n<path d=\"";
+  append_svg_chain(out.text(),
+                   {{left, top}, {right, top}, {right, bottom}, {left, bottom}, {left, top}});
+  out << "\"/>\n</g>\n";
+}
+
 void write_title(BufferedWriter& out, const NeutralDrawing& drawing) {
   const Sheet& sheet = drawing.sheet;
   const double x = sheet.width_mm - 10, y = sheet.height_mm - 6;
@@ -157,6 +168,7 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
   write_layers(out, drawing.curves, ink, model, "");
+  write_frame(out, drawing);
   out << "</g>\n";
   write_title(out, drawing);
   out << "</svg>\n";

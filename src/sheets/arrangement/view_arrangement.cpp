@@ -333,7 +333,7 @@ class Placer {
     const ViewSpec& view = what_.views[v];
     UnplacedView place;
     place.slot = view.slot;
-    const GridMargin rim = grid_margin(what_.grid, view);
+    const GridMargin rim = margin_of(what_.grid, view);
     place.left_mm = std::max(rim.left_mm, rim.other_mm);
     place.top_mm = std::max(rim.top_mm, rim.other_mm);
     place.right_mm = place.bottom_mm = rim.other_mm;
@@ -426,6 +426,11 @@ class Placer {
 };
 
 }  // namespace
+
+GridMargin margin_of(const GridSpec& grid, const ViewSpec& view) {
+  constexpr double kGap = drawing::kFrameGapMm;
+  return view.view.perspective ? GridMargin{kGap, kGap, kGap} : grid_margin(grid, view);
+}
 
 Lettering lettering_of(const SheetSpec& what) {
   if (std::max(what.width_mm, what.height_mm) > 420) return {};

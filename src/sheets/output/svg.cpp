@@ -156,6 +156,7 @@ void write_view(BufferedWriter& out, const PlacedView& view, const model::Model&
       << xml_escaped(view.name) << "\" data-view=\"" << xml_escaped(view.name) << "\" data-scale=\""
       << view.drawing.sheet.scale_text << "\">\n";
   drawing::write_layers(out, view.drawing.curves, view.ink, model, id + "-");
+  write_layer(out, view.frame, id + "-frame", "Frame");
   write_layer(out, view.grid, id + "-grid", "Grid");
   write_layer(out, view.tags, id + "-tags", "Tags");
   write_layer(out, view.caption, id + "-title", "Title");

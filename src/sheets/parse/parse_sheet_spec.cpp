@@ -10,6 +10,7 @@
 #include "core/units.hpp"
 #include "drawing/layout/paper_size.hpp"
 #include "drawing/layout/view_plane.hpp"
+#include "drawing/layout/view_title.hpp"
 #include "settings/table_reader.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/parse/table_readers.hpp"
@@ -71,6 +72,7 @@ class Parser {
     if (found_.views.size() > kMostViews)
       reading_.fault({1, 1}, "a sheet of more than 100 views", "make several sheets of it");
     check_positions();
+    name_sections();
     MarkReader marks(reading_, sets_, found_);
     for (const Value* value : top_.tables("tag")) marks.tag(*value);
     if (const Value* const value = top_.table("grid")) marks.grid(*value);
@@ -310,7 +312,7 @@ class Parser {
     }
     TableReader table(reading_, *value, what);
     view->where = place(value->at) + ": " + what;
-    if (const auto title = table.text("title")) view->title = *title;
+    if (const auto title = table.text("title")) entitle(*view, *title);
     views_.content(table, *view);
   }
 
@@ -321,7 +323,8 @@ class Parser {
     claim(view.name, table.at());
     table.call(view.name);
     view.where = place(value.at) + ": " + table.what();
-    view.title = table.text("title").value_or(view.name);
+    view.title = view.name;
+    if (const auto title = table.text("title")) entitle(view, *title);
     views_.seen_from(table, view);
     view.scale = ViewReader::scale(table);
     if (const auto at = table.lengths_mm("position", 2, "[\"150mm\", \"120mm\"]"))
@@ -346,6 +349,17 @@ class Parser {
     const auto axes = drawing::paper_axes(view);
     if (!axes || !axes->eye) return true;
     return dot(axes->toward, geometry::to_mm(axes->eye->at - point)) >= axes->eye->near_mm;
+  }
+
+  static void entitle(ViewSpec& view, const std::string& title) {
+    view.title = title;
+    view.own_title = true;
+  }
+
+  /// Has the views that the file gives no title say which sections they are.
+  void name_sections() {
+    for (ViewSpec& view : found_.views)
+      if (!view.own_title) view.title = drawing::title_of(view.title, view.view);
   }
 
   void add(ViewSpec view, SourcePosition at) {

@@ -33,7 +33,8 @@ struct HatchSpec {
 
 struct ViewSpec {
   std::string name, title;
-  std::string where;  ///< "deck.toml, line 7: [[view]] 'plan'"
+  bool own_title = false;  ///< the file says the title
+  std::string where;       ///< "deck.toml, line 7: [[view]] 'plan'"
   ViewSlot slot = ViewSlot::none;
   hlr::View view;
   hlr::Options options;
