@@ -16,6 +16,7 @@
 
 #include "drawing/layout/paper_size.hpp"
 #include "drawing/layout/view_plane.hpp"
+#include "drawing/layout/view_title.hpp"
 #include "drawing/svg/svg_path.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/drawing/write.hpp"
@@ -247,6 +248,60 @@ TEST(Paper, SizesAsPeopleWriteThem) {
     EXPECT_EQ(paper.error().code, ErrorCode::usage);
     EXPECT_NE(paper.error().mend.find("900mmx420mm"), std::string::npos) << wrong;
   }
+}
+
+TEST(Layout, ASectionIsNamedWhereNoTitleIsGiven) {
+  const auto title = [](std::vector<hlr::Section> sections, Vec3l direction = {0, 0, 1}) {
+    hlr::View view;
+    view.direction = direction;
+    view.sections = std::move(sections);
+    return title_of("top", view);
+  };
+  const hlr::Section deck{{0, 0, 1}, {0, 0, 4'500 * kMm}};
+  EXPECT_EQ(title({}), "top");
+  EXPECT_EQ(title({deck}), "SECTION z = 4.5 m");
+  EXPECT_EQ(title({deck}, {0, 0, -1}), "SECTION z = 4.5 m");
+  EXPECT_EQ(title({deck}, {1, -1, 1}), "top, SECTION z = 4.5 m");
+  EXPECT_EQ(title({deck, {{-1, 0, 0}, {350'125, 0, 0}}}), "top, SECTION z = 4.5 m, x = 350.125 mm");
+  EXPECT_EQ(title({{{0, 0, -1}, {}}}), "SECTION z = 0 m");
+  EXPECT_EQ(title({{{0, 0, 1}, {0, 0, -100'000'000 * kMm}}}), "SECTION z = -100000 m");
+  // A plane across no axis, at a grid point beside its distance from the origin.
+  const auto askew = parse_section("3,4,0>12500mm", {0, 0, 1});
+  ASSERT_TRUE(askew);
+  EXPECT_EQ(title({askew->section}, {3, 4, 0}), "SECTION 3,4,0 = 12.5 m");
+  hlr::Drawing cut = rectangle();
+  cut.view.sections = {deck};
+  LayoutOptions options;
+  options.view_name = "top";
+  EXPECT_EQ(laid_out(cut, options).title, "SECTION z = 4.5 m");
+  EXPECT_NE(svg_of(laid_out(cut, options)).find(">SECTION z = 4.5 m</text>"), std::string::npos);
+  options.title = "DECK <1>";
+  EXPECT_EQ(laid_out(cut, options).title, "DECK <1>");
+  EXPECT_NE(svg_of(laid_out(cut, options)).find(">DECK &lt;1&gt;</text>"), std::string::npos);
+}
+
+TEST(Layout, APerspectiveHasAFrameWhereItEnds) {
+  // 1 m before the plane: the field of view is 2 m wide there, 200 mm on paper.
+  hlr::Drawing drawing = from_top({piece(0, {-1000 * kMm, 0, 0}, {200 * kMm, 100 * kMm, 0}),
+                                   piece(1, {0, 0, 0}, {5000 * kMm, 0, 0}, State::clipped)});
+  LayoutOptions options;
+  options.scale = 10;
+  EXPECT_FALSE(laid_out(drawing, options).frame);
+  EXPECT_EQ(svg_of(laid_out(drawing, options)).find("view-frame"), std::string::npos);
+  drawing.view.perspective = hlr::Perspective{{0, 0, 1000 * kMm}, {0, 0, 0}};
+  const NeutralDrawing seen = laid_out(drawing, options);
+  ASSERT_TRUE(seen.frame);
+  EXPECT_EQ(seen.lines[0].a_paper, (PaperPoint{150, 149.5}));
+  // At the left the field ends; the other sides are beside the lines.
+  EXPECT_EQ(seen.frame->left, 150);
+  EXPECT_EQ(seen.frame->top, 136.5);
+  EXPECT_EQ(seen.frame->right, 273);
+  EXPECT_EQ(seen.frame->bottom, 152.5);
+  EXPECT_NE(svg_of(seen).find("id=\"view-frame\" class=\"frame\">\n<path d=\"M150 136.5L273 136.5 "
+                              "273 152.5 150 152.5Z\"/>"),
+            std::string::npos);
+  drawing.pieces.clear();
+  EXPECT_FALSE(laid_out(drawing, options).frame);
 }
 
 /// A cylinder along x, so long.
