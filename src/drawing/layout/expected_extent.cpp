@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -18,9 +17,6 @@ namespace {
 
 using geometry::Box3l;
 using geometry::Vec3l;
-
-constexpr double kBig = std::numeric_limits<double>::max();
-constexpr PlaneBox kNothing{kBig, -kBig, kBig, -kBig};
 
 /// The scale of models larger than this is so small that boxes give it well enough.
 constexpr double kLargeMm = 20'000;
@@ -53,7 +49,7 @@ class PaperExtent {
 
   [[nodiscard]] Result<PlaneBox> of_all(By by, const parallel::Context& context) const {
     return parallel::reduce(
-        context, {.name = "expected extent", .n = scene_.bodies.size(), .grain = 1024}, kNothing,
+        context, {.name = "expected extent", .n = scene_.bodies.size(), .grain = 1024}, kNoPlaneBox,
         [&](PlaneBox& part, std::size_t b) { include(part, scene_.bodies[b], by); },
         [](PlaneBox& into, const PlaneBox& part) { into.include(part); });
   }
@@ -62,12 +58,12 @@ class PaperExtent {
     const auto of_bodies = parallel::transform(
         context, {.name = "expected extents", .n = scene_.bodies.size(), .grain = 1024},
         [&](std::size_t b) {
-          PlaneBox box = kNothing;
+          PlaneBox box = kNoPlaneBox;
           include(box, scene_.bodies[b], By::boxes);
           return box;
         });
     if (!of_bodies) return of_bodies.error();
-    std::vector<PlaneBox> boxes(scene_.model->objects.size(), kNothing);
+    std::vector<PlaneBox> boxes(scene_.model->objects.size(), kNoPlaneBox);
     for (std::size_t b = 0; b < of_bodies->size(); ++b)
       boxes[model::index(scene_.bodies[b].object)].include((*of_bodies)[b]);
     return boxes;
@@ -133,7 +129,7 @@ Result<std::vector<PlaneBox>> expected_boxes(const model::Scene& scene,
                                              const parallel::Context& context) {
   if (const Status status = hlr::check_drawn(scene, drawn); !status) return status.error();
   const auto measure = PaperExtent::of(scene, drawn, view, {});
-  if (!measure) return std::vector<PlaneBox>(scene.model->objects.size(), kNothing);
+  if (!measure) return std::vector<PlaneBox>(scene.model->objects.size(), kNoPlaneBox);
   return measure->of_objects(context);
 }
 

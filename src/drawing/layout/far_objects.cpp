@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 #include "core/number.hpp"
@@ -16,8 +15,6 @@ namespace strake::drawing {
 
 namespace {
 
-constexpr double kBig = std::numeric_limits<double>::max();
-constexpr PlaneBox kNothing{kBig, -kBig, kBig, -kBig};
 /// Without the far ones a view is smaller by more than this, the largest step between usual scales.
 constexpr double kShrinks = 2.5;
 
@@ -76,7 +73,7 @@ class FarthestFirst {
  private:
   /// Returns the box of all but the first n, for each n that may be far.
   [[nodiscard]] std::vector<PlaneBox> without_the_first() const {
-    std::vector<PlaneBox> rest(most_ + 1, kNothing);
+    std::vector<PlaneBox> rest(most_ + 1, kNoPlaneBox);
     for (std::size_t n = most_; n < order_.size(); ++n) rest[most_].include(boxes_[at(n)]);
     for (std::size_t n = most_; n-- > 0;) {
       rest[n] = rest[n + 1];
@@ -121,11 +118,11 @@ Result<FarObjects> find_far_objects(const model::Scene& scene, const std::vector
   const std::vector<std::size_t> far = far_boxes(*boxes);
   if (far.empty()) return found;
   const PlaneBox farthest = (*boxes)[far.front()];
-  found.whole = found.rest = kNothing;
+  found.whole = found.rest = kNoPlaneBox;
   for (const PlaneBox& box : *boxes) found.whole.include(box);
   for (const std::size_t object : far) {
     found.objects.push_back(model::ObjectId{static_cast<std::uint32_t>(object)});
-    (*boxes)[object] = kNothing;
+    (*boxes)[object] = kNoPlaneBox;
   }
   for (const PlaneBox& box : *boxes) found.rest.include(box);
   found.distance_mm = gap_between(farthest, found.rest);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -250,11 +249,10 @@ const PaperCurve* PaperCurves::of(const Line& line) const {
 
 Result<PlaneBox> plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes,
                               const Vec3l& origin, const parallel::Context& context) {
-  constexpr double kBig = std::numeric_limits<double>::max();
   const ViewPlane plane(axes, origin);
   Result<PlaneBox> box = parallel::reduce(
       context, {.name = "extent on the plane", .n = drawing.pieces.size(), .grain = 65536},
-      PlaneBox{kBig, -kBig, kBig, -kBig},
+      kNoPlaneBox,
       [&](PlaneBox& part, std::size_t i) {
         const hlr::EdgePiece& piece = drawing.pieces[i];
         if (piece.state == hlr::State::clipped) return;

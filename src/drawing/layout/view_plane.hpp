@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -79,6 +80,11 @@ struct PlaneBox {
     top = std::max(top, other.top);
   }
 };
+
+/// The box that holds nothing, and that any other makes its own when it is included.
+inline constexpr PlaneBox kNoPlaneBox{
+    std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest(),
+    std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
 
 /// Returns the square that a view in perspective shows of its plane, round the target, about a
 /// point of the model; nothing for other views and for those without axes.

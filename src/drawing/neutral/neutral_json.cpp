@@ -131,8 +131,8 @@ void write_defects(BufferedWriter& out, const NeutralDrawing& drawing, const mod
 
 /// Writes the objects that were left out because they lie far from all others, where there are
 /// such.
-void write_far_objects(BufferedWriter& out, const NeutralDrawing& drawing,
-                       const model::Model& model) {
+void write_far_left_out(BufferedWriter& out, const NeutralDrawing& drawing,
+                        const model::Model& model) {
   const char* separator = "\"far_objects\":[\n";
   for (const model::ObjectId object : drawing.far_left_out) {
     out << separator;
@@ -184,7 +184,7 @@ void write_view_head(BufferedWriter& out, const NeutralDrawing& drawing, const m
   write_view(out, drawing);
   write_counts(out, drawing);
   write_defects(out, drawing, model);
-  write_far_objects(out, drawing, model);
+  write_far_left_out(out, drawing, model);
   write_cut_files(out, model);
   out << "\"hash\":\"" << drawing.hash.text() << "\",\n\"objects\":[";
   for (const model::ObjectId o : listed.objects()) {

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -75,9 +74,8 @@ TEST(FarBoxes, WhatReachesFarIsNotFar) {
 }
 
 TEST(FarBoxes, EmptyBoxesTakeNoPart) {
-  constexpr double kBig = std::numeric_limits<double>::max();
   auto boxes = field(50);
-  boxes.insert(boxes.begin(), PlaneBox{kBig, -kBig, kBig, -kBig});
+  boxes.insert(boxes.begin(), kNoPlaneBox);
   boxes.push_back(square(1e9, 0));
   EXPECT_EQ(far_boxes(boxes), Indices{51});
 }
