@@ -103,7 +103,7 @@ class Sheet(Scenario):
         self.assertEqual({view.get('objects') for view in views}, {'5'})
         self.assertIn(views[0].get('scale'), {'1:25', '1:50'})
         self.small('[[view]]\nname = "v"\nlimits = "none"\n')
-        self.assertIn("'limits' is a text, not a table", self.draw().stderr)
+        self.assertIn("'limits' of [[view]] 'v' is neither a box nor \"auto\"", self.draw().stderr)
 
     def test_hidden_lines_and_the_solver(self):
         self.small('arrangement = "first-angle"\n[defaults]\nhidden = "dashed"\n')
@@ -160,7 +160,7 @@ class Sheet(Scenario):
 
     def test_a_sheet_says_itself_what_options_say_otherwise(self):
         self.small('arrangement = "first-angle"\n')
-        for more in (['--view', 'top'], ['--scale', '1:50'], ['--select', 'a'], ['--hidden', 'all'], ['--title', 'x'],
+        for more in (['--view', 'top'], ['--scale', '1:50'], ['--paper', 'A1'], ['--select', 'a'], ['--hidden', 'all'], ['--title', 'x'],
                      ['--json'], ['-o', 's.json'], ['-o', 's.toml']):
             self.assertEqual(self.draw(*more).returncode, 2, more)
         self.assertEqual(self.run_strake('draw', 'm.obj', '--sheet', 's.toml').returncode, 2)

@@ -236,6 +236,7 @@ SHEETS = [
     (VIEW + 'direction = "askew"\n', 'line 3', '"top", "bottom"'), (VIEW + 'scale = "100"\n', 'line 3', '1:100'),
     (VIEW + 'scale = 100\n', 'line 3', '1:50'), (VIEW + 'select = "name ="\n', 'line 3', 'column 7'),
     (VIEW + 'sections = ["z"]\n', 'line 3', 'z>4500mm'), (VIEW + 'hidden = "dotted"\n', 'line 3', 'dashed'),
+    (VIEW + 'limits = "all"\n', 'line 3', 'neither a box nor "auto"'),
     (VIEW + 'limits = { min = [0, 0, 0] }\n', 'line 3', 'both corners'), (VIEW + 'position = ["1mm"]\n', 'line 3', 'list of 2'),
     (VIEW + 'sharp_angle = "200deg"\n', 'line 3', 'angle'), (VIEW + 'hatch = { angel = "9deg" }\n', 'line 3', 'angle'),
     (VIEW + 'titel = "x"\n', 'line 3', 'title'), (VIEW + '[[tag]]\ntext = "x"\n', 'line 3', 'select'),
