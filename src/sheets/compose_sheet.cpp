@@ -14,6 +14,7 @@
 #include "settings/text_file.hpp"
 #include "sheets/annotation/tags.hpp"
 #include "sheets/annotation/title_block.hpp"
+#include "sheets/arrangement/far_objects_of_views.hpp"
 #include "sheets/arrangement/grid_lines.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/output/line_styles.hpp"
@@ -123,6 +124,7 @@ class Composer {
       chosen.back().hatches = hatches_of(view);
       chosen.back().uncut = next_picks(view.uncut.size());
     }
+    if (const Status status = mind_far(chosen); !status) return status;
     const Result<std::vector<double>> sags =
         options_.sag_for_paper ? sags_for_paper(chosen) : std::vector<double>{};
     if (!sags) return sags.error();
@@ -145,6 +147,15 @@ class Composer {
       sheet_.diagnostics.append(lines->diagnostics);
       drawings_.push_back(std::move(*lines));
     }
+    return {};
+  }
+
+  Status mind_far(std::vector<Chosen>& chosen) {
+    std::vector<std::vector<bool>*> drawn;
+    for (Chosen& of_view : chosen) drawn.push_back(&of_view.drawn);
+    auto left_out = mind_far_objects(what_, scene_, drawn, sheet_.diagnostics, context_);
+    if (!left_out) return left_out.error();
+    far_left_out_ = std::move(*left_out);
     return {};
   }
 
@@ -179,14 +190,25 @@ class Composer {
       options.view_name = spec.name;
       options.title = spec.title;
       options.placement = placement(v);
+      options.far_left_out = far_left_out_[v];
       auto laid_out = drawing::lay_out(drawings_[v], *scene_.model, options, context_);
       if (!laid_out) return laid_out.error();
       drawings_[v] = {};
       sheet_.views.push_back(
-          {spec.name, spec.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}});
+          {spec.name, spec.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}, {}});
+      frame_view(sheet_.views.back());
       check_lines(spec, sheet_.views.back().drawing);
     }
     return {};
+  }
+
+  static void frame_view(PlacedView& view) {
+    if (!view.drawing.frame) return;
+    const auto& [left, top, right, bottom] = *view.drawing.frame;
+    view.frame.paths.push_back(
+        {LineClass::frame_thin,
+         {{left, top}, {right, top}, {right, bottom}, {left, bottom}, {left, top}},
+         false});
   }
 
   /// Checks that no view lies far off the sheet, where coordinates would not be micrometres.
@@ -268,7 +290,7 @@ class Composer {
   void caption(std::size_t v, double sheet_scale) {
     PlacedView& view = sheet_.views[v];
     const PaperBox& box = places_[v].lines;
-    const GridMargin rim = grid_margin(what_.grid, what_.views[v]);
+    const GridMargin rim = margin_of(what_.grid, what_.views[v]);
     const double x = rounded_paper((box.left + box.right) / 2);
     const Lettering letters = lettering_of(what_);
     double y = box.bottom + rim.other_mm + letters.gap_mm;
@@ -362,7 +384,8 @@ class Composer {
   const parallel::Context& context_;
   SheetArea room_;
   Picks picks_;
-  std::size_t asked_ = 0;  ///< how many of them have been used
+  std::size_t asked_ = 0;                                   ///< how many of them have been used
+  std::vector<std::vector<model::ObjectId>> far_left_out_;  ///< of each view
   std::vector<hlr::Drawing> drawings_;
   std::vector<ViewPlace> places_;
   Sheet sheet_;

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/run/load.hpp"
@@ -17,10 +18,12 @@
 #include "cli/verbs/draw/draw_options.hpp"
 #include "cli/verbs/draw/draw_sheet.hpp"
 #include "cli/verbs/draw/draw_summary.hpp"
+#include "cli/verbs/draw/far_objects.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
 #include "core/units.hpp"
 #include "drawing/drawing_writers.hpp"
+#include "drawing/layout/paper_size.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/drawing/write.hpp"
@@ -31,6 +34,9 @@ namespace strake::cli {
 
 namespace {
 
+/// --limits that leave far objects out.
+constexpr std::string_view kAutoLimits = "auto";
+
 /// The largest sag; it is less where that would show on paper.
 constexpr double kSagMm = 0.5;
 
@@ -39,7 +45,7 @@ struct DrawOptions {
   SceneInput scene;
   PerspectiveOptions perspective;
   std::string sheet;
-  std::string view, direction, up, limits, scale, title;
+  std::string view, direction, up, limits, scale, paper, title;
   std::string stage, solver, global, culling, bucketing, hidden, intersections, own_polylines,
       smooth, flush_seams, sharp_angle, contact_distance;
   std::vector<std::string> select, outputs, sections, uncut, hatches;
@@ -118,7 +124,7 @@ Result<hlr::View> view_of(const DrawOptions& given, Console& console) {
   if (!drawing::can_be_up(view.up, view.direction))
     return Error{ErrorCode::usage, "'" + given.up + "' is parallel to the view direction", "--up",
                  "give a direction that shows on paper"};
-  if (!given.limits.empty()) {
+  if (!given.limits.empty() && given.limits != kAutoLimits) {
     const Result<geometry::Box3l> limits = limits_of(given.limits);
     if (!limits) return limits.error();
     view.limits = *limits;
@@ -204,6 +210,15 @@ Result<drawing::LayoutOptions> layout_options(const DrawOptions& given) {
     if (!scale) return scale.error();
     options.scale = *scale;
   }
+  if (!given.paper.empty()) {
+    const Result<drawing::PaperSize> paper = drawing::parse_paper(given.paper);
+    if (!paper) {
+      Error error = paper.error();
+      error.where = "--paper";
+      return error;
+    }
+    options.paper = *paper;
+  }
   return options;
 }
 
@@ -282,6 +297,7 @@ struct DrawRequest {
   std::vector<model::Selection> selections, uncut;
   std::vector<HatchRule> hatches;
   bool sag_for_paper = true;
+  bool far_objects = true;  ///< drawn, and warned of; otherwise left out
 };
 
 Result<DrawRequest> request_of(const DrawOptions& given, Session& session) {
@@ -299,14 +315,26 @@ Result<DrawRequest> request_of(const DrawOptions& given, Session& session) {
   if (!uncut) return uncut.error();
   const auto hatches = parse_hatches(given.hatches);
   if (!hatches) return hatches.error();
-  return DrawRequest{*scene,      *view,  *options, *layout,
-                     *selections, *uncut, *hatches, given.scene.sag.empty()};
+  return DrawRequest{*scene,
+                     *view,
+                     *options,
+                     *layout,
+                     *selections,
+                     *uncut,
+                     *hatches,
+                     given.scene.sag.empty(),
+                     given.limits != kAutoLimits};
 }
 
 Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& request,
                                         const model::Scene& scene) {
-  const Result<std::vector<bool>> drawn = pick_any(session, scene, request.selections, "--select");
+  Result<std::vector<bool>> drawn = pick_any(session, scene, request.selections, "--select");
   if (!drawn) return drawn.error();
+  drawing::LayoutOptions layout = request.layout;
+  if (const Status status =
+          mind_far_objects(session, scene, request.view, !request.far_objects, *drawn, layout);
+      !status)
+    return status.error();
   auto hatches = hatches_of(session, scene, request.hatches);
   if (!hatches) return hatches.error();
   hlr::Options options = request.options;
@@ -316,7 +344,7 @@ Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& req
   options.uncut = std::move(*uncut);
   if (request.sag_for_paper) {
     const Result<double> sag =
-        drawing::sag_for_paper(scene, *drawn, request.view, request.layout, session.context());
+        drawing::sag_for_paper(scene, *drawn, request.view, layout, session.context());
     if (!sag) return sag.error();
     options.sag_mm = *sag;
   }
@@ -331,7 +359,7 @@ Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& req
   if (!lines) return lines.error();
   print_diagnostics(session.console(), lines->diagnostics);
   const auto timer = session.step("layout");
-  return drawing::lay_out(*lines, *scene.model, request.layout, session.context());
+  return drawing::lay_out(*lines, *scene.model, layout, session.context());
 }
 
 Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
@@ -384,8 +412,9 @@ void add_view(CLI::App& command, DrawOptions& options) {
   command
       .add_option("--limits", options.limits,
                   "Draw this box of the model only: xmin,ymin,zmin,xmax,ymax,zmax in mm or with "
-                  "units, as 4.5m. What it cuts stays open; --section closes it")
-      ->type_name("BOX")
+                  "units, as 4.5m. What it cuts stays open; --section closes it. auto leaves out "
+                  "the few objects that lie so far from all others that they decide the scale")
+      ->type_name("BOX|auto")
       ->group("View");
   CLI::Option* const section =
       command
@@ -490,7 +519,8 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
         "--limits",        "--section",          "--uncut",        "--hatch",
         "--select",        "--hidden",           "--visible-only", "--stage",
         "--intersections", "--own-polylines",    "--smooth",       "--flush-seams",
-        "--sharp-angle",   "--contact-distance", "--scale",        "--title"})
+        "--sharp-angle",   "--contact-distance", "--scale",        "--paper",
+        "--title"})
     sheet->excludes(other);
 }
 
@@ -530,8 +560,16 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
       ->group("Running");
   command
       ->add_option("--scale", options->scale,
-                   "Paper to model, as 1:50 or 10:1 (default: the largest usual one that fits A3)")
+                   "Paper to model, as 1:50 or 10:1 (default: the largest usual one that fits the "
+                   "paper)")
       ->type_name("1:N")
+      ->group("Output");
+  command
+      ->add_option("--paper", options->paper,
+                   "A4, A3, A2, A1 or A0, with ,portrait for upright paper, or width x height as "
+                   "900mmx420mm; what does not fit it at a given --scale is an error (default: A3, "
+                   "and larger where --scale asks for it)")
+      ->type_name("SIZE")
       ->group("Output");
   command->add_option("--title", options->title, "Title of the sheet")->group("Output");
   add_output_option(*command, options->outputs, "Drawing", formats_of(drawing::drawing_writers()));
@@ -545,6 +583,7 @@ Examples:
       --limits 0,-5000,0,20000,5000,8000
   strake draw ship.glb --select 'PIP-*' --view top -o pipes.svg -o pipes.json
   strake draw ship.glb --view top --section z=4500mm -o section.svg
+  strake draw ship.glb --view top --paper A1 -o plan.svg
   strake draw ship.glb --eye 2000,-9000,6000 --target 9000,0,3000 -o seen.svg
   strake draw ship.glb --sheet deck.toml -o deck.svg)");
   return {command, [options](Session& session) { return run_draw(session, *options); }};

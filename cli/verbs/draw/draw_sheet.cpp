@@ -44,8 +44,9 @@ void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const mod
       console, sheet.diagnostics,
       {"view-empty", "selection-matches-nothing", "field-not-filled", "field-not-in-template",
        "field-too-long", "view-off-the-sheet", "view-off-the-frame", "view-on-title-block",
-       "views-overlap", "grid-line-nowhere", "grid-label-no-room", "tag-not-seen", "tag-no-room",
-       "tag-attribute-missing", "tag-attribute-partly-missing"});
+       "views-overlap", "far-object", "far-object-left-out", "grid-line-nowhere",
+       "grid-label-no-room", "tag-not-seen", "tag-no-room", "tag-attribute-missing",
+       "tag-attribute-partly-missing"});
 }
 
 /// "SVG": the formats of sheets in a sentence.

@@ -60,6 +60,11 @@ struct Line {
   PaperPoint a_paper, b_paper;  ///< multiples of a micrometre of paper
 };
 
+/// A frame on the sheet, mm; y points down.
+struct PaperFrame {
+  double left = 0, top = 0, right = 0, bottom = 0;
+};
+
 /// An ellipse on the sheet: centre + u cos t + v sin t, with conjugate half-diameters.
 struct PaperCurve {
   PaperPoint centre, u, v;
@@ -90,15 +95,26 @@ struct Placement {
   PaperPoint at;  ///< … and where that point lies. Views that share the anchor are aligned.
 };
 
+/// A size of paper, millimetres.
+struct PaperSize {
+  double width_mm = 420, height_mm = 297;
+};
+
 struct LayoutOptions {
   std::string view_name = "view";
-  std::string title = {};                      ///< title of the sheet; empty: from the view's name
-  std::optional<double> scale = std::nullopt;  ///< model mm per paper mm; none: chosen to fit A3
+  std::string title = {};  ///< of the sheet; empty: the view's name, and its sections
+  std::optional<double> scale = std::nullopt;  ///< model mm per paper mm; none: chosen to fit
+  /// The paper, which the view must fit. None: A3 where the scale is chosen, otherwise the smallest
+  /// of A3 to A0 that the view fits, or as large a sheet as it needs.
+  std::optional<PaperSize> paper = std::nullopt;
   double margin_mm = 10;
-  std::optional<Placement> placement = std::nullopt;  ///< instead of scale, sheet and margin
+  std::optional<Placement> placement = std::nullopt;  ///< instead of scale, paper and margin
   /// Find pieces that lie on each other within the contact distance (3 µm at least) in the plane of
   /// the view, and draw one of them.
   bool remove_duplicates = true;
+  /// Objects that were left out of the selection because they lie far from all others; the drawing
+  /// names them.
+  std::vector<model::ObjectId> far_left_out = {};
 };
 
 /// A drawing without a format: SVG and JSON are both written from it.
@@ -122,9 +138,13 @@ struct NeutralDrawing {
   Sheet sheet;
   std::vector<Line> lines;
   PaperCurves curves;
+  /// Round the lines of a view in perspective: where its field of view ends, or beside the lines
+  /// that end before.
+  std::optional<PaperFrame> frame;
   std::array<std::uint64_t, kLineStates> count{};  ///< number of lines by state
   hlr::Counters counters;
   hlr::Account account;
+  std::vector<model::ObjectId> far_left_out;  ///< as LayoutOptions has them
   Hash128 hash;  ///< of the view and of every line in the model; not of the sheet or of settings
 };
 
@@ -142,6 +162,7 @@ struct NeutralDrawing {
 /// Puts a finished hidden-line run on paper: chooses the axes from direction and up, the scale and
 /// the sheet. Objects whose visible lines are all duplicates become Fate::coincident. The result is
 /// deterministic: it uses + - * / and sqrt only.
+/// Errors: usage, where the view does not fit its paper at the scale that was given.
 [[nodiscard]] Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& model,
                                              const LayoutOptions& options,
                                              const parallel::Context& context);

@@ -110,6 +110,7 @@ struct PlacedView {
   drawing::Ink ink;
   PaperBox box;  ///< box of all lines of the view, hidden ones included
   Marks caption, grid, tags;
+  Marks frame;  ///< round a view in perspective
 };
 
 struct Sheet {

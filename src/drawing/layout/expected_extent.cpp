@@ -3,31 +3,20 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
-#include <numbers>
+#include <optional>
+#include <utility>
 
-#include "geometry/numeric/trig.hpp"
 #include "hlr/prepare/drawn_objects.hpp"
 #include "hlr/sections/section_planes.hpp"
 #include "hlr/view/view_frustum.hpp"
 #include "strake/parallel/reduce.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::drawing {
 namespace {
 
 using geometry::Box3l;
 using geometry::Vec3l;
-
-constexpr double kBig = std::numeric_limits<double>::max();
-constexpr PlaneBox kNothing{kBig, -kBig, kBig, -kBig};
-
-/// Returns the box that a view shows of its plane round the target.
-PlaneBox field_of_view(const hlr::Perspective& perspective, const PlanePoint& target,
-                       double distance_mm) {
-  const auto half = geometry::sin_cos(perspective.field_of_view_deg / 2 * (std::numbers::pi / 180));
-  const double reach = distance_mm * half.sin / half.cos;
-  return {target.x - reach, target.x + reach, target.y - reach, target.y + reach};
-}
 
 /// The scale of models larger than this is so small that boxes give it well enough.
 constexpr double kLargeMm = 20'000;
@@ -48,18 +37,43 @@ Box3l cut_along_axis(Box3l box, const hlr::Section& section) {
 
 class PaperExtent {
  public:
-  PaperExtent(const model::Scene& scene, const std::vector<bool>& drawn, const hlr::View& view,
-              const hlr::ViewVolume& shown, const ViewPlane& plane)
-      : scene_(scene), drawn_(drawn), view_(view), shown_(shown), plane_(plane) {}
+  /// Returns what measures a view about a point of the model; nothing for an invalid view, whose
+  /// fault hlr::draw reports.
+  static std::optional<PaperExtent> of(const model::Scene& scene, const std::vector<bool>& drawn,
+                                       const hlr::View& view, const Vec3l& origin) {
+    const auto axes = paper_axes(view);
+    const auto sections = hlr::section_planes(view.sections);
+    if (!axes || !sections || !hlr::check_perspective(view)) return std::nullopt;
+    return PaperExtent(scene, drawn, view, {view, *sections}, {*axes, origin});
+  }
 
   [[nodiscard]] Result<PlaneBox> of_all(By by, const parallel::Context& context) const {
     return parallel::reduce(
-        context, {.name = "expected extent", .n = scene_.bodies.size(), .grain = 1024}, kNothing,
+        context, {.name = "expected extent", .n = scene_.bodies.size(), .grain = 1024}, kNoPlaneBox,
         [&](PlaneBox& part, std::size_t b) { include(part, scene_.bodies[b], by); },
         [](PlaneBox& into, const PlaneBox& part) { into.include(part); });
   }
 
+  [[nodiscard]] Result<std::vector<PlaneBox>> of_objects(const parallel::Context& context) const {
+    const auto of_bodies = parallel::transform(
+        context, {.name = "expected extents", .n = scene_.bodies.size(), .grain = 1024},
+        [&](std::size_t b) {
+          PlaneBox box = kNoPlaneBox;
+          include(box, scene_.bodies[b], By::boxes);
+          return box;
+        });
+    if (!of_bodies) return of_bodies.error();
+    std::vector<PlaneBox> boxes(scene_.model->objects.size(), kNoPlaneBox);
+    for (std::size_t b = 0; b < of_bodies->size(); ++b)
+      boxes[model::index(scene_.bodies[b].object)].include((*of_bodies)[b]);
+    return boxes;
+  }
+
  private:
+  PaperExtent(const model::Scene& scene, const std::vector<bool>& drawn, const hlr::View& view,
+              hlr::ViewVolume shown, const ViewPlane& plane)
+      : scene_(scene), drawn_(drawn), view_(view), shown_(std::move(shown)), plane_(plane) {}
+
   void include(PlaneBox& extent, const model::GridBody& body, By by) const {
     const model::GridShape& shape = scene_.shapes[body.grid_shape];
     if (shape.box.empty() || (!drawn_.empty() && !drawn_[model::index(body.object)])) return;
@@ -87,8 +101,8 @@ class PaperExtent {
   const model::Scene& scene_;
   const std::vector<bool>& drawn_;
   const hlr::View& view_;
-  const hlr::ViewVolume& shown_;
-  const ViewPlane& plane_;
+  hlr::ViewVolume shown_;
+  ViewPlane plane_;
 };
 
 }  // namespace
@@ -97,24 +111,26 @@ Result<PlaneBox> expected_extent(const model::Scene& scene, const std::vector<bo
                                  const hlr::View& view, const Vec3l& origin,
                                  const parallel::Context& context) {
   if (const Status status = hlr::check_drawn(scene, drawn); !status) return status.error();
-  const auto axes = paper_axes(view);
-  const auto sections = hlr::section_planes(view.sections);
-  // hlr::draw reports what is wrong with the view.
-  if (!axes || !sections || !hlr::check_perspective(view)) return PlaneBox{};
-  const ViewPlane plane(*axes, origin);
-  const hlr::ViewVolume shown(view, *sections);
-  const PaperExtent measure(scene, drawn, view, shown, plane);
-  Result<PlaneBox> extent = measure.of_all(By::boxes, context);
+  const auto measure = PaperExtent::of(scene, drawn, view, origin);
+  if (!measure) return PlaneBox{};
+  Result<PlaneBox> extent = measure->of_all(By::boxes, context);
   if (extent && std::max(extent->width(), extent->height()) < kLargeMm)
-    extent = measure.of_all(By::corners, context);
+    extent = measure->of_all(By::corners, context);
   if (!extent) return extent;
-  if (const auto& p = view.perspective) {
-    const PlaneBox seen = field_of_view(*p, plane(p->target), axes->eye->distance_mm);
-    *extent = {std::max(extent->left, seen.left), std::min(extent->right, seen.right),
-               std::max(extent->bottom, seen.bottom), std::min(extent->top, seen.top)};
-  }
+  if (const auto seen = field_of_view(view, origin))
+    *extent = {std::max(extent->left, seen->left), std::min(extent->right, seen->right),
+               std::max(extent->bottom, seen->bottom), std::min(extent->top, seen->top)};
   if (extent->left > extent->right || extent->bottom > extent->top) *extent = {};
   return extent;
+}
+
+Result<std::vector<PlaneBox>> expected_boxes(const model::Scene& scene,
+                                             const std::vector<bool>& drawn, const hlr::View& view,
+                                             const parallel::Context& context) {
+  if (const Status status = hlr::check_drawn(scene, drawn); !status) return status.error();
+  const auto measure = PaperExtent::of(scene, drawn, view, {});
+  if (!measure) return std::vector<PlaneBox>(scene.model->objects.size(), kNoPlaneBox);
+  return measure->of_objects(context);
 }
 
 double unseen_sag_mm(const PlaneBox& extent, double scale) {

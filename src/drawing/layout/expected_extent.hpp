@@ -28,4 +28,12 @@ namespace strake::drawing {
                                                const hlr::View& view, const geometry::Vec3l& origin,
                                                const parallel::Context& context);
 
+/// Returns the box of each object on the plane of a view, about the model's origin: of its bodies'
+/// boxes within limits and sections, `drawn` as in hlr::draw. It is empty (left > right) for an
+/// object that is not drawn, and for all in an invalid view. Errors: cancelled.
+[[nodiscard]] Result<std::vector<PlaneBox>> expected_boxes(const model::Scene& scene,
+                                                           const std::vector<bool>& drawn,
+                                                           const hlr::View& view,
+                                                           const parallel::Context& context);
+
 }  // namespace strake::drawing

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -15,6 +14,7 @@
 
 #include "drawing/layout/duplicates.hpp"
 #include "drawing/layout/view_plane.hpp"
+#include "drawing/layout/view_title.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/for_each.hpp"
@@ -168,6 +168,30 @@ Placement in_the_middle(const PlaneBox& box, const Sheet& sheet, const Vec3l& or
            (sheet.height_mm - kTitleStrip) / 2 + (box.bottom + box.height() / 2) / sheet.scale}};
 }
 
+/// Returns the frame round the lines of a view in perspective: where the field of view ends, or a
+/// little beside the lines that end before; nothing for other views and without lines.
+std::optional<PaperFrame> frame_of(const NeutralDrawing& drawing, const Placement& placement) {
+  const auto field = field_of_view(drawing.view, placement.anchor);
+  if (!field) return std::nullopt;
+  PaperFrame frame{kFarthestPaperMm, kFarthestPaperMm, -kFarthestPaperMm, -kFarthestPaperMm};
+  for (const Line& line : drawing.lines) {
+    if (line.state == LineState::clipped) continue;
+    for (const PaperPoint& end : {line.a_paper, line.b_paper}) {
+      frame.left = std::min(frame.left, end.x - kFrameGapMm);
+      frame.top = std::min(frame.top, end.y - kFrameGapMm);
+      frame.right = std::max(frame.right, end.x + kFrameGapMm);
+      frame.bottom = std::max(frame.bottom, end.y + kFrameGapMm);
+    }
+  }
+  if (frame.left > frame.right) return std::nullopt;
+  const double scale = placement.sheet.scale;
+  const PaperPoint& at = placement.at;
+  return PaperFrame{paper_coordinate(std::max(frame.left, at.x + field->left / scale)),
+                    paper_coordinate(std::max(frame.top, at.y - field->top / scale)),
+                    paper_coordinate(std::min(frame.right, at.x + field->right / scale)),
+                    paper_coordinate(std::min(frame.bottom, at.y - field->bottom / scale))};
+}
+
 /// Makes a line for each piece, or one for each of its intervals if it has any: covered ones are
 /// duplicates.
 template <class MakeLine>
@@ -225,11 +249,10 @@ const PaperCurve* PaperCurves::of(const Line& line) const {
 
 Result<PlaneBox> plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes,
                               const Vec3l& origin, const parallel::Context& context) {
-  constexpr double kBig = std::numeric_limits<double>::max();
   const ViewPlane plane(axes, origin);
   Result<PlaneBox> box = parallel::reduce(
       context, {.name = "extent on the plane", .n = drawing.pieces.size(), .grain = 65536},
-      PlaneBox{kBig, -kBig, kBig, -kBig},
+      kNoPlaneBox,
       [&](PlaneBox& part, std::size_t i) {
         const hlr::EdgePiece& piece = drawing.pieces[i];
         if (piece.state == hlr::State::clipped) return;
@@ -261,6 +284,8 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
     if (!(std::max(sheet.width_mm, sheet.height_mm) <= kFarthestPaperMm))
       return Error{ErrorCode::usage, "the sheet would be more than 1,000 km wide", "",
                    "give a smaller --scale, or let it be chosen"};
+    if (options.paper)
+      if (const Status status = check_fit(*box, sheet, options); !status) return status.error();
     placement = in_the_middle(*box, sheet, drawing.origin);
   }
   const ViewPlane plane(*axes, placement.anchor);
@@ -272,7 +297,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   NeutralDrawing out;
   out.sheet = placement.sheet;
   out.view_name = options.view_name;
-  out.title = options.title.empty() ? options.view_name : options.title;
+  out.title = options.title.empty() ? title_of(options.view_name, drawing.view) : options.title;
   out.view = drawing.view;
   out.stage = drawing.options.stage;
   out.hidden_lines = drawing.options.hidden;
@@ -286,6 +311,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.sag_mm = drawing.sag_mm;
   out.weld_mm = drawing.weld_mm;
   out.counters = drawing.counters;
+  out.far_left_out = options.far_left_out;
   const Result<Hash128> hash = hash_of(drawing, model, context);
   if (!hash) return hash.error();
   out.hash = *hash;
@@ -312,6 +338,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
       context);
   if (!lines) return lines.error();
   out.lines = std::move(*lines);
+  out.frame = frame_of(out, placement);
   out.account = drawing.account;
   if (const Status status = count_lines(out, context); !status) return status.error();
   return out;

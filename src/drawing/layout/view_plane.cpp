@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "core/number.hpp"
+#include "drawing/layout/paper_size.hpp"
+#include "geometry/numeric/trig.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/geometry/wide_int.hpp"
 
@@ -15,10 +18,8 @@ namespace {
 
 using geometry::Vec3d;
 
-struct Size {
-  double width, height;
-};
-constexpr std::array<Size, 4> kSheets = {{{420, 297}, {594, 420}, {841, 594}, {1189, 841}}};
+/// The papers on which views lie that have none of their own.
+constexpr auto kSheets = std::span(kNamedPapers).subspan<1>();
 
 std::optional<Vec3d> unit(const Vec3d& v) {
   const double length = std::sqrt(dot(v, v));
@@ -26,21 +27,24 @@ std::optional<Vec3d> unit(const Vec3d& v) {
   return Vec3d{v.x / length, v.y / length, v.z / length};
 }
 
-Size usable_size(const Size& sheet, double margin) {
-  return {sheet.width - 2 * margin, sheet.height - 2 * margin - kTitleStrip};
+PaperSize usable_size(const PaperSize& sheet, double margin) {
+  return {sheet.width_mm - 2 * margin, sheet.height_mm - 2 * margin - kTitleStrip};
 }
 
-bool fits(const PlaneBox& box, double scale, const Size& space) {
-  return box.width() <= space.width * scale && box.height() <= space.height * scale;
+bool fits(const PlaneBox& box, double scale, const PaperSize& space) {
+  return box.width() <= space.width_mm * scale && box.height() <= space.height_mm * scale;
 }
 
-/// Returns the largest usual scale at which the box fits; 1:1 for an empty box.
-double usual_scale(const PlaneBox& box, const Size& space) {
+/// Returns the largest usual scale at which the box fits, or the intermediate one above it, where
+/// the box fits that; 1:1 for an empty box.
+double best_scale(const PlaneBox& box, const PaperSize& space) {
   if (!(box.width() > 0 || box.height() > 0)) return 1;
   const auto usual = usual_scales();
   const auto found =
       std::ranges::find_if(usual, [&](double scale) { return fits(box, scale, space); });
-  return found != usual.end() ? *found : usual.back();
+  if (found == usual.end()) return usual.back();
+  const auto between = intermediate_scale(*found);
+  return between && fits(box, *between, space) ? *between : *found;
 }
 
 /// Rounds off the last digits that division leaves: 49:1 is kept as 1/49, and 1 over that is not
@@ -117,11 +121,27 @@ PlanePoint ViewPlane::seen(const geometry::Vec3l& grid) const {
   return at;
 }
 
+std::optional<PlaneBox> field_of_view(const hlr::View& view, const geometry::Vec3l& origin) {
+  const auto axes = paper_axes(view);
+  if (!axes || !axes->eye) return std::nullopt;
+  const PlanePoint target = ViewPlane(*axes, origin)(axes->eye->target);
+  const auto half =
+      geometry::sin_cos(view.perspective->field_of_view_deg / 2 * (std::numbers::pi / 180));
+  const double reach = axes->eye->distance_mm * half.sin / half.cos;
+  return PlaneBox{target.x - reach, target.x + reach, target.y - reach, target.y + reach};
+}
+
 std::span<const double> usual_scales() {
   static constexpr std::array kScales{0.02, 0.05, 0.1, 0.2, 0.5, 1.,  2.,  5.,  10., 20., 50.,
                                       1e2,  2e2,  5e2, 1e3, 2e3, 5e3, 1e4, 2e4, 5e4, 1e5, 2e5,
                                       5e5,  1e6,  2e6, 5e6, 1e7, 2e7, 5e7, 1e8, 2e8, 5e8, 1e9};
   return kScales;
+}
+
+std::optional<double> intermediate_scale(double usual) {
+  for (double five = 5; five <= usual; five *= 10)
+    if (usual == five) return five / 2;
+  return std::nullopt;
 }
 
 double rounded_paper(double mm) { return std::nearbyint(mm * 1000) / 1000 + 0.0; }
@@ -131,13 +151,16 @@ std::string scale_text(double scale) {
 }
 
 Sheet choose_sheet(const PlaneBox& box, const LayoutOptions& options) {
+  const PaperSize paper = options.paper.value_or(kSheets.front().size);
   Sheet sheet;
-  sheet.scale =
-      options.scale.value_or(usual_scale(box, usable_size(kSheets[0], options.margin_mm)));
+  sheet.scale = options.scale.value_or(best_scale(box, usable_size(paper, options.margin_mm)));
   sheet.scale_text = scale_text(sheet.scale);
-  for (const Size& size : kSheets) {
-    sheet.width_mm = size.width;
-    sheet.height_mm = size.height;
+  sheet.width_mm = paper.width_mm;
+  sheet.height_mm = paper.height_mm;
+  if (options.paper) return sheet;
+  for (const auto& [name, size] : kSheets) {
+    sheet.width_mm = size.width_mm;
+    sheet.height_mm = size.height_mm;
     if (fits(box, sheet.scale, usable_size(size, options.margin_mm))) return sheet;
   }
   sheet.width_mm =
@@ -145,6 +168,19 @@ Sheet choose_sheet(const PlaneBox& box, const LayoutOptions& options) {
   sheet.height_mm = std::max(
       sheet.height_mm, next_ten(box.height() / sheet.scale + 2 * options.margin_mm + kTitleStrip));
   return sheet;
+}
+
+Status check_fit(const PlaneBox& box, const Sheet& sheet, const LayoutOptions& options) {
+  const PaperSize space = usable_size({sheet.width_mm, sheet.height_mm}, options.margin_mm);
+  if (fits(box, sheet.scale, space)) return {};
+  const auto whole = [](double mm) { return fixed(std::ceil(mm), 0); };
+  return Error{ErrorCode::usage,
+               "at " + sheet.scale_text + " the view is " + whole(box.width() / sheet.scale) +
+                   " x " + whole(box.height() / sheet.scale) + " mm, and of the paper of " +
+                   plain(sheet.width_mm) + " x " + plain(sheet.height_mm) + " mm " +
+                   plain(space.width_mm) + " x " + plain(space.height_mm) + " mm are for it",
+               "--paper",
+               "give larger paper, or no larger scale than " + scale_text(best_scale(box, space))};
 }
 
 }  // namespace strake::drawing

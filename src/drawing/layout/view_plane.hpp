@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -80,6 +81,16 @@ struct PlaneBox {
   }
 };
 
+/// The box that holds nothing, and that any other makes its own when it is included.
+inline constexpr PlaneBox kNoPlaneBox{
+    std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest(),
+    std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+
+/// Returns the square that a view in perspective shows of its plane, round the target, about a
+/// point of the model; nothing for other views and for those without axes.
+[[nodiscard]] std::optional<PlaneBox> field_of_view(const hlr::View& view,
+                                                    const geometry::Vec3l& origin);
+
 /// Returns the box of all that a finished run has within the limits, about a point of the model.
 /// Errors: cancelled.
 [[nodiscard]] Result<PlaneBox> plane_extent(const hlr::Drawing& drawing, const PaperAxes& axes,
@@ -89,15 +100,28 @@ struct PlaneBox {
 /// Returns the usual scales of ISO 5455, 50:1 to 1:1000000000, the largest first.
 [[nodiscard]] std::span<const double> usual_scales();
 
+/// Returns the intermediate scale between a usual one and the next larger, where the two differ by
+/// 2.5 and both reduce: 1:2.5 for 1:5, 1:25 for 1:50 … It is for what would leave half the room
+/// empty both ways at the usual one (ISO 5455 has intermediate scales for exceptions).
+[[nodiscard]] std::optional<double> intermediate_scale(double usual);
+
 /// Returns a scale as text: "1:50", "2:1".
 [[nodiscard]] std::string scale_text(double scale);
 
-/// Returns the sheet on which a box of this size is drawn: A3 where it fits, otherwise the next A
-/// size, otherwise as large as it must be.
+/// Returns the sheet on which a box of this size is drawn: the given paper; or else A3 where it
+/// fits, otherwise the next A size, otherwise as large as it must be.
 [[nodiscard]] Sheet choose_sheet(const PlaneBox& box, const LayoutOptions& options);
+
+/// Returns nothing where a box fits its sheet; otherwise, as an error, by how much it does not, and
+/// the largest scale that fits.
+[[nodiscard]] Status check_fit(const PlaneBox& box, const Sheet& sheet,
+                               const LayoutOptions& options);
 
 /// Height of the strip at the foot of a sheet that holds the title, mm.
 inline constexpr double kTitleStrip = 8;
+
+/// How far beside the lines of a view in perspective its frame lies at most, mm.
+inline constexpr double kFrameGapMm = 3;
 
 /// Rounds to the nearest whole micrometre of paper.
 [[nodiscard]] double rounded_paper(double mm);

@@ -133,6 +133,20 @@ void write_defects(BufferedWriter& out, const NeutralDrawing& drawing, const mod
   out << "],\n";
 }
 
+/// Writes the objects that were left out because they lie far from all others, where there are
+/// such.
+void write_far_left_out(BufferedWriter& out, const NeutralDrawing& drawing,
+                        const model::Model& model) {
+  const char* separator = "\"far_objects\":[\n";
+  for (const model::ObjectId object : drawing.far_left_out) {
+    out << separator;
+    append_object(out.text(), model, object);
+    out << "}";
+    separator = ",\n";
+  }
+  if (!drawing.far_left_out.empty()) out << "],\n";
+}
+
 /// Writes the files that end early, whose further contents are unknown, where there are such.
 void write_cut_files(BufferedWriter& out, const model::Model& model) {
   const char* separator = "\"files_ending_early\":[";
@@ -174,6 +188,7 @@ void write_view_head(BufferedWriter& out, const NeutralDrawing& drawing, const m
   write_view(out, drawing);
   write_counts(out, drawing);
   write_defects(out, drawing, model);
+  write_far_left_out(out, drawing, model);
   write_cut_files(out, model);
   out << "\"hash\":\"" << drawing.hash.text() << "\",\n\"objects\":[";
   for (const model::ObjectId o : listed.objects()) {

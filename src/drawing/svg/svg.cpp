@@ -56,6 +56,15 @@ void write_layer(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
 
 }  // namespace
 
+void write_far_objects(BufferedWriter& out, const NeutralDrawing& drawing,
+                       const model::Model& model) {
+  for (const model::ObjectId id : drawing.far_left_out) {
+    const model::Object& object = model.object(id);
+    out << "<far-object id=\"" << xml_escaped(object.id) << "\" name=\"" << xml_escaped(object.name)
+        << "\" file=\"" << xml_escaped(model.files[object.file].label) << "\"/>\n";
+  }
+}
+
 void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
                   const model::Model& model, std::string_view prefix) {
   for (const Layer& layer : kLayers) write_layer(out, curves, ink, model, layer, prefix);
@@ -94,7 +103,8 @@ void write_style(BufferedWriter& out, const Ink& ink, bool sections) {
 
 std::string vector_text(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
-void write_head(BufferedWriter& out, const NeutralDrawing& drawing, const Ink& ink) {
+void write_head(BufferedWriter& out, const NeutralDrawing& drawing, const Ink& ink,
+                const model::Model& model) {
   const Sheet& sheet = drawing.sheet;
   const std::string width = shortest(sheet.width_mm), height = shortest(sheet.height_mm);
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -118,7 +128,20 @@ void write_head(BufferedWriter& out, const NeutralDrawing& drawing, const Ink& i
   }
   if (drawing.uncut) out << fmt::format(" objects-uncut=\"{}\"", drawing.counters.uncut_objects);
   if (!drawing.flush_seams) out << fmt::format(" edges-with-seams=\"{}\"", drawing.counters.seams);
-  out << fmt::format(" hidden-left-out=\"{}\"", ink.left_out) << "/>\n</drawing>\n</metadata>\n";
+  out << fmt::format(" hidden-left-out=\"{}\"", ink.left_out) << "/>\n";
+  write_far_objects(out, drawing, model);
+  out << "</drawing>\n</metadata>\n";
+}
+
+/// Writes the frame of a view in perspective, where it has one.
+void write_frame(BufferedWriter& out, const NeutralDrawing& drawing) {
+  if (!drawing.frame) return;
+  const auto& [left, top, right, bottom] = *drawing.frame;
+  out << "<g inkscape:groupmode=\"layer\" inkscape:label=\"Frame\" id=\"view-frame\" "
+         "class=\"frame\">\n<path d=\"";
+  append_svg_chain(out.text(),
+                   {{left, top}, {right, top}, {right, bottom}, {left, bottom}, {left, top}});
+  out << "\"/>\n</g>\n";
 }
 
 void write_title(BufferedWriter& out, const NeutralDrawing& drawing) {
@@ -140,13 +163,14 @@ void write_title(BufferedWriter& out, const NeutralDrawing& drawing) {
 void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model,
                Sink sink) {
   BufferedWriter out(sink);
-  write_head(out, drawing, ink);
+  write_head(out, drawing, ink, model);
   write_style(out, ink, !drawing.view.sections.empty());
   out << fmt::format("<rect class=\"sheet\" width=\"{}\" height=\"{}\"/>\n",
                      shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
   write_layers(out, drawing.curves, ink, model, "");
+  write_frame(out, drawing);
   out << "</g>\n";
   write_title(out, drawing);
   out << "</svg>\n";

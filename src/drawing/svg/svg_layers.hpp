@@ -51,4 +51,9 @@ inline constexpr std::array<Layer, 16> kLayers = {{
 void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
                   const model::Model& model, std::string_view prefix);
 
+/// Writes an element of metadata for each object that was left out because it lies far from all
+/// others.
+void write_far_objects(BufferedWriter& out, const NeutralDrawing& drawing,
+                       const model::Model& model);
+
 }  // namespace strake::drawing

@@ -109,12 +109,12 @@ LabelRequest request_of(const TagList& list, const TaggedObject& seen) {
           .view = list.view};
 }
 
-/// Returns the paper that views, their captions and grid lines take.
+/// Returns the paper that views, their captions, frames and grid lines take.
 OccupancyGrid occupied_paper(const Sheet& sheet) {
   OccupancyGrid occupied(sheet.width_mm, sheet.height_mm);
   for (const PlacedView& view : sheet.views) {
     for (const Line& line : view.ink.lines) occupied.add_line(line.a_paper, line.b_paper);
-    for (const Marks* marks : {&view.caption, &view.grid}) {
+    for (const Marks* marks : {&view.caption, &view.grid, &view.frame}) {
       for (const Path& path : marks->paths)
         for (std::size_t i = 1; i < path.points.size(); ++i)
           occupied.add_line(path.points[i - 1], path.points[i]);

@@ -57,6 +57,24 @@ struct Track {
   [[nodiscard]] double size() const { return std::max(before + after, least); }
 };
 
+/// How much of the remaining space is spread between columns and between rows: all is 1.
+struct Spread {
+  double columns = 1, rows = 1;
+};
+
+/// Returns the spreads to try in their order: from all to none, and evenly both ways first.
+std::vector<Spread> spreads() {
+  constexpr std::array kShares{1.0, 0.75, 0.5, 0.25, 0.0};
+  std::vector<Spread> all;
+  for (const double columns : kShares)
+    for (const double rows : kShares) all.push_back({columns, rows});
+  std::ranges::stable_sort(all, [](const Spread& a, const Spread& b) {
+    const double of_a = a.columns + a.rows, of_b = b.columns + b.rows;
+    return of_a != of_b ? of_a > of_b : std::min(a.columns, a.rows) > std::min(b.columns, b.rows);
+  });
+  return all;
+}
+
 class Grid {
  public:
   Grid(std::span<const UnplacedView> views, Projection projection, TrackCell pictorial,
@@ -71,11 +89,12 @@ class Grid {
     }
   }
 
-  /// Returns where the common points fall if the tracks stand in `box`, with the remaining space
-  /// spread between and beside them, or as near to the upper left corner as possible.
-  [[nodiscard]] std::vector<PaperPoint> spread(const PaperBox& box, double gap, bool packed) const {
-    const auto x = starts(columns_, box.left, box.width(), gap, packed);
-    const auto y = starts(rows_, box.top, box.height(), gap, packed);
+  /// Returns where the common points fall if the tracks stand in `box`, with so much of the
+  /// remaining space spread between and beside them, and the rest at the right and below.
+  [[nodiscard]] std::vector<PaperPoint> spread(const PaperBox& box, double gap,
+                                               const Spread& spread) const {
+    const auto x = starts(columns_, box.left, box.width(), gap, spread.columns);
+    const auto y = starts(rows_, box.top, box.height(), gap, spread.rows);
     std::vector<PaperPoint> at;
     for (std::size_t v = 0; v < views_.size(); ++v) {
       const Track& column = track(columns_, cells_[v].column);
@@ -124,10 +143,10 @@ class Grid {
   }
 
   static std::array<double, kTracks> starts(const Tracks& tracks, double from, double room,
-                                            double gap, bool packed) {
+                                            double gap, double share) {
     double count = 1;
     for (const Track& track : tracks) count += track.used ? 1 : 0;
-    const double more = packed ? 0 : (room - needed(tracks, gap)) / count;
+    const double more = share * (room - needed(tracks, gap)) / count;
     std::array<double, kTracks> at{};
     double next = from + more;
     for (std::size_t t = 0; t < tracks.size(); ++t) {
@@ -148,9 +167,12 @@ class Arranger {
   Arranger(std::span<const UnplacedView> views, Projection projection, const SheetArea& room,
            double gap)
       : views_(views), projection_(projection), room_(room), gap_(gap) {
-    const bool pictorial = std::any_of(
-        views.begin(), views.end(), [](const UnplacedView& v) { return v.slot == ViewSlot::iso; });
-    cells_ = pictorial ? free_cells() : std::vector<TrackCell>{{0, 0}};
+    for (std::size_t v = 0; v < views.size(); ++v)
+      if (views[v].slot == ViewSlot::iso)
+        pictorial_ = v;
+      else
+        others_.push_back(views[v]);
+    cells_ = pictorial_ ? free_cells() : std::vector<TrackCell>{{0, 0}};
     boxes_.push_back(room.area);
     for (const PaperBox& taken : room.keep_free) {
       PaperBox above = room.area, beside = room.area, below = room.area;
@@ -163,25 +185,53 @@ class Arranger {
   }
 
   [[nodiscard]] std::optional<Arranged> at_scale(double scale) const {
-    for (const TrackCell& cell : cells_) {
-      const Grid grid(views_, projection_, cell, scale);
-      for (const bool packed : {false, true})
-        for (const PaperBox& box : boxes_) {
-          if (!grid.fits(box, gap_)) continue;
-          Arranged found{scale, true, grid.spread(box, gap_, packed)};
-          if (free_of(found)) return found;
-        }
-    }
-    return std::nullopt;
+    for (const TrackCell& cell : cells_)
+      if (auto found = first_free(views_, cell, scale, [&](const Arranged& a) { return a; }))
+        return found;
+    if (!pictorial_) return std::nullopt;
+    return first_free(others_, {}, scale, [&](const Arranged& a) { return with_pictorial(a); });
   }
 
   /// Places the views at a scale at which they do not fit.
   [[nodiscard]] Arranged anyhow(double scale) const {
     return {scale, false,
-            Grid(views_, projection_, cells_.front(), scale).spread(room_.area, gap_, false)};
+            Grid(views_, projection_, cells_.front(), scale).spread(room_.area, gap_, {})};
   }
 
  private:
+  /// Returns what `complete` makes of the first places of columns and rows that lie free, and that
+  /// lies free itself.
+  template <class Complete>
+  [[nodiscard]] std::optional<Arranged> first_free(std::span<const UnplacedView> views,
+                                                   const TrackCell& pictorial, double scale,
+                                                   Complete&& complete) const {
+    const Grid grid(views, projection_, pictorial, scale);
+    for (const Spread& spread : spreads_)
+      for (const PaperBox& box : boxes_) {
+        if (!grid.fits(box, gap_)) continue;
+        const Arranged placed{scale, true, grid.spread(box, gap_, spread)};
+        if (!lie_free(views, placed)) continue;
+        const std::optional<Arranged> whole = complete(placed);
+        if (whole && lie_free(views_, *whole)) return whole;
+      }
+    return std::nullopt;
+  }
+
+  /// Returns the other views with the pictorial one where it has room beside them.
+  [[nodiscard]] std::optional<Arranged> with_pictorial(const Arranged& others) const {
+    std::vector<PaperBox> boxes;
+    for (std::size_t v = 0; v < others_.size(); ++v)
+      boxes.push_back(others_[v].at(others.at[v], others.scale));
+    const PaperBox own = views_[*pictorial_].at({0, 0}, others.scale);
+    const auto place = free_place(own.width(), own.height(), boxes, room_, gap_);
+    if (!place) return std::nullopt;
+    Arranged all = others;
+    all.at.insert(all.at.begin() + static_cast<std::ptrdiff_t>(*pictorial_),
+                  {drawing::rounded_paper(place->left - own.left),
+                   drawing::rounded_paper(place->top - own.top)});
+    return all;
+  }
+
   /// Returns the cells for the pictorial view, in the order in which draughtsmen would take them.
   [[nodiscard]] std::vector<TrackCell> free_cells() const {
     std::vector<TrackCell> cells;
@@ -196,9 +246,9 @@ class Arranger {
     return cells;
   }
 
-  [[nodiscard]] bool free_of(const Arranged& arranged) const {
-    for (std::size_t v = 0; v < views_.size(); ++v)
-      if (!room_.takes(views_[v].at(arranged.at[v], arranged.scale))) return false;
+  [[nodiscard]] bool lie_free(std::span<const UnplacedView> views, const Arranged& arranged) const {
+    for (std::size_t v = 0; v < views.size(); ++v)
+      if (!room_.takes(views[v].at(arranged.at[v], arranged.scale))) return false;
     return true;
   }
 
@@ -206,6 +256,9 @@ class Arranger {
   Projection projection_;
   const SheetArea& room_;
   double gap_;
+  std::vector<UnplacedView> others_;      ///< all but the pictorial one
+  std::optional<std::size_t> pictorial_;  ///< which view it is
+  std::vector<Spread> spreads_ = spreads();
   std::vector<TrackCell> cells_;
   std::vector<PaperBox> boxes_;
 };
@@ -254,11 +307,6 @@ PaperBox UnplacedView::at(const PaperPoint& at, double scale) const {
   return box;
 }
 
-bool SheetArea::takes(const PaperBox& box) const {
-  return area.holds(box) && std::none_of(keep_free.begin(), keep_free.end(),
-                                         [&](const PaperBox& k) { return k.overlaps(box); });
-}
-
 Result<Arranged> arrange(std::span<const UnplacedView> views, Projection projection,
                          const SheetArea& room, double gap_mm, double scale) {
   const Arranger arranger(views, projection, room, gap_mm);
@@ -266,8 +314,13 @@ Result<Arranged> arrange(std::span<const UnplacedView> views, Projection project
     const auto found = arranger.at_scale(scale);
     return found ? *found : arranger.anyhow(scale);
   }
-  for (const double usual : drawing::usual_scales())
-    if (const auto found = arranger.at_scale(usual)) return *found;
+  for (const double usual : drawing::usual_scales()) {
+    const auto found = arranger.at_scale(usual);
+    if (!found) continue;
+    const auto between = drawing::intermediate_scale(usual);
+    const auto larger = between ? arranger.at_scale(*between) : std::nullopt;
+    return larger ? *larger : *found;
+  }
   return Error{ErrorCode::input, "the views have no room on the sheet at any scale", "",
                "take a larger sheet, a smaller gap, shorter titles or fewer views"};
 }
@@ -333,7 +386,7 @@ class Placer {
     const ViewSpec& view = what_.views[v];
     UnplacedView place;
     place.slot = view.slot;
-    const GridMargin rim = grid_margin(what_.grid, view);
+    const GridMargin rim = margin_of(what_.grid, view);
     place.left_mm = std::max(rim.left_mm, rim.other_mm);
     place.top_mm = std::max(rim.top_mm, rim.other_mm);
     place.right_mm = place.bottom_mm = rim.other_mm;
@@ -385,8 +438,8 @@ class Placer {
     place.lines = lines.at(at, scale);
   }
 
-  /// Returns the largest usual scale at which views with a position cover nothing that is taken; or
-  /// else at which none is larger than the area.
+  /// Returns the largest usual scale at which views with a position cover nothing that is taken, or
+  /// the intermediate one above it; or else the largest at which none is larger than the area.
   [[nodiscard]] double scale_for(const std::vector<std::size_t>& views) const {
     double largest = drawing::usual_scales().back();
     for (auto scale = drawing::usual_scales().rbegin(); scale != drawing::usual_scales().rend();
@@ -394,8 +447,11 @@ class Placer {
       if (!sizes_fit(views, *scale)) break;
       largest = *scale;
     }
-    for (const double scale : drawing::usual_scales())
-      if (all_clear(views, scale)) return scale;
+    for (const double scale : drawing::usual_scales()) {
+      if (!all_clear(views, scale)) continue;
+      const auto between = drawing::intermediate_scale(scale);
+      return between && all_clear(views, *between) ? *between : scale;
+    }
     return largest;
   }
 
@@ -426,6 +482,11 @@ class Placer {
 };
 
 }  // namespace
+
+GridMargin margin_of(const GridSpec& grid, const ViewSpec& view) {
+  constexpr double kGap = drawing::kFrameGapMm;
+  return view.view.perspective ? GridMargin{kGap, kGap, kGap} : grid_margin(grid, view);
+}
 
 Lettering lettering_of(const SheetSpec& what) {
   if (std::max(what.width_mm, what.height_mm) > 420) return {};

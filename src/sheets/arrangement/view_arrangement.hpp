@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "drawing/layout/view_plane.hpp"
+#include "sheets/arrangement/free_place.hpp"
+#include "sheets/arrangement/grid_lines.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
@@ -33,14 +35,6 @@ struct UnplacedView {
   [[nodiscard]] PaperBox at(const PaperPoint& at, double scale) const;
 };
 
-/// The paper on which views may lie.
-struct SheetArea {
-  PaperBox area;
-  std::vector<PaperBox> keep_free;
-
-  [[nodiscard]] bool takes(const PaperBox& box) const;
-};
-
 struct Arranged {
   double scale = 1;
   bool fits = true;
@@ -49,14 +43,19 @@ struct Arranged {
 
 /// Places the views of an arrangement in first- or third-angle projection round the front view, in
 /// columns and rows. Views of one column have the same x and views of one row the same y for each
-/// point of the model, to the micrometre. The pictorial view goes to the free place that leaves the
-/// others the largest scale.
+/// point of the model, to the micrometre. The remaining paper is spread between and beside them, as
+/// evenly as what is kept free allows. The pictorial view stands in a free cell of the columns and
+/// rows, or, where that makes all larger, wherever it has room.
 ///
-/// `scale` 0 takes the largest usual scale at which all fit. At a given scale that is too large
+/// `scale` 0 takes the largest usual scale at which all fit, or the intermediate one above it where
+/// they fit that. At a given scale that is too large
 /// they are placed all the same, and `fits` is false.
 /// Errors: input, where nothing fits at any scale.
 [[nodiscard]] Result<Arranged> arrange(std::span<const UnplacedView> views, Projection projection,
                                        const SheetArea& room, double gap_mm, double scale);
+
+/// Returns the paper beside the lines of a view that its grid lines need, or its frame.
+[[nodiscard]] GridMargin margin_of(const GridSpec& grid, const ViewSpec& view);
 
 /// The letter heights of captions and their distance below views: smaller up to A3.
 struct Lettering {
@@ -74,7 +73,7 @@ struct ViewPlace {
 };
 
 /// Returns the scale and place of each view: views of the arrangement by arrange(), others at their
-/// own position; views without a scale share the largest usual one at which they fit.
+/// own position; views without a scale share the largest one at which they fit, as in arrange().
 /// Errors: input, where nothing fits at any scale; cancelled.
 [[nodiscard]] Result<std::vector<ViewPlace>> place_views(const SheetSpec& what,
                                                          std::span<const hlr::Drawing> drawings,

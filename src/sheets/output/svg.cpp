@@ -76,7 +76,7 @@ void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>
   out << ".strake .paper { fill: #fff; stroke: none; }\n</style>\n";
 }
 
-void write_metadata(BufferedWriter& out, const Sheet& sheet) {
+void write_metadata(BufferedWriter& out, const Sheet& sheet, const model::Model& model) {
   out << "<metadata>\n<sheet xmlns=\"urn:strake:sheet:1\">\n";
   for (const PlacedView& view : sheet.views) {
     const drawing::NeutralDrawing& drawing = view.drawing;
@@ -102,7 +102,14 @@ void write_metadata(BufferedWriter& out, const Sheet& sheet) {
     if (!drawing.flush_seams)
       out << fmt::format(" edges-with-seams=\"{}\"", drawing.counters.seams);
     if (!drawing.hidden_lines) out << " hidden-lines=\"not asked for\"";
-    out << fmt::format(" hidden-left-out=\"{}\"/>\n", view.ink.left_out);
+    out << fmt::format(" hidden-left-out=\"{}\"", view.ink.left_out);
+    if (drawing.far_left_out.empty()) {
+      out << "/>\n";
+      continue;
+    }
+    out << ">\n";
+    drawing::write_far_objects(out, drawing, model);
+    out << "</view>\n";
   }
   out << "</sheet>\n</metadata>\n";
 }
@@ -152,6 +159,7 @@ void write_view(BufferedWriter& out, const PlacedView& view, const model::Model&
       << xml_escaped(view.name) << "\" data-view=\"" << xml_escaped(view.name) << "\" data-scale=\""
       << view.drawing.sheet.scale_text << "\">\n";
   drawing::write_layers(out, view.drawing.curves, view.ink, model, id + "-");
+  write_layer(out, view.frame, id + "-frame", "Frame");
   write_layer(out, view.grid, id + "-grid", "Grid");
   write_layer(out, view.tags, id + "-tags", "Tags");
   write_layer(out, view.caption, id + "-title", "Title");
@@ -180,7 +188,7 @@ void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink
          "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
       << fmt::format("width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n", width, height)
       << "<title>" << xml_escaped(sheet.title) << "</title>\n";
-  write_metadata(out, sheet);
+  write_metadata(out, sheet, model);
   write_style(out, sheet, heights_of(sheet));
   out << "<g class=\"strake\">\n"
       << fmt::format("<rect class=\"paper\" width=\"{}\" height=\"{}\"/>\n</g>\n", width, height);

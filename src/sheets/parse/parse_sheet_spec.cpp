@@ -8,7 +8,9 @@
 
 #include "core/number.hpp"
 #include "core/units.hpp"
+#include "drawing/layout/paper_size.hpp"
 #include "drawing/layout/view_plane.hpp"
+#include "drawing/layout/view_title.hpp"
 #include "settings/table_reader.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/parse/table_readers.hpp"
@@ -27,15 +29,8 @@ using settings::SourcePosition;
 using settings::TableReader;
 using settings::Value;
 
-constexpr double kLeastSheetMm = 100, kLargestSheetMm = 20000, kFarthestMm = 1e6;
+constexpr double kFarthestMm = 1e6;
 constexpr std::size_t kMostViews = 100;
-
-struct PaperSize {
-  std::string_view name;
-  double longer, shorter;
-};
-constexpr std::array<PaperSize, 5> kSizes{
-    {{"A4", 297, 210}, {"A3", 420, 297}, {"A2", 594, 420}, {"A1", 841, 594}, {"A0", 1189, 841}}};
 
 struct SlotName {
   std::string_view name;
@@ -77,6 +72,7 @@ class Parser {
     if (found_.views.size() > kMostViews)
       reading_.fault({1, 1}, "a sheet of more than 100 views", "make several sheets of it");
     check_positions();
+    name_sections();
     MarkReader marks(reading_, sets_, found_);
     for (const Value* value : top_.tables("tag")) marks.tag(*value);
     if (const Value* const value = top_.table("grid")) marks.grid(*value);
@@ -170,7 +166,9 @@ class Parser {
                    table.lengths_mm("size", 2, "\"A3\", or [\"600mm\", \"300mm\"]")) {
       take_size((*sides)[0], (*sides)[1]);
     }
-    const auto allowed = [](double mm) { return mm >= kLeastSheetMm && mm <= kLargestSheetMm; };
+    const auto allowed = [](double mm) {
+      return mm >= drawing::kLeastPaperMm && mm <= drawing::kLargestPaperMm;
+    };
     if (!allowed(found_.width_mm) || !allowed(found_.height_mm))
       reading_.fault(value != nullptr ? value->at : table.at(), "a sheet of " + found_.size + " mm",
                      "take 100mm to 20m");
@@ -181,16 +179,16 @@ class Parser {
     found_.width_mm = width;
     found_.height_mm = height;
     found_.size = shortest(width) + " x " + shortest(height);
-    for (const PaperSize& size : kSizes)
-      if (std::max(width, height) == size.longer && std::min(width, height) == size.shorter)
-        found_.size = size.name;
+    for (const auto& [name, size] : drawing::kNamedPapers)
+      if (std::max(width, height) == size.width_mm && std::min(width, height) == size.height_mm)
+        found_.size = name;
   }
 
   void named_size(TableReader& table, const std::string& name, bool portrait) {
-    for (const PaperSize& size : kSizes)
-      if (size.name == name)
-        return take_size(portrait ? size.shorter : size.longer,
-                         portrait ? size.longer : size.shorter);
+    for (const auto& [known, size] : drawing::kNamedPapers)
+      if (known == name)
+        return take_size(portrait ? size.height_mm : size.width_mm,
+                         portrait ? size.width_mm : size.height_mm);
     reading_.fault(
         table.value("size")->at, "no sheet is called '" + name + "'",
         "write size = \"A4\", \"A3\", \"A2\", \"A1\" or \"A0\", or [\"600mm\", \"300mm\"]");
@@ -314,7 +312,7 @@ class Parser {
     }
     TableReader table(reading_, *value, what);
     view->where = place(value->at) + ": " + what;
-    if (const auto title = table.text("title")) view->title = *title;
+    if (const auto title = table.text("title")) entitle(*view, *title);
     views_.content(table, *view);
   }
 
@@ -325,7 +323,8 @@ class Parser {
     claim(view.name, table.at());
     table.call(view.name);
     view.where = place(value.at) + ": " + table.what();
-    view.title = table.text("title").value_or(view.name);
+    view.title = view.name;
+    if (const auto title = table.text("title")) entitle(view, *title);
     views_.seen_from(table, view);
     view.scale = ViewReader::scale(table);
     if (const auto at = table.lengths_mm("position", 2, "[\"150mm\", \"120mm\"]"))
@@ -350,6 +349,17 @@ class Parser {
     const auto axes = drawing::paper_axes(view);
     if (!axes || !axes->eye) return true;
     return dot(axes->toward, geometry::to_mm(axes->eye->at - point)) >= axes->eye->near_mm;
+  }
+
+  static void entitle(ViewSpec& view, const std::string& title) {
+    view.title = title;
+    view.own_title = true;
+  }
+
+  /// Has the views that the file gives no title say which sections they are.
+  void name_sections() {
+    for (ViewSpec& view : found_.views)
+      if (!view.own_title) view.title = drawing::title_of(view.title, view.view);
   }
 
   void add(ViewSpec view, SourcePosition at) {

@@ -136,8 +136,18 @@ std::optional<double> ViewReader::scale(TableReader& table) {
 }
 
 void ViewReader::limits(TableReader& outer, ViewSpec& view) {
-  const Value* const value = outer.table("limits");
+  const Value* const value = outer.value("limits");
   if (value == nullptr) return;
+  const auto* const word = std::get_if<std::string>(&value->held);
+  view.leaves_far_objects_out = word != nullptr && *word == "auto";
+  view.view.limits.reset();
+  if (view.leaves_far_objects_out) return;
+  if (!std::holds_alternative<settings::Table>(value->held)) {
+    reading_.fault(value->at, "'limits' of " + outer.what() + " is neither a box nor \"auto\"",
+                   "write limits = { min = [\"0m\", \"0m\", \"0m\"], max = [\"9m\", \"9m\", "
+                   "\"3m\"] }, or \"auto\" to leave out what lies far from all else");
+    return;
+  }
   TableReader table(reading_, *value, "'limits' of " + outer.what());
   const auto lo = table.point_mm("min"), hi = table.point_mm("max");
   const std::string mend =

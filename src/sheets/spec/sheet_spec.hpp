@@ -33,7 +33,8 @@ struct HatchSpec {
 
 struct ViewSpec {
   std::string name, title;
-  std::string where;  ///< "deck.toml, line 7: [[view]] 'plan'"
+  bool own_title = false;  ///< the file says the title
+  std::string where;       ///< "deck.toml, line 7: [[view]] 'plan'"
   ViewSlot slot = ViewSlot::none;
   hlr::View view;
   hlr::Options options;
@@ -41,6 +42,8 @@ struct ViewSpec {
   std::vector<HatchSpec> hatches;         ///< the first that picks an object holds for it
   std::vector<settings::Chooser> uncut;   ///< what sections leave whole
   HiddenLines hidden = HiddenLines::off;
+  /// Objects that lie so far from all others that they decide the scale are left out.
+  bool leaves_far_objects_out = false;
   std::optional<double> scale;
   std::optional<PaperPoint> position;  ///< position of the anchor, or without one of the middle
   std::optional<geometry::Vec3l> anchor;

@@ -472,6 +472,56 @@ class Draw(Scenario):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn('nothing is left to draw inside the limits', done.stderr)
 
+    def test_one_far_object_is_told_and_left_out_on_request(self):
+        self.write('far.obj', ''.join(cube(f'a{i}', i, (150 * i, 0, 0), 100) for i in range(5))
+                   + cube('lost', 5, (0, 100000, 0), 100))
+
+        def drawn(*more):
+            done = self.run_strake('draw', 'far.obj', '--unit', 'mm', '--up-axis', 'z', '--view', 'top', *more, '-o', 'x.json',
+                                   '-o', 'x.svg')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return done.stderr, json.loads((self.folder / 'x.json').read_text(encoding='utf-8'))
+
+        told, drawing = drawn()
+        self.assertIn("warning far-object: 'lost' (far.obj) lies 99.9 m from the rest: the view is about 1:500 on 420 x 297 mm "
+                      "for it, without it 1:2 on 420 x 297 mm (--limits auto leaves it out)", told)
+        self.assertEqual((drawing['sheet']['scale_text'], drawing['counts']['objects']), ('1:500', 6))
+        self.assertNotIn('far_objects', drawing)
+        told, drawing = drawn('--limits', 'auto')
+        self.assertIn("note far-object-left-out: 'lost' (far.obj) lies 99.9 m from the rest and is left out", told)
+        self.assertNotIn('warning', told)
+        self.assertEqual((drawing['sheet']['scale_text'], drawing['counts']['objects']), ('1:2', 5))
+        self.assertEqual([(far['name'], far['file']) for far in drawing['far_objects']], [('lost', 'far.obj')])
+        self.assertRegex((self.folder / 'x.svg').read_text(encoding='utf-8'), '<far-object id="[^"]*" name="lost" file="far.obj"/>')
+        self.assertNotIn('far-object', drawn('--limits', '-1,-1,-1,800,200,200')[0])
+        self.assertNotIn('far-object', drawn('--select', 'not lost', '--limits', 'auto')[0])
+
+    def test_the_paper_that_is_asked_for(self):
+        self.write('bar.obj', cube('bar', 0, (0, 0, 0), 800))
+        where = ('draw', 'bar.obj', '--unit', 'mm', '--up-axis', 'z', '--view', 'top')
+
+        def sheet(*more):
+            done = self.run_strake(*where, *more, '--json')
+            self.assertEqual(done.returncode, 0, done.stderr)
+            paper = json.loads(done.stdout)['sheet']
+            return paper['width_mm'], paper['height_mm'], paper['scale_text']
+
+        self.assertEqual(sheet(), (420, 297, '1:5'))
+        self.assertEqual(sheet('--paper', 'A3'), sheet())
+        self.assertEqual(sheet('--paper', 'A4'), (297, 210, '1:5'))
+        self.assertEqual(sheet('--paper', 'A1'), (841, 594, '1:2'))
+        self.assertEqual(sheet('--paper', 'A0,portrait'), (841, 1189, '1:1'))
+        self.assertEqual(sheet('--paper', '1mx840mm', '--scale', '1:1'), (1000, 840, '1:1'))
+        done = self.run_strake(*where, '--paper', 'A1', '--scale', '1:1', '-o', 'x.svg')
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn('--paper: at 1:1 the view is 800 x 800 mm, and of the paper of 841 x 594 mm 821 x 566 mm are for it', done.stderr)
+        self.assertIn('no larger scale than 1:2', done.stderr)
+        self.assertFalse((self.folder / 'x.svg').exists())
+        for wrong, words in (('A7', "no paper is called 'A7'"), ('A3,up', "'up' of 'A3,up'"), ('9x9', 'not between 100mm and 20m')):
+            done = self.run_strake(*where, '--paper', wrong, '-o', 'x.svg')
+            self.assertEqual(done.returncode, 2, wrong)
+            self.assertIn(words, done.stderr)
+
 
 if __name__ == '__main__':
     main()

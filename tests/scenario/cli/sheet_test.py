@@ -105,6 +105,26 @@ class Sheet(Scenario):
         done = self.draw('--section', 'z>1m')
         self.assertEqual(done.returncode, 2, done.stderr)
 
+    def test_far_objects_are_told_and_left_out_of_all_arranged_views(self):
+        self.write('m.obj', ''.join(cube(f'a{i}', i, (1500 * i, 0, 0), 1000) for i in range(5))
+                   + cube('lost', 5, (0, 1000000, 0), 1000))
+        self.write('s.toml', 'arrangement = "first-angle"\n')
+        told = self.draw().stderr
+        self.assertEqual(re.findall(r"warning far-object: .* lies 999 m from the rest: the view '(\w+)'", told),
+                         ['top', 'left', 'iso'])  # the front view looks along the way to it
+        self.assertEqual(self.root().findall(f'.//{SHEET}far-object'), [])
+        self.assertEqual({view.get('scale') for view in self.root().findall(f'.//{SHEET}view')}, {'1:5000'})
+        self.write('s.toml', 'arrangement = "first-angle"\n[defaults]\nlimits = "auto"\n')
+        told = self.draw().stderr
+        self.assertNotIn('warning', told)
+        self.assertEqual(len(re.findall('note far-object-left-out: ', told)), 4)
+        views = self.root().findall(f'.//{SHEET}view')
+        self.assertEqual([[far.get('name') for far in view] for view in views], [['lost']] * 4)
+        self.assertEqual({view.get('objects') for view in views}, {'5'})
+        self.assertIn(views[0].get('scale'), {'1:25', '1:50'})
+        self.small('[[view]]\nname = "v"\nlimits = "none"\n')
+        self.assertIn("'limits' of [[view]] 'v' is neither a box nor \"auto\"", self.draw().stderr)
+
     def test_hidden_lines_and_the_solver(self):
         self.small('arrangement = "first-angle"\n[defaults]\nhidden = "dashed"\n')
         self.assertEqual(self.draw().returncode, 0)
@@ -160,7 +180,7 @@ class Sheet(Scenario):
 
     def test_a_sheet_says_itself_what_options_say_otherwise(self):
         self.small('arrangement = "first-angle"\n')
-        for more in (['--view', 'top'], ['--scale', '1:50'], ['--select', 'a'], ['--hidden', 'all'], ['--title', 'x'],
+        for more in (['--view', 'top'], ['--scale', '1:50'], ['--paper', 'A1'], ['--select', 'a'], ['--hidden', 'all'], ['--title', 'x'],
                      ['--json'], ['-o', 's.json'], ['-o', 's.toml']):
             self.assertEqual(self.draw(*more).returncode, 2, more)
         self.assertEqual(self.run_strake('draw', 'm.obj', '--sheet', 's.toml').returncode, 2)

@@ -71,6 +71,9 @@ USAGE = [
     *behind(['draw a.obj -o x.svg --scale'], [
         ('100', 'write 1:100'), ('1/50', '1:50'), ('0:1', '1:50'), ('1:-5', '1:50'), ('1:1e300', '1:50'), ('big', '1:50'),
         ("''", 'the value is empty')]),
+    *behind(['draw a.obj -o x.svg --paper'], [
+        ('A5', 'A4, A3, A2, A1 or A0'), ('A3,up', 'neither landscape nor portrait'), ('900', 'width x height'),
+        ('9x9', 'between 100mm and 20m'), ("'900mm x wide'", 'no length of paper'), ("''", 'the value is empty')]),
     *behind(['draw a.obj -o x.svg --bucketing'], [
         ('many', 'off, auto, or a number'), ('0', 'off, auto, or a number'), ('-1', 'off, auto, or a number'),
         ("''", 'the value is empty')]),
@@ -235,6 +238,7 @@ SHEETS = [
     (VIEW + 'direction = "askew"\n', 'line 3', '"top", "bottom"'), (VIEW + 'scale = "100"\n', 'line 3', '1:100'),
     (VIEW + 'scale = 100\n', 'line 3', '1:50'), (VIEW + 'select = "name ="\n', 'line 3', 'column 7'),
     (VIEW + 'sections = ["z"]\n', 'line 3', 'z>4500mm'), (VIEW + 'hidden = "dotted"\n', 'line 3', 'dashed'),
+    (VIEW + 'limits = "all"\n', 'line 3', 'neither a box nor "auto"'),
     (VIEW + 'limits = { min = [0, 0, 0] }\n', 'line 3', 'both corners'), (VIEW + 'position = ["1mm"]\n', 'line 3', 'list of 2'),
     (VIEW + 'sharp_angle = "200deg"\n', 'line 3', 'angle'), (VIEW + 'hatch = { angel = "9deg" }\n', 'line 3', 'angle'),
     (VIEW + 'titel = "x"\n', 'line 3', 'title'), (VIEW + '[[tag]]\ntext = "x"\n', 'line 3', 'select'),

@@ -9,9 +9,14 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "drawing/layout/paper_size.hpp"
+#include "drawing/layout/view_plane.hpp"
+#include "drawing/layout/view_title.hpp"
 #include "drawing/svg/svg_path.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/drawing/write.hpp"
@@ -157,6 +162,146 @@ TEST(Layout, ScalesAndSheets) {
   stated.scale = 0;
   EXPECT_FALSE(lay_out(ship, two_objects(), stated, {}));
   EXPECT_EQ(laid_out(from_top({})).sheet.scale_text, "1:1");
+}
+
+/// The rectangle of 100 x 50 mm, so many times as large.
+hlr::Drawing rectangle_times(std::int64_t factor) {
+  hlr::Drawing drawing = rectangle();
+  for (hlr::EdgePiece& p : drawing.pieces) {
+    p.a = p.a * factor;
+    p.b = p.b * factor;
+  }
+  return drawing;
+}
+
+TEST(Layout, AnIntermediateScaleWhereHalfTheSheetWouldBeEmptyBothWays) {
+  // A3 has 400 x 269 mm for the view, which at 1:5 shows 2000 x 1345 mm and at 1:2.5 half of it.
+  const auto scale = [](std::int64_t factor) {
+    return laid_out(rectangle_times(factor)).sheet.scale_text;
+  };
+  EXPECT_EQ(scale(8), "1:2");
+  EXPECT_EQ(scale(9), "1:2.5");
+  EXPECT_EQ(scale(10), "1:2.5");
+  EXPECT_EQ(scale(11), "1:5");
+  EXPECT_EQ(scale(20), "1:5");
+  EXPECT_EQ(scale(21), "1:10");
+  EXPECT_EQ(scale(100), "1:25");
+  EXPECT_EQ(scale(10'000), "1:2500");
+  EXPECT_EQ(intermediate_scale(5), 2.5);
+  EXPECT_EQ(intermediate_scale(5e8), 2.5e8);
+  for (const double none : {0.02, 0.05, 0.5, 1.0, 2.0, 10.0, 20.0, 1e9})
+    EXPECT_EQ(intermediate_scale(none), std::nullopt) << none;
+}
+
+TEST(Layout, ThePaperDecidesTheScale) {
+  const auto on = [](std::string_view paper, std::int64_t factor) {
+    LayoutOptions options;
+    options.paper = parse_paper(paper).value();
+    return laid_out(rectangle_times(factor), options).sheet;
+  };
+  EXPECT_EQ(on("A3", 20).scale_text, laid_out(rectangle_times(20)).sheet.scale_text);
+  EXPECT_EQ(on("A1", 8).scale_text, "1:1");  // 821 x 566 mm are for the view
+  EXPECT_EQ(on("A1", 8).width_mm, 841);
+  EXPECT_EQ(on("A1,portrait", 8).scale_text, "1:2");
+  EXPECT_EQ(on("A1,portrait", 8).height_mm, 841);
+  EXPECT_EQ(on("A4", 8).scale_text, "1:5");
+  EXPECT_EQ(on("2000x500", 9).scale_text, "1:1");
+  // In the middle of what is above the title.
+  LayoutOptions options;
+  options.paper = PaperSize{1000, 500};
+  EXPECT_EQ(laid_out(rectangle(), options).lines[0].a_paper, (PaperPoint{250, 371}));
+}
+
+TEST(Layout, WhatDoesNotFitItsPaperIsAnError) {
+  LayoutOptions options;
+  options.paper = PaperSize{420, 297};
+  options.scale = 2;
+  EXPECT_EQ(laid_out(rectangle_times(8), options).sheet.scale_text, "1:2");
+  options.scale = 1;
+  const auto result = lay_out(rectangle_times(8), two_objects(), options, {});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::usage);
+  EXPECT_EQ(
+      result.error().message,
+      "at 1:1 the view is 800 x 400 mm, and of the paper of 420 x 297 mm 400 x 269 mm are for "
+      "it");
+  EXPECT_EQ(result.error().mend, "give larger paper, or no larger scale than 1:2");
+}
+
+TEST(Paper, SizesAsPeopleWriteThem) {
+  const auto size = [](std::string_view text) {
+    const auto paper = parse_paper(text);
+    return paper ? std::pair(paper->width_mm, paper->height_mm) : std::pair(0.0, 0.0);
+  };
+  EXPECT_EQ(size("A4"), std::pair(297.0, 210.0));
+  EXPECT_EQ(size(" A0 landscape "), std::pair(1189.0, 841.0));
+  EXPECT_EQ(size("A3,portrait"), std::pair(297.0, 420.0));
+  EXPECT_EQ(size("A3 portrait"), std::pair(297.0, 420.0));
+  EXPECT_EQ(size("A3, portrait"), std::pair(297.0, 420.0));
+  EXPECT_EQ(size("900x420"), std::pair(900.0, 420.0));
+  EXPECT_EQ(size("900mm x 42cm"), std::pair(900.0, 420.0));
+  for (const char* wrong :
+       {"", "A5", "a3", "A3,upright", "A3 portrait landscape", "900", "900x", "x420", "900x420x1",
+        "50x420", "900x21m", "-900x420", "900degx420", "1,5mx420"}) {
+    const auto paper = parse_paper(wrong);
+    ASSERT_FALSE(paper) << wrong;
+    EXPECT_EQ(paper.error().code, ErrorCode::usage);
+    EXPECT_NE(paper.error().mend.find("900mmx420mm"), std::string::npos) << wrong;
+  }
+}
+
+TEST(Layout, ASectionIsNamedWhereNoTitleIsGiven) {
+  const auto title = [](std::vector<hlr::Section> sections, Vec3l direction = {0, 0, 1}) {
+    hlr::View view;
+    view.direction = direction;
+    view.sections = std::move(sections);
+    return title_of("top", view);
+  };
+  const hlr::Section deck{{0, 0, 1}, {0, 0, 4'500 * kMm}};
+  EXPECT_EQ(title({}), "top");
+  EXPECT_EQ(title({deck}), "SECTION z = 4.5 m");
+  EXPECT_EQ(title({deck}, {0, 0, -1}), "SECTION z = 4.5 m");
+  EXPECT_EQ(title({deck}, {1, -1, 1}), "top, SECTION z = 4.5 m");
+  EXPECT_EQ(title({deck, {{-1, 0, 0}, {350'125, 0, 0}}}), "top, SECTION z = 4.5 m, x = 350.125 mm");
+  EXPECT_EQ(title({{{0, 0, -1}, {}}}), "SECTION z = 0 m");
+  EXPECT_EQ(title({{{0, 0, 1}, {0, 0, -100'000'000 * kMm}}}), "SECTION z = -100000 m");
+  // A plane across no axis, at a grid point beside its distance from the origin.
+  const auto askew = parse_section("3,4,0>12500mm", {0, 0, 1});
+  ASSERT_TRUE(askew);
+  EXPECT_EQ(title({askew->section}, {3, 4, 0}), "SECTION 3,4,0 = 12.5 m");
+  hlr::Drawing cut = rectangle();
+  cut.view.sections = {deck};
+  LayoutOptions options;
+  options.view_name = "top";
+  EXPECT_EQ(laid_out(cut, options).title, "SECTION z = 4.5 m");
+  EXPECT_NE(svg_of(laid_out(cut, options)).find(">SECTION z = 4.5 m</text>"), std::string::npos);
+  options.title = "DECK <1>";
+  EXPECT_EQ(laid_out(cut, options).title, "DECK <1>");
+  EXPECT_NE(svg_of(laid_out(cut, options)).find(">DECK &lt;1&gt;</text>"), std::string::npos);
+}
+
+TEST(Layout, APerspectiveHasAFrameWhereItEnds) {
+  // 1 m before the plane: the field of view is 2 m wide there, 200 mm on paper.
+  hlr::Drawing drawing = from_top({piece(0, {-1000 * kMm, 0, 0}, {200 * kMm, 100 * kMm, 0}),
+                                   piece(1, {0, 0, 0}, {5000 * kMm, 0, 0}, State::clipped)});
+  LayoutOptions options;
+  options.scale = 10;
+  EXPECT_FALSE(laid_out(drawing, options).frame);
+  EXPECT_EQ(svg_of(laid_out(drawing, options)).find("view-frame"), std::string::npos);
+  drawing.view.perspective = hlr::Perspective{{0, 0, 1000 * kMm}, {0, 0, 0}};
+  const NeutralDrawing seen = laid_out(drawing, options);
+  ASSERT_TRUE(seen.frame);
+  EXPECT_EQ(seen.lines[0].a_paper, (PaperPoint{150, 149.5}));
+  // At the left the field ends; the other sides are beside the lines.
+  EXPECT_EQ(seen.frame->left, 150);
+  EXPECT_EQ(seen.frame->top, 136.5);
+  EXPECT_EQ(seen.frame->right, 273);
+  EXPECT_EQ(seen.frame->bottom, 152.5);
+  EXPECT_NE(svg_of(seen).find("id=\"view-frame\" class=\"frame\">\n<path d=\"M150 136.5L273 136.5 "
+                              "273 152.5 150 152.5Z\"/>"),
+            std::string::npos);
+  drawing.pieces.clear();
+  EXPECT_FALSE(laid_out(drawing, options).frame);
 }
 
 /// A cylinder along x, so long.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "sheets/arrangement/view_arrangement.hpp"
@@ -82,11 +83,11 @@ TEST(Arrangement, FirstAngleStandsAcrossThirdAngleBeside) {
   }
 }
 
-TEST(Arrangement, TheLargestUsualScaleThatFits) {
+TEST(Arrangement, TheLargestUsualScaleThatFitsOrTheIntermediateOneAboveIt) {
   const auto views = views_of({ViewSlot::front, ViewSlot::top, ViewSlot::left, ViewSlot::iso});
   const Arranged a = arranged(views, Projection::first_angle);
-  EXPECT_TRUE(std::find(drawing::usual_scales().begin(), drawing::usual_scales().end(), a.scale) !=
-              drawing::usual_scales().end());
+  // At 1:50 all of it takes 80 + 87 + 15 of 382 mm across: the intermediate scale has room, too.
+  EXPECT_EQ(a.scale, 25);
   for (const double larger : drawing::usual_scales()) {
     if (larger >= a.scale) break;
     EXPECT_FALSE(arranged(views, Projection::first_angle, kA3, larger).fits) << larger;
@@ -113,6 +114,63 @@ TEST(Arrangement, ThePictorialViewTakesAFreePlace) {
         for (std::size_t w = 0; w < v; ++w)
           EXPECT_FALSE(views[v].at(a.at[v], a.scale).overlaps(views[w].at(a.at[w], a.scale)));
     }
+}
+
+/// Front, top and left view of a box about its lower corner, and an isometric one.
+std::vector<UnplacedView> views_of_box(double length, double width, double height) {
+  const double s2 = std::sqrt(2.0), s6 = std::sqrt(6.0);
+  std::vector<UnplacedView> views(4);
+  views[0] = {ViewSlot::front, {0, length, 0, height}};
+  views[1] = {ViewSlot::top, {0, length, 0, width}};
+  views[2] = {ViewSlot::left, {-width, 0, 0, height}};
+  views[3] = {ViewSlot::iso, {0, (length + width) / s2, -length / s6, (width + 2 * height) / s6}};
+  for (UnplacedView& view : views) view.bottom_mm = 11;
+  return views;
+}
+
+void expect_apart(const std::vector<UnplacedView>& views, const Arranged& a, double gap_mm) {
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    const PaperBox box = views[v].at(a.at[v], a.scale);
+    EXPECT_TRUE(kA3.takes(box)) << v;
+    const double gap = gap_mm - 0.002;  // rounding to the micrometre
+    const PaperBox wide{box.left - gap, box.top - gap, box.right + gap, box.bottom + gap};
+    for (std::size_t w = 0; w < v; ++w)
+      EXPECT_FALSE(wide.overlaps(views[w].at(a.at[w], a.scale))) << v << " and " << w;
+  }
+}
+
+TEST(Arrangement, ThePictorialViewLeavesItsCellWhereThatMakesAllLarger) {
+  // At 1:10 the front view is 220 mm wide and the isometric one 187 mm: no column holds it beside
+  // the front view, but below the long flat ones there is room for it.
+  const auto views = views_of_box(2200, 440, 220);
+  const Arranged a = arranged(views, Projection::first_angle);
+  EXPECT_EQ(a.scale, 10);
+  EXPECT_EQ(a.at[1].x, a.at[0].x);
+  EXPECT_EQ(a.at[2].y, a.at[0].y);
+  expect_apart(views, a, 15);
+}
+
+TEST(Arrangement, PaperThatIsLeftIsSpreadAsFarAsTheTitleBlockAllows) {
+  // Spread evenly the lowest view would lie on the title block; all in a corner nothing would be
+  // spread at all.
+  const auto views = views_of_box(1500, 6000, 700);
+  const Arranged a = arranged(views, Projection::first_angle, kA3, 30);
+  EXPECT_TRUE(a.fits);
+  expect_apart(views, a, 15);
+  EXPECT_GT(views[0].at(a.at[0], a.scale).left, kA3.area.left + 1);
+}
+
+TEST(Arrangement, AFreePlaceIsInTheMiddleOfTheMostRoom) {
+  const SheetArea room{{0, 0, 400, 200}, {{300, 150, 400, 200}}};
+  const std::vector<PaperBox> others{{0, 0, 100, 100}};
+  const auto place = free_place(50, 20, others, room, 10);
+  ASSERT_TRUE(place);
+  // At the right of the other, from 110 to 400 across, and beside what is kept free.
+  EXPECT_EQ(*place, (PaperBox{230, 90, 280, 110}));
+  EXPECT_FALSE(free_place(291, 95, others, room, 10));
+  EXPECT_TRUE(free_place(290, 95, others, room, 10));
+  EXPECT_FALSE(free_place(500, 10, others, room, 10));
+  EXPECT_EQ(*free_place(400, 200, {}, {{0, 0, 400, 200}, {}}, 10), (PaperBox{0, 0, 400, 200}));
 }
 
 TEST(Arrangement, NoRoomAtAnyScaleIsAnError) {

@@ -152,6 +152,12 @@ TEST(Sheet, AViewFromAnEyeIsTrueInThePlaneOfItsTarget) {
   EXPECT_NE(d.svg.find("name=\"v\" direction=\"0,-1,0\" up=\"0,0,1\" projection=\"perspective\""),
             std::string::npos);
   EXPECT_TRUE(view.grid.paths.empty());
+  // Nothing is cut off by the field of view, so the frame lies beside the lines.
+  ASSERT_EQ(view.frame.paths.size(), 1U);
+  EXPECT_NEAR(view.frame.paths[0].points[0].x, view.box.left - 3, 1e-9);
+  EXPECT_NEAR(view.frame.paths[0].points[2].y, view.box.bottom + 3, 1e-9);
+  EXPECT_NE(d.svg.find("id=\"view-1-frame\""), std::string::npos);
+  EXPECT_TRUE(view_of(d.sheet, "w").frame.paths.empty());
   EXPECT_FALSE(view_of(d.sheet, "w").grid.paths.empty());
   // The scale of the sheet is that of the other view; nothing has it beside a picture.
   EXPECT_EQ(view.caption.texts.size(), 1U);
@@ -183,6 +189,20 @@ TEST(Sheet, WhatAViewDoesNotShowIsNotWorkedOut) {
   }
   EXPECT_NE(without.svg.find("hidden-lines=\"not asked for\""), std::string::npos);
   EXPECT_EQ(dashed.svg.find("hidden-lines="), std::string::npos);
+}
+
+TEST(Sheet, ATitleSaysItsSectionUnlessItIsGiven) {
+  const Drawn d =
+      drawn(with_frame("[arrangement]\nviews=[\"top\",\"left\",\"iso\"]\nsections=[\"z>500mm\"]\n"
+                       "[arrangement.left]\ntitle=\"\"\n[arrangement.iso]\nsections=[]\n"));
+  EXPECT_EQ(view_of(d.sheet, "front").title, "FRONT VIEW, SECTION z = 500 mm");
+  EXPECT_EQ(view_of(d.sheet, "top").title, "SECTION z = 500 mm");
+  EXPECT_EQ(view_of(d.sheet, "left").title, "");
+  EXPECT_EQ(view_of(d.sheet, "iso").title, "ISOMETRIC VIEW");
+  EXPECT_NE(d.svg.find(">SECTION z = 500 mm</text>"), std::string::npos);
+  const Drawn own = drawn(with_frame(
+      "[[view]]\nname=\"v\"\ndirection=\"top\"\ntitle=\"DECK\"\nsections=\"z>500mm\"\n"));
+  EXPECT_EQ(view_of(own.sheet, "v").title, "DECK");
 }
 
 TEST(Sheet, TheFirstHatchThatPicksAnObjectHolds) {

@@ -166,6 +166,7 @@ TEST(SheetFileText, FaultsNamePlaceAndMend) {
       {std::string(kView) + "hatch = { angle = \"200deg\" }", "is no way of lines"},
       {std::string(kView) + "hatch = [{ select = [] }]",
        "'select' of 'hatch' of [[view]] 'v' picks nothing"},
+      {std::string(kView) + "limits = 3", "'limits' of [[view]] 'v' is neither a box nor \"auto\""},
       {std::string(kView) + "limits = { min = [0, 0, 0] }", "wants both corners"},
       {std::string(kView) + "limits = { min = [\"1m\", 0, 0], max = [0, 0, 0] }", "ends before"},
       {std::string(kView) + "limits = { min = [0, 0, 0], max = [\"1e30m\", 0, 0] }",
