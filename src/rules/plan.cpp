@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "model/attributes.hpp"
+#include "rules/clearances.hpp"
 #include "rules/exemptions.hpp"
 #include "rules/rule_context.hpp"
 #include "rules/rule_file.hpp"
@@ -205,7 +207,7 @@ class PlanBuilder {
   PlannedTest planned(const TestRule& test) {
     PlannedTest planned;
     planned.name = test.name;
-    planned.options.tolerances = test.tolerances;
+    planned.options.tolerances = tolerances(test.tolerances);
     planned.options.contact_distance_mm = test.contact_distance_mm;
     planned.policy = policy(test);
     if (test.matrix) {
@@ -239,7 +241,20 @@ class PlanBuilder {
     return policy;
   }
 
-  void add_matrix(PlannedTest& planned) const {
+  /// Returns tolerances with what objects add to the clearance, which is read once for each
+  /// attribute.
+  clash::Tolerances tolerances(const ToleranceRule& rule) {
+    clash::Tolerances tolerances = rule.of_all;
+    if (rule.clearance_attribute.empty()) return tolerances;
+    auto& read = object_clearances_[rule.clearance_attribute];
+    if (!read)
+      read = object_clearances(rule_context_.model(), rule.clearance_attribute,
+                               rule.clearance_where, rule_context_.diagnostics());
+    tolerances.object_clearances = read;
+    return tolerances;
+  }
+
+  void add_matrix(PlannedTest& planned) {
     clash::Matrix matrix;
     matrix.rule = std::string(kMatrixRule);
     const std::size_t n = rules_.disciplines.size();
@@ -252,7 +267,7 @@ class PlanBuilder {
       if (!cell.checked) value = clash::Matrix::kNotChecked;
       if (cell.tolerances) {
         value = static_cast<std::uint32_t>(planned.policy.tolerances.size());
-        planned.policy.tolerances.push_back(*cell.tolerances);
+        planned.policy.tolerances.push_back(tolerances(*cell.tolerances));
       }
       matrix.cells[cell.a * n + cell.b] = matrix.cells[cell.b * n + cell.a] = value;
     }
@@ -270,6 +285,7 @@ class PlanBuilder {
   std::vector<clash::Allowed> allowed_;
   std::optional<clash::Levels> levels_;
   std::vector<std::uint32_t> discipline_;
+  std::map<std::string, std::shared_ptr<const clash::ObjectClearances>> object_clearances_;
 };
 
 }  // namespace
@@ -295,8 +311,8 @@ Result<Rules> Rules::read(const std::filesystem::path& file) {
 model::SceneOptions Rules::scene_options() const {
   model::SceneOptions options;
   bool first = true;
-  const auto refine = [&](const clash::Tolerances& t) {
-    const double sag = clash::scene_options({.tolerances = t}).sag_mm;
+  const auto refine = [&](const ToleranceRule& rule) {
+    const double sag = clash::scene_options({.tolerances = rule.of_all}).sag_mm;
     options.sag_mm = first ? sag : std::min(options.sag_mm, sag);
     first = false;
   };

@@ -18,12 +18,19 @@ namespace strake::rules {
 using settings::Chooser;
 using settings::NamedSet;
 
+/// Tolerances as written.
+struct ToleranceRule {
+  clash::Tolerances of_all;         ///< without what objects add
+  std::string clearance_attribute;  ///< what both objects of a pair add; empty: nothing
+  std::string clearance_where;      ///< what messages call the place of the attribute
+};
+
 struct TestRule {
   std::string name;
   bool enabled = true;
   bool matrix = false;
   std::optional<Chooser> a, b;  ///< absent: all objects
-  clash::Tolerances tolerances;
+  ToleranceRule tolerances;
   double contact_distance_mm = -1;
   std::vector<std::string> without;  ///< rules that this test does not follow
 };
@@ -31,7 +38,7 @@ struct TestRule {
 struct CellRule {
   std::uint32_t a = 0, b = 0;  ///< indices of disciplines
   bool checked = true;
-  std::optional<clash::Tolerances> tolerances;  ///< absent: those of the test
+  std::optional<ToleranceRule> tolerances;  ///< absent: those of the test
 };
 
 struct MatrixRule {
