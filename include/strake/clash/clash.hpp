@@ -243,10 +243,6 @@ struct Report {
   Diagnostics diagnostics;
 };
 
-/// Returns the tolerances by which a pair of the report was checked: those of its cell where the
-/// test has a matrix.
-[[nodiscard]] const Tolerances& tolerances_of(const Report& report, const Pair& pair);
-
 /// What the tests of one run over one model found.
 struct Findings {
   std::vector<Report> tests;

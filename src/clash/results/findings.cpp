@@ -29,16 +29,6 @@ Diagnostics named(const Report& test) {
 
 }  // namespace
 
-const Tolerances& tolerances_of(const Report& report, const Pair& pair) {
-  if (report.cells.empty()) return report.options.tolerances;
-  const auto cell_of = [](const CellReport& cell) { return std::pair(cell.a, cell.b); };
-  const std::pair<std::uint32_t, std::uint32_t> wanted =
-      std::minmax(report.discipline[index(pair.a)], report.discipline[index(pair.b)]);
-  const auto cell = std::ranges::lower_bound(report.cells, wanted, {}, cell_of);
-  const bool there = cell != report.cells.end() && cell_of(*cell) == wanted;
-  return there ? cell->tolerances : report.options.tolerances;
-}
-
 Diagnostics Findings::all_diagnostics() const {
   Diagnostics all = diagnostics;
   for (const Report& test : tests) all.append(test.name.empty() ? test.diagnostics : named(test));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
+#include "clash/results/required_clearance.hpp"
 #include "clash/rules/tolerance_lengths.hpp"
 #include "core/text_encoding.hpp"
 #include "report/clash/attribute_columns.hpp"
@@ -206,10 +207,10 @@ void regions(std::string& out, const Report& test, const Pair& p) {
 
 /// Appends the clearance that the pair has to keep, where its objects have a say in it.
 void required_clearance(std::string& out, const Report& report, const Pair& p) {
-  const clash::Tolerances& t = clash::tolerances_of(report, p);
-  if (!t.object_clearances) return;
+  const std::optional<double> mm = clash::required_clearance_mm(report, p);
+  if (!mm) return;
   out += ", \"clearance_mm\": ";
-  append_mm(out, t.clearance_mm + t.added_clearance_mm(index(p.a), index(p.b)));
+  append_mm(out, *mm);
 }
 
 void volume(std::string& out, const Pair& p) {

@@ -58,6 +58,7 @@ name = "later"
 enabled = false
 a = "set(one)"
 b = "*"
+clearance = "@'Insulation thickness' + 25mm"
 touch_gap = "2mm"
 contact_distance = 0
 without = ["sleeves", "soft against soft"]
@@ -138,6 +139,12 @@ TEST(RulesFile, FaultsNamePlaceAndMend) {
        "'clearance' of [defaults]: '-1mm' is negative (write a length from 0 to 1km)"},
       {"[defaults]\nclearance = \"2km\"", "is longer than a kilometre"},
       {"[defaults]\nclearance = \"nanmm\"", "'clearance' of [defaults]"},
+      {"[defaults]\nclearance = \"@INSU + 25\"",
+       "r.toml, line 2, column 13: 'clearance' of [defaults]: the length '25' has no unit"},
+      {"[[test]]\nname = \"t\"\nclearance = \"@INSU + @LAG\"",
+       "r.toml, line 3, column 13: 'clearance' of [[test]] 't': '@INSU + @LAG' has two attributes "
+       "(write a length, an attribute or one of each"},
+      {"[defaults]\ntouch_gap = \"@INSU\"", "'touch_gap' of [defaults]: '@INSU' is not a length"},
       {"[defaults]\nthickness_cap = \"yes\"",
        "'thickness_cap' of [defaults] is a text, not true or false"},
       {"defaults = 3", "'defaults' is a whole number, not a table (write [defaults] with single"},
