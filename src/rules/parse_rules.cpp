@@ -341,6 +341,7 @@ class RulesParser {
     rule.soft_against_soft = table.flag("soft_against_soft").value_or(true);
     rule.soft = sets_.chooser(table, "soft");
     rule.none = sets_.chooser(table, "none");
+    rule.hard = sets_.chooser(table, "hard");
     for (const std::string_view name : {kNoObstructionRule, kSoftRule})
       claim(std::string(name), value->at, rule_names_);
   }
@@ -352,6 +353,7 @@ class RulesParser {
     InsulationRule& rule = rules_.insulation.emplace();
     rule.against_insulation = table.flag("against_insulation").value_or(true);
     rule.against_soft = table.flag("against_soft").value_or(true);
+    rule.select = sets_.chooser(table, "select");
     for (const std::string_view name : {kInsulationRule, kInsulationSoftRule})
       claim(std::string(name), value->at, rule_names_);
   }

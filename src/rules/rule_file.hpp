@@ -104,11 +104,12 @@ struct ObstructionRule {
   std::vector<std::string> attributes{"OBST"};  ///< the first that an object has counts
   clash::Level bodies = clash::Level::soft;     ///< none: obstruction volumes are not placed
   bool soft_against_soft = true;
-  std::optional<Chooser> soft, none;
+  std::optional<Chooser> soft, none, hard;  ///< they go before attributes; hard before all
 };
 
 struct InsulationRule {
   bool against_insulation = true, against_soft = true;
+  std::optional<Chooser> select;  ///< objects that are insulation as a whole, whatever else is said
 };
 
 struct AllowedRule {

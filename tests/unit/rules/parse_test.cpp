@@ -105,7 +105,9 @@ volumes = "hard"
 soft_against_soft = false
 soft = "ACCESS*"
 none = "NOTE*"
+hard = "ACCESS-DOOR*"
 [insulation]
+select = "LAGGING*"
 against_insulation = false
 against_soft = false
 [[allowed]]
@@ -203,6 +205,7 @@ TEST(RulesFile, FaultsNamePlaceAndMend) {
       {"[[exempt]]\nname = \"c\"\na = \"x\"", "[[exempt]] 'c' has no 'b'"},
       {"[obstruction]\nvolumes = \"hart\"", "write one of \"soft\", \"hard\", \"none\""},
       {"[insulation]\nagainst_soft = 1", "not true or false"},
+      {"[insulation]\nselect = \"type =\"", "r.toml, line 2, column 10, [insulation], select"},
       {"[[exempt]]\nname = \"soft against soft\"\na = \"x\"\nb = \"y\"\n[obstruction]",
        "the name 'soft against soft' is given twice"},
       {"[[allowed]]\nname = \"c\"\nb = \"x\"", "[[allowed]] 'c' has no 'a'"},
