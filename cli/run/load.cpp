@@ -14,6 +14,7 @@
 #include <system_error>
 #include <vector>
 
+#include "cli/run/file_settings.hpp"
 #include "core/text_encoding.hpp"
 #include "core/units.hpp"
 #include "strake/core/diagnostics.hpp"
@@ -217,9 +218,11 @@ void note_repeated_files(model::Model& model, const std::vector<std::string>& fi
   }
 }
 
-Result<model::Model> read_model(Session& session, const InputOptions& input) {
-  const Result<std::vector<io::FileToRead>> files = files_to_read(input);
+Result<model::Model> read_model(Session& session, const InputOptions& input,
+                                std::span<const rules::FileSettings> said_of_files) {
+  Result<std::vector<io::FileToRead>> files = files_to_read(input);
   if (!files) return files.error();
+  apply_file_settings(said_of_files, *files);
   const auto timer = session.step("load");
   Result<model::Model> model = io::read_models(*files, session.context());
   if (!model) return model;
@@ -259,9 +262,9 @@ Diagnostics Loaded::diagnostics() const {
   return all;
 }
 
-Result<Loaded> load(Session& session, const InputOptions& input,
-                    const model::SceneOptions& options) {
-  Result<model::Model> model = read_model(session, input);
+Result<Loaded> load(Session& session, const InputOptions& input, const model::SceneOptions& options,
+                    std::span<const rules::FileSettings> said_of_files) {
+  Result<model::Model> model = read_model(session, input, said_of_files);
   if (!model) return model.error();
   Loaded loaded;
   loaded.model = std::make_unique<const model::Model>(std::move(*model));

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "rules/file_settings.hpp"
 #include "rules/rule_file.hpp"
 #include "rules/tolerance_rule.hpp"
 #include "settings/named_sets.hpp"
@@ -43,6 +44,7 @@ class RulesParser {
   RuleFile run() {
     rules_.sets = sets_.all();
     defaults();
+    rules_.files = read_file_settings(reading_, top_);
     disciplines();
     matrix();
     units();

@@ -192,6 +192,8 @@ const std::string& Rules::file() const { return file_->file; }
 
 Hash128 Rules::hash() const { return file_->hash; }
 
+std::span<const FileSettings> Rules::files() const { return file_->files; }
+
 Result<Rules> Rules::read(const std::filesystem::path& file) {
   const Result<std::string> text =
       settings::read_text_file(file, "rules file", "; models come before --rules");

@@ -11,6 +11,7 @@
 #include "settings/named_sets.hpp"
 #include "strake/clash/policy.hpp"
 #include "strake/core/hash.hpp"
+#include "strake/rules/rules.hpp"
 
 /// The rules of a file, as parsed.
 namespace strake::rules {
@@ -124,6 +125,7 @@ struct AllowedRule {
 struct RuleFile {
   std::string file;
   Hash128 hash;  ///< the hash of its bytes
+  std::vector<FileSettings> files;
   std::vector<NamedSet> sets, disciplines;
   std::optional<MatrixRule> matrix;
   std::vector<TestRule> tests;

@@ -9,12 +9,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "clash/rules/tolerance_lengths.hpp"
+#include "cli/run/file_settings.hpp"
 #include "cli/run/load.hpp"
 #include "cli/verbs/clash/clash_hint.hpp"
 #include "cli/verbs/clash/clash_output.hpp"
@@ -174,6 +176,11 @@ struct ClashRequest {
   ClashOutput output;
 };
 
+/// Returns what the rules say of files.
+std::span<const rules::FileSettings> files_of(const ClashRequest& request) {
+  return request.rules ? request.rules->files() : std::span<const rules::FileSettings>();
+}
+
 /// Returns what the run writes.
 WrittenFiles written_files(const ClashOptions& given, bool json) {
   WrittenFiles files{.json = json, .pair_log = !given.result.log_pairs.empty(), .table = !json};
@@ -332,10 +339,11 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   if (const Status status = check(given.result); !status) return status.error();
   if (const Status status = check_contacts(given, request->output); !status) return status.error();
   if (const Status status = check_files(given); !status) return status.error();
-  const Result<Loaded> loaded = load(session, given.input, request->scene);
+  const Result<Loaded> loaded = load(session, given.input, request->scene, files_of(*request));
   if (!loaded) return loaded.error();
   Result<clash::Findings> findings = findings_of(session, *loaded, *request, given.list_exempted);
   if (!findings) return findings.error();
+  findings->diagnostics.append(idle_file_settings(files_of(*request), given.input.files));
   findings->diagnostics.append(check_columns(request->output.columns, *loaded->model));
   tell(session, *findings, *loaded->model);
   const FailingPairs failing = failing_pairs(*findings, given.fail_on);
