@@ -19,8 +19,8 @@
 /// Loads the models of a command line and prints what was noticed.
 namespace strake::cli {
 
-/// Warns of two files that may be of different units: the unit of at least one is only assumed, and
-/// their extents differ by the ratio of two units of length.
+/// Warns of two files that may be of different units: their extents differ by the ratio of two
+/// units of length, and the unit of one is only assumed, or nobody has said that of either.
 void note_doubtful_units(model::Scene& scene);
 
 /// Which bodies take part, how finely curved ones are tessellated and which seams of meshes are
