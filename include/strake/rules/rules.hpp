@@ -36,7 +36,7 @@ struct FileSettings {
   std::optional<char> up_axis;  ///< 'x', 'y' or 'z'
   std::string where;            ///< what messages call its line
 
-  /// Whether it is about a file, by its path as given or as it is from the root.
+  /// Whether it is about a file, by its path from the root.
   [[nodiscard]] bool is_of(const std::filesystem::path& file) const;
 };
 
