@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run/file_settings.hpp"
 
+#include <cstddef>
+
+#include "cli/options/options.hpp"
 #include "rules/rule_context.hpp"
 
 namespace strake::cli {
@@ -16,9 +19,7 @@ bool take(const rules::FileSettings& from, io::ReadOptions& options) {
     some = true;
   }
   if (from.up_axis && !options.up_axis) {
-    options.up_axis = *from.up_axis == 'x'   ? io::UpAxis::x
-                      : *from.up_axis == 'y' ? io::UpAxis::y
-                                             : io::UpAxis::z;
+    options.up_axis = up_axis_of(*from.up_axis);
     some = true;
   }
   return some;
