@@ -12,7 +12,7 @@ namespace {
 
 /// Takes what a table says of a file and what nobody has said of it before; returns whether that is
 /// anything.
-bool take(const rules::FileSettings& from, io::ReadOptions& options) {
+bool take_settings(const rules::FileSettings& from, io::ReadOptions& options) {
   bool some = false;
   if (from.unit_mm && !options.unit_mm) {
     options.unit_mm = from.unit_mm;
@@ -31,7 +31,7 @@ void apply_file_settings(std::span<const rules::FileSettings> settings,
                          std::vector<io::FileToRead>& files) {
   for (const rules::FileSettings& one : settings)
     for (io::FileToRead& file : files)
-      if (one.is_of(file.path)) take(one, file.options);
+      if (one.is_of(file.path)) take_settings(one, file.options);
 }
 
 Diagnostics idle_file_settings(std::span<const rules::FileSettings> settings,
@@ -43,7 +43,7 @@ Diagnostics idle_file_settings(std::span<const rules::FileSettings> settings,
     for (std::size_t f = 0; f < files.size(); ++f) {
       if (!one.is_of(files[f])) continue;
       matches = true;
-      some = take(one, said[f]) || some;
+      some = take_settings(one, said[f]) || some;
     }
     if (!matches)
       diagnostics.add(Severity::warning, rules::kMatchesNothing,
