@@ -238,6 +238,10 @@ Status apply_file_values(const std::vector<std::string>& values, const std::stri
 
 }  // namespace
 
+io::UpAxis up_axis_of(char letter) {
+  return letter == 'x' ? io::UpAxis::x : letter == 'y' ? io::UpAxis::y : io::UpAxis::z;
+}
+
 Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options) {
   std::vector<io::FileToRead> files;
   for (const std::string& file : options.files) files.push_back({file, {}});
@@ -249,14 +253,14 @@ Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options) {
         return {};
       });
   if (!status) return status.error();
-  status = apply_file_values(
-      options.up_axes, "--up-axis", files,
-      [](io::ReadOptions& read, const std::string& text) -> Status {
-        if (text != "x" && text != "y" && text != "z")
-          return usage("'" + text + "' is not one of x|y|z", "--up-axis", "write x, y or z");
-        read.up_axis = text == "x" ? io::UpAxis::x : text == "y" ? io::UpAxis::y : io::UpAxis::z;
-        return {};
-      });
+  status = apply_file_values(options.up_axes, "--up-axis", files,
+                             [](io::ReadOptions& read, const std::string& text) -> Status {
+                               if (text != "x" && text != "y" && text != "z")
+                                 return usage("'" + text + "' is not one of x|y|z", "--up-axis",
+                                              "write x, y or z");
+                               read.up_axis = up_axis_of(text.front());
+                               return {};
+                             });
   if (!status) return status.error();
   return files;
 }

@@ -53,6 +53,8 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
 [[nodiscard]] Result<unsigned> worker_count(const CommonOptions& options);
 /// Returns how the regions of the run share their items out.
 [[nodiscard]] parallel::Distribution distribution_of(const CommonOptions& options);
+/// Returns the axis of one of the letters x, y and z.
+[[nodiscard]] io::UpAxis up_axis_of(char letter);
 /// Returns the files, each with the options given for it or for all.
 [[nodiscard]] Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -14,6 +15,7 @@
 #include <system_error>
 #include <vector>
 
+#include "cli/run/file_settings.hpp"
 #include "core/text_encoding.hpp"
 #include "core/units.hpp"
 #include "strake/core/diagnostics.hpp"
@@ -57,16 +59,31 @@ bool is_alike(const Vec3d& small, const Vec3d& large, const Mistake& mistake) {
   return significant_axes >= 2;
 }
 
+/// How the unit of a file is known: neither it nor anybody states it; its format does, by which
+/// programs that write it do not always go; somebody does.
+enum class UnitSource : std::uint8_t { assumed, stated, given };
+
 struct FileExtent {
   std::size_t file;
   Vec3d size;
-  std::string_view assumed;  ///< the unit; empty where it is known
+  std::string_view unit;
+  UnitSource source;
 };
 
-/// Returns the unit where a file does not state it and nobody has.
-std::string_view assumed_unit(std::string_view unit) {
-  constexpr std::string_view kAssumed = " (assumed)";
-  return unit.ends_with(kAssumed) ? unit.substr(0, unit.size() - kAssumed.size()) : "";
+/// Splits "mm (assumed)".
+FileExtent extent_of(std::size_t file, const Vec3d& size, std::string_view unit) {
+  const std::size_t end = unit.find(" (");
+  const UnitSource source = unit.ends_with("(assumed)") ? UnitSource::assumed
+                            : unit.ends_with("(given)") ? UnitSource::given
+                                                        : UnitSource::stated;
+  return {file, size, unit.substr(0, end), source};
+}
+
+/// Whether there is no reason to doubt the units of two files: somebody has said one of them, and
+/// the other is not just assumed.
+bool are_trusted(const FileExtent& x, const FileExtent& y) {
+  const bool assumed = x.source == UnitSource::assumed || y.source == UnitSource::assumed;
+  return !assumed && (x.source == UnitSource::given || y.source == UnitSource::given);
 }
 
 /// Returns the extents of the files of which anything is placed.
@@ -78,8 +95,7 @@ std::vector<FileExtent> extents(const model::Scene& scene) {
         body.box(scene.shapes[body.grid_shape]).as<double>());
   std::vector<FileExtent> found;
   for (std::size_t f = 0; f < files.size(); ++f)
-    if (!boxes[f].empty())
-      found.push_back({f, boxes[f].hi - boxes[f].lo, assumed_unit(files[f].unit)});
+    if (!boxes[f].empty()) found.push_back(extent_of(f, boxes[f].hi - boxes[f].lo, files[f].unit));
   return found;
 }
 
@@ -91,18 +107,20 @@ bool is_alike_in_any_frame(const FileExtent& small, const FileExtent& large,
   return is_alike(s, large.size, mistake) || is_alike({s.x, s.z, s.y}, large.size, mistake);
 }
 
-/// Returns what to advise for the two files: never another unit for one that is known.
+/// Returns what to advise for the two files: never another unit for one that is known, if that of
+/// the other is assumed. Where the formats of both state it, the large one is more likely wrong, as
+/// a glTF file in millimetres: nobody models in units larger than a metre.
 std::string options_to_try(const FileExtent& small, const FileExtent& large, const Mistake& mistake,
                            const std::vector<model::SourceFile>& files) {
   const auto option = [&](const FileExtent& of, std::string_view unit) {
     return fmt::format("--unit '{}={}'", files[of.file].label, unit);
   };
   const auto& [factor, small_unit, large_unit, alike] = mistake;
-  if (!small.assumed.empty() && !large.assumed.empty())
+  const bool small_assumed = small.source == UnitSource::assumed;
+  if (small_assumed && large.source == UnitSource::assumed)
     return option(small, small_unit) + ' ' + option(large, large_unit);
-  if (!small.assumed.empty())
-    return option(small, small.assumed == large_unit ? small_unit : "UNIT");
-  return option(large, large.assumed == small_unit ? large_unit : "UNIT");
+  if (small_assumed) return option(small, small.unit == large_unit ? small_unit : "UNIT");
+  return option(large, large.unit == small_unit ? large_unit : "UNIT");
 }
 
 }  // namespace
@@ -112,7 +130,7 @@ void note_doubtful_units(model::Scene& scene) {
   const std::vector<FileExtent> found = extents(scene);
   for (const FileExtent& large : found)
     for (const FileExtent& small : found) {
-      if (large.assumed.empty() && small.assumed.empty()) continue;
+      if (are_trusted(large, small)) continue;
       for (const Mistake& mistake : kMistakes)
         if (is_alike_in_any_frame(small, large, mistake))
           scene.diagnostics.add(
@@ -217,9 +235,11 @@ void note_repeated_files(model::Model& model, const std::vector<std::string>& fi
   }
 }
 
-Result<model::Model> read_model(Session& session, const InputOptions& input) {
-  const Result<std::vector<io::FileToRead>> files = files_to_read(input);
+Result<model::Model> read_model(Session& session, const InputOptions& input,
+                                std::span<const rules::FileSettings> said_of_files) {
+  Result<std::vector<io::FileToRead>> files = files_to_read(input);
   if (!files) return files.error();
+  apply_file_settings(said_of_files, *files);
   const auto timer = session.step("load");
   Result<model::Model> model = io::read_models(*files, session.context());
   if (!model) return model;
@@ -259,9 +279,9 @@ Diagnostics Loaded::diagnostics() const {
   return all;
 }
 
-Result<Loaded> load(Session& session, const InputOptions& input,
-                    const model::SceneOptions& options) {
-  Result<model::Model> model = read_model(session, input);
+Result<Loaded> load(Session& session, const InputOptions& input, const model::SceneOptions& options,
+                    std::span<const rules::FileSettings> said_of_files) {
+  Result<model::Model> model = read_model(session, input, said_of_files);
   if (!model) return model.error();
   Loaded loaded;
   loaded.model = std::make_unique<const model::Model>(std::move(*model));

@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -13,12 +14,13 @@
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 #include "strake/model/scene.hpp"
+#include "strake/rules/rules.hpp"
 
 /// Loads the models of a command line and prints what was noticed.
 namespace strake::cli {
 
-/// Warns of two files that may be of different units: the unit of at least one is only assumed, and
-/// their extents differ by the ratio of two units of length.
+/// Warns of two files that may be of different units: their extents differ by the ratio of two
+/// units of length, and the unit of one is only assumed, or nobody has said that of either.
 void note_doubtful_units(model::Scene& scene);
 
 /// Which bodies take part, how finely curved ones are tessellated and which seams of meshes are
@@ -42,9 +44,11 @@ struct Loaded {
   [[nodiscard]] Diagnostics diagnostics() const;
 };
 
-/// Reads the files of the command line, puts them on the grid, and prints what was noticed.
+/// Reads the files of the command line, puts them on the grid, and prints what was noticed;
+/// `said_of_files` is what rules say of them, if there are any.
 [[nodiscard]] Result<Loaded> load(Session& session, const InputOptions& input,
-                                  const model::SceneOptions& options);
+                                  const model::SceneOptions& options,
+                                  std::span<const rules::FileSettings> said_of_files = {});
 
 /// Returns `done`, or `partial` where --strict was given and something was skipped.
 [[nodiscard]] ExitCode strict_exit_code(const InputOptions& input, const Loaded& loaded);

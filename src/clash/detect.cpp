@@ -77,8 +77,7 @@ class Engine {
     if (!parts) return parts.error();
     list_ = std::move(*parts);
     if (const Status s = set_source_errors(scene_, options_, list_, context_); !s) return s;
-    auto pairs = find_candidate_pairs(
-        list_, sets_, search_margin(rules_.reach_mm() * geometry::kGridPerMm), options_, context_);
+    auto pairs = find_candidate_pairs(list_, sets_, rules_.reach(), options_, context_);
     if (!pairs) return pairs.error();
     pairs_ = std::move(*pairs);
     if (const Status s = rules_.exempt(list_, pairs_, context_, report); !s) return s;
@@ -215,7 +214,7 @@ Result<Report> detect(const model::Scene& scene, const Sets& sets, const Options
                       const Policy& policy, const parallel::Context& context) {
   if (const Status s = check(options, sets, scene.model->objects.size()); !s) return s.error();
   for (const Tolerances& t : policy.tolerances)
-    if (const Status s = check(t); !s) return s.error();
+    if (const Status s = check(t, scene.model->objects.size()); !s) return s.error();
   if (const Status s = check(policy, scene.model->objects.size()); !s) return s.error();
   return Engine(scene, sets, options, policy, context).run();
 }

@@ -123,7 +123,7 @@ Result<std::vector<ObjectPair>> overlapping_pairs(const model::Scene& scene, con
   if (const Status s = check(options, sets, scene.model->objects.size()); !s) return s.error();
   const auto list = collect_scene_parts(scene, sets, Curves::off, context);
   if (!list) return list.error();
-  const auto pairs = find_candidate_pairs(*list, sets, 0, options, context);
+  const auto pairs = find_candidate_pairs(*list, sets, {}, options, context);
   if (!pairs) return pairs.error();
   const auto states = OverlapSearch(*list, *pairs, *scene.model, context).run();
   if (!states) return states.error();

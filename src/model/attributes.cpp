@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/text_encoding.hpp"
+#include "core/units.hpp"
 
 namespace strake::model {
 namespace {
@@ -100,6 +101,19 @@ std::vector<std::string_view> listed_values_of(const Attributes& attributes,
       each_listed(value, separator, take);
   }
   return values;
+}
+
+std::optional<double> unit_of_value_mm(std::string_view unit) {
+  if (unit.empty()) return 1.0;
+  if (const auto mm = unit_mm(unit)) return mm;
+  return unit_mm(lowered(unit.substr(0, unit.find_first_of(" \t"))));
+}
+
+std::optional<double> length_of_value_mm(std::string_view value) {
+  const auto quantity = parse_quantity(value);
+  if (!quantity) return std::nullopt;
+  const auto unit = unit_of_value_mm(quantity->unit);
+  return unit ? std::optional(quantity->number * *unit) : std::nullopt;
 }
 
 std::string_view name(Category category) {

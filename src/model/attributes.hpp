@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -33,6 +34,13 @@ namespace strake::model {
 [[nodiscard]] std::vector<std::string_view> listed_values_of(const Attributes& attributes,
                                                              std::string_view attribute,
                                                              std::string_view separator);
+
+/// Returns the length of a unit as values have it, mm: in capitals too, and with more behind it
+/// ("MM x 20MM" of "150MM x 20MM"). A value without a unit is in millimetres. Nothing where it is
+/// no unit of length.
+[[nodiscard]] std::optional<double> unit_of_value_mm(std::string_view unit);
+/// Returns the length that a bare value begins with, mm; nothing where it begins with none.
+[[nodiscard]] std::optional<double> length_of_value_mm(std::string_view value);
 
 /// The properties of one object that selections test, in the words in which they are compared
 /// (docs/selection.md).

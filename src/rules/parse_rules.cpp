@@ -9,8 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "clash/rules/tolerance_lengths.hpp"
+#include "rules/file_settings.hpp"
 #include "rules/rule_file.hpp"
+#include "rules/tolerance_rule.hpp"
 #include "settings/named_sets.hpp"
 #include "settings/table_reader.hpp"
 
@@ -18,7 +19,6 @@ namespace strake::rules {
 namespace {
 
 using clash::Level;
-using clash::Tolerances;
 using settings::KeyValue;
 using settings::NamedSets;
 using settings::ParseContext;
@@ -44,6 +44,7 @@ class RulesParser {
   RuleFile run() {
     rules_.sets = sets_.all();
     defaults();
+    rules_.files = read_file_settings(reading_, top_);
     disciplines();
     matrix();
     units();
@@ -86,19 +87,8 @@ class RulesParser {
     taken.push_back(name);
   }
 
-  /// Reads the tolerances of a table, on top of others.
-  bool tolerances(TableReader& table, Tolerances& t) {
-    bool some = false;
-    for (const clash::ToleranceLength& length : clash::kToleranceLengths)
-      if (const auto value = table.tolerance_mm(length.name)) {
-        t.*length.value_mm = *value;
-        some = true;
-      }
-    if (const auto cap = table.flag("thickness_cap")) {
-      t.thickness_cap = *cap ? clash::ThicknessCap::on : clash::ThicknessCap::off;
-      some = true;
-    }
-    return some;
+  bool tolerances(TableReader& table, ToleranceRule& rule) {
+    return read_tolerances(reading_, table, rule);
   }
 
   [[nodiscard]] TestRule plain_test(std::string name) const {
@@ -177,7 +167,7 @@ class RulesParser {
     rule_names_.emplace_back(kMatrixRule);
   }
 
-  void matrix_row(const KeyValue& row, const Tolerances& base) {
+  void matrix_row(const KeyValue& row, const ToleranceRule& base) {
     const auto a = discipline(row);
     if (!a) return;
     TableReader reader(reading_, row.value, "[matrix.cells." + row.key + "]");
@@ -192,7 +182,8 @@ class RulesParser {
     }
   }
 
-  CellRule cell(std::uint32_t a, std::uint32_t b, const KeyValue& entry, const Tolerances& base) {
+  CellRule cell(std::uint32_t a, std::uint32_t b, const KeyValue& entry,
+                const ToleranceRule& base) {
     CellRule rule{a, b, true, {}};
     const std::string what = "the cell '" + entry.key + "'";
     const auto* const word = std::get_if<std::string>(&entry.value.held);
@@ -200,7 +191,7 @@ class RulesParser {
       rule.checked = *word == kChecked;
     } else if (std::holds_alternative<Table>(entry.value.held)) {
       TableReader table(reading_, entry.value, what);
-      Tolerances own = base;
+      ToleranceRule own = base;
       if (tolerances(table, own)) rule.tolerances = own;
     } else {
       reading_.fault(entry.value.at, what + " is no rule for a pair of disciplines",
@@ -352,6 +343,7 @@ class RulesParser {
     rule.soft_against_soft = table.flag("soft_against_soft").value_or(true);
     rule.soft = sets_.chooser(table, "soft");
     rule.none = sets_.chooser(table, "none");
+    rule.hard = sets_.chooser(table, "hard");
     for (const std::string_view name : {kNoObstructionRule, kSoftRule})
       claim(std::string(name), value->at, rule_names_);
   }
@@ -363,6 +355,7 @@ class RulesParser {
     InsulationRule& rule = rules_.insulation.emplace();
     rule.against_insulation = table.flag("against_insulation").value_or(true);
     rule.against_soft = table.flag("against_soft").value_or(true);
+    rule.select = sets_.chooser(table, "select");
     for (const std::string_view name : {kInsulationRule, kInsulationSoftRule})
       claim(std::string(name), value->at, rule_names_);
   }
@@ -436,7 +429,7 @@ class RulesParser {
   TableReader top_;
   NamedSets sets_;
   RuleFile rules_;
-  Tolerances defaults_;
+  ToleranceRule defaults_;
   double contact_distance_mm_ = -1;
   std::vector<std::string> rule_names_, test_names_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> cells_;  ///< cells of the matrix that are given

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -10,8 +10,9 @@
 #include <variant>
 #include <vector>
 
-#include "model/attributes.hpp"
+#include "rules/clearances.hpp"
 #include "rules/exemptions.hpp"
+#include "rules/levels.hpp"
 #include "rules/rule_context.hpp"
 #include "rules/rule_file.hpp"
 #include "settings/text_file.hpp"
@@ -22,31 +23,6 @@ namespace {
 
 using clash::kNoLabel;
 using clash::Level;
-using model::is_null_value;
-using model::unquoted;
-
-/// Returns the level that an attribute's value states; none where it states something else.
-std::optional<Level> level_of(std::string_view value) {
-  constexpr std::array<std::pair<std::string_view, Level>, 6> kWords{{{"0", Level::none},
-                                                                      {"1", Level::soft},
-                                                                      {"2", Level::hard},
-                                                                      {"NONE", Level::none},
-                                                                      {"SOFT", Level::soft},
-                                                                      {"HARD", Level::hard}}};
-  std::string upper(value);
-  for (char& c : upper)
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  for (const auto& [word, level] : kWords)
-    if (upper == word) return level;
-  return std::nullopt;
-}
-
-/// Returns "'OBST' or 'Obstruction'".
-std::string alternatives(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "'" : " or '") + name + "'";
-  return text;
-}
 
 /// Works the rules out for a scene once; each test takes those that it follows.
 class PlanBuilder {
@@ -59,7 +35,7 @@ class PlanBuilder {
     Plan plan;
     for (const ExemptingRule& rule : rules_.exempting)
       watch(plan, rule, [&] { exemptions_.push_back(exemption_of(rule, rule_context_)); });
-    make_levels();
+    levels_ = levels_of(rules_, rule_context_);
     for (const AllowedRule& rule : rules_.allowed)
       watch(plan, rule, [&] {
         allowed_.push_back({rule.name, rule_context_.pick(rule.a), rule_context_.pick(rule.b),
@@ -83,89 +59,6 @@ class PlanBuilder {
     if constexpr (std::is_same_v<Rule, ExemptingRule>)
       if (std::holds_alternative<FileRule>(rule.rule)) return;
     if (rule_context_.idle() == idle) plan.watched.push_back({rule.name, rule.where});
-  }
-
-  void make_levels() {
-    if (!rules_.obstruction && !rules_.insulation) return;
-    clash::Levels& levels = levels_.emplace();
-    levels.object.assign(rule_context_.objects(), Level::hard);
-    levels.no_obstruction_rule = std::string(kNoObstructionRule);
-    const auto leave_out = [&](Level a, Level b, std::string_view rule) {
-      const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
-      levels.left_out[i][j] = levels.left_out[j][i] = rule;
-    };
-    if (rules_.obstruction) {
-      levels.obstruction_bodies = rules_.obstruction->bodies;
-      read_levels(*rules_.obstruction, levels.object);
-      if (!rules_.obstruction->soft_against_soft) leave_out(Level::soft, Level::soft, kSoftRule);
-    } else {
-      levels.obstruction_bodies = Level::hard;
-    }
-    if (!rules_.insulation) return;
-    if (std::ranges::none_of(rule_context_.model().bodies, [](const model::Body& body) {
-          return body.category == model::Category::insulation;
-        }))
-      rule_context_.warn_no_match(rules_.file + ": [insulation]", "no object has insulation");
-    if (!rules_.insulation->against_insulation)
-      leave_out(Level::insulation, Level::insulation, kInsulationRule);
-    if (!rules_.insulation->against_soft)
-      leave_out(Level::insulation, Level::soft, kInsulationSoftRule);
-  }
-
-  /// Returns the level that the first of some attributes gives an object, hard with a warning where
-  /// that has no meaning; nothing where the object has none of them.
-  std::optional<Level> stated_level(const model::Object& object,
-                                    const std::vector<std::string>& attributes) {
-    for (const std::string& attribute : attributes) {
-      const model::Attributes* const stated =
-          rule_context_.model().stated(object, attribute).attributes;
-      if (stated == nullptr) continue;
-      for (const auto& [name, text] : *stated) {
-        if (name != attribute) continue;
-        // "none" is a level here, where other attributes have no value.
-        const auto level = level_of(unquoted(text));
-        if (level) return level;
-        if (is_null_value(unquoted(text))) continue;
-        rule_context_.diagnostics().add(Severity::warning, "obstruction-not-known",
-                                        "the attribute '" + name + "' is '" + text +
-                                            "', not 0, 1 or 2; the object counts as hard",
-                                        object.id);
-        return Level::hard;
-      }
-    }
-    return std::nullopt;
-  }
-
-  void read_levels(const ObstructionRule& rule, std::vector<Level>& levels) {
-    bool some = rule.soft.has_value() || rule.none.has_value();
-    for (std::size_t o = 0; o < levels.size(); ++o) {
-      const model::Object& object = rule_context_.model().objects[o];
-      for (const model::Body& body :
-           std::span(rule_context_.model().bodies).subspan(object.first_body, object.body_count))
-        some = some || body.category == model::Category::obstruction;
-      const auto stated = stated_level(object, rule.attributes);
-      some = some || stated;
-      if (stated) levels[o] = *stated;
-    }
-    if (!some)
-      rule_context_.warn_no_match(rules_.file + ": [obstruction]",
-                                  "no object has the attribute " + alternatives(rule.attributes) +
-                                      " and there are no obstruction volumes");
-    apply(rule.soft, Level::soft, levels);
-    apply(rule.none, Level::none, levels);
-    if (!rule.soft || !rule.none) return;
-    const std::vector<bool> soft = rule_context_.peek(*rule.soft),
-                            none = rule_context_.peek(*rule.none);
-    rule_context_.check_shadow(
-        soft, [&](std::size_t o) { return !none[o]; }, rule.soft->where,
-        "every object that it picks is one of 'none'");
-  }
-
-  void apply(const std::optional<Chooser>& chooser, Level level, std::vector<Level>& levels) {
-    if (!chooser) return;
-    const std::vector<bool> picked = rule_context_.pick(*chooser);
-    for (std::size_t o = 0; o < levels.size(); ++o)
-      if (picked[o]) levels[o] = level;
   }
 
   /// Makes the disciplines. An object counts for the first that picks it; how often others pick it
@@ -205,7 +98,7 @@ class PlanBuilder {
   PlannedTest planned(const TestRule& test) {
     PlannedTest planned;
     planned.name = test.name;
-    planned.options.tolerances = test.tolerances;
+    planned.options.tolerances = tolerances(test.tolerances);
     planned.options.contact_distance_mm = test.contact_distance_mm;
     planned.policy = policy(test);
     if (test.matrix) {
@@ -239,7 +132,20 @@ class PlanBuilder {
     return policy;
   }
 
-  void add_matrix(PlannedTest& planned) const {
+  /// Returns tolerances with what objects add to the clearance, which is read once for each
+  /// attribute.
+  clash::Tolerances tolerances(const ToleranceRule& rule) {
+    clash::Tolerances tolerances = rule.of_all;
+    if (rule.clearance_attribute.empty()) return tolerances;
+    auto& read = object_clearances_[rule.clearance_attribute];
+    if (!read)
+      read = object_clearances(rule_context_.model(), rule.clearance_attribute,
+                               rule.clearance_where, rule_context_.diagnostics());
+    tolerances.object_clearances = read;
+    return tolerances;
+  }
+
+  void add_matrix(PlannedTest& planned) {
     clash::Matrix matrix;
     matrix.rule = std::string(kMatrixRule);
     const std::size_t n = rules_.disciplines.size();
@@ -252,7 +158,7 @@ class PlanBuilder {
       if (!cell.checked) value = clash::Matrix::kNotChecked;
       if (cell.tolerances) {
         value = static_cast<std::uint32_t>(planned.policy.tolerances.size());
-        planned.policy.tolerances.push_back(*cell.tolerances);
+        planned.policy.tolerances.push_back(tolerances(*cell.tolerances));
       }
       matrix.cells[cell.a * n + cell.b] = matrix.cells[cell.b * n + cell.a] = value;
     }
@@ -270,6 +176,7 @@ class PlanBuilder {
   std::vector<clash::Allowed> allowed_;
   std::optional<clash::Levels> levels_;
   std::vector<std::uint32_t> discipline_;
+  std::map<std::string, std::shared_ptr<const clash::ObjectClearances>> object_clearances_;
 };
 
 }  // namespace
@@ -285,6 +192,8 @@ const std::string& Rules::file() const { return file_->file; }
 
 Hash128 Rules::hash() const { return file_->hash; }
 
+std::span<const FileSettings> Rules::files() const { return file_->files; }
+
 Result<Rules> Rules::read(const std::filesystem::path& file) {
   const Result<std::string> text =
       settings::read_text_file(file, "rules file", "; models come before --rules");
@@ -295,8 +204,8 @@ Result<Rules> Rules::read(const std::filesystem::path& file) {
 model::SceneOptions Rules::scene_options() const {
   model::SceneOptions options;
   bool first = true;
-  const auto refine = [&](const clash::Tolerances& t) {
-    const double sag = clash::scene_options({.tolerances = t}).sag_mm;
+  const auto refine = [&](const ToleranceRule& rule) {
+    const double sag = clash::scene_options({.tolerances = rule.of_all}).sag_mm;
     options.sag_mm = first ? sag : std::min(options.sag_mm, sag);
     first = false;
   };

@@ -56,7 +56,9 @@ std::vector<const Chooser*> choosers_of(const RuleFile& rules) {
   if (rules.obstruction) {
     add(rules.obstruction->soft);
     add(rules.obstruction->none);
+    add(rules.obstruction->hard);
   }
+  if (rules.insulation) add(rules.insulation->select);
   for (const AllowedRule& rule : rules.allowed) {
     all.push_back(&rule.a);
     all.push_back(&rule.b);

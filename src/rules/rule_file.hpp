@@ -11,6 +11,7 @@
 #include "settings/named_sets.hpp"
 #include "strake/clash/policy.hpp"
 #include "strake/core/hash.hpp"
+#include "strake/rules/rules.hpp"
 
 /// The rules of a file, as parsed.
 namespace strake::rules {
@@ -18,12 +19,19 @@ namespace strake::rules {
 using settings::Chooser;
 using settings::NamedSet;
 
+/// Tolerances as written.
+struct ToleranceRule {
+  clash::Tolerances of_all;         ///< without what objects add
+  std::string clearance_attribute;  ///< what both objects of a pair add; empty: nothing
+  std::string clearance_where;      ///< what messages call the place of the attribute
+};
+
 struct TestRule {
   std::string name;
   bool enabled = true;
   bool matrix = false;
   std::optional<Chooser> a, b;  ///< absent: all objects
-  clash::Tolerances tolerances;
+  ToleranceRule tolerances;
   double contact_distance_mm = -1;
   std::vector<std::string> without;  ///< rules that this test does not follow
 };
@@ -31,7 +39,7 @@ struct TestRule {
 struct CellRule {
   std::uint32_t a = 0, b = 0;  ///< indices of disciplines
   bool checked = true;
-  std::optional<clash::Tolerances> tolerances;  ///< absent: those of the test
+  std::optional<ToleranceRule> tolerances;  ///< absent: those of the test
 };
 
 struct MatrixRule {
@@ -97,11 +105,12 @@ struct ObstructionRule {
   std::vector<std::string> attributes{"OBST"};  ///< the first that an object has counts
   clash::Level bodies = clash::Level::soft;     ///< none: obstruction volumes are not placed
   bool soft_against_soft = true;
-  std::optional<Chooser> soft, none;
+  std::optional<Chooser> soft, none, hard;  ///< they go before attributes; hard before all
 };
 
 struct InsulationRule {
   bool against_insulation = true, against_soft = true;
+  std::optional<Chooser> select;  ///< objects that are insulation as a whole, whatever else is said
 };
 
 struct AllowedRule {
@@ -116,6 +125,7 @@ struct AllowedRule {
 struct RuleFile {
   std::string file;
   Hash128 hash;  ///< the hash of its bytes
+  std::vector<FileSettings> files;
   std::vector<NamedSet> sets, disciplines;
   std::optional<MatrixRule> matrix;
   std::vector<TestRule> tests;

@@ -22,7 +22,7 @@ steel = "path = '*/HULL/*' and not name ~ '^(a|b)[0-9]?'"
 name = "one"
 a = "set(steel)"
 b = '''*'''
-clearance = "1in"
+clearance = "@'INSU 1' + 1in"
 [[test]]
 name = "\u00fcff"
 enabled = false
@@ -47,10 +47,16 @@ rest = { clearance = "10mm", touch_gap = 0 }
 attribute = "OBST"
 volumes = "soft"
 none = "name = 'NOTE*'"
+hard = "name = 'a'"
 [insulation]
+select = "name = 'LAG*'"
 against_soft = true
 )toml"},
-          {"rules.toml", R"toml([unit_groups]
+          {"rules.toml", R"toml([[file]]
+name = "*.stl"
+unit = "m"
+up_axis = "y"
+[unit_groups]
 attribute = "UNIT"
 [[unit_groups.group]]
 number = 7

@@ -9,12 +9,14 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "clash/rules/tolerance_lengths.hpp"
+#include "cli/run/file_settings.hpp"
 #include "cli/run/load.hpp"
 #include "cli/verbs/clash/clash_hint.hpp"
 #include "cli/verbs/clash/clash_output.hpp"
@@ -24,6 +26,7 @@
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
 #include "report/report_writers.hpp"
+#include "rules/clearances.hpp"
 #include "strake/report/clash.hpp"
 #include "strake/rules/rules.hpp"
 
@@ -65,15 +68,38 @@ Result<clash::EngineOptions> engine_options(const ClashOptions& given) {
   return engine;
 }
 
-Result<clash::Options> test_options(const ClashOptions& given) {
+/// The test of the command line. What objects add to its clearance is read from the model.
+struct OnlyTest {
   clash::Options options;
-  for (std::size_t i = 0; i < given.tolerances.size(); ++i) {
-    const clash::ToleranceLength& length = clash::kToleranceLengths[i];
-    if (const Status status = length_option(options.tolerances.*length.value_mm,
-                                            given.tolerances[i], "--" + length.name_with('-'));
+  std::string clearance_attribute;  ///< empty: nothing
+};
+
+/// Parses one of the lengths of a test; a clearance may name an attribute.
+Status tolerance_option(OnlyTest& test, const clash::ToleranceLength& length,
+                        const std::string& text) {
+  const std::string option = "--" + length.name_with('-');
+  double& value = test.options.tolerances.*length.value_mm;
+  if (length.value_mm != &clash::Tolerances::clearance_mm || text.find('@') == std::string::npos)
+    return length_option(value, text, option);
+  Result<rules::WrittenClearance> written = rules::parse_clearance(text);
+  if (!written) {
+    Error error = written.error();
+    error.where = option;
+    return error;
+  }
+  value = written->mm;
+  test.clearance_attribute = std::move(written->attribute);
+  return {};
+}
+
+Result<OnlyTest> only_test(const ClashOptions& given) {
+  OnlyTest test;
+  clash::Options& options = test.options;
+  for (std::size_t i = 0; i < given.tolerances.size(); ++i)
+    if (const Status status =
+            tolerance_option(test, clash::kToleranceLengths[i], given.tolerances[i]);
         !status)
       return status.error();
-  }
   if (const Status status =
           length_option(options.contact_distance_mm, given.contact_distance, "--contact-distance");
       !status)
@@ -82,7 +108,7 @@ Result<clash::Options> test_options(const ClashOptions& given) {
   const Result<clash::EngineOptions> engine = engine_options(given);
   if (!engine) return engine.error();
   options.engine = *engine;
-  return options;
+  return test;
 }
 
 void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
@@ -142,13 +168,18 @@ Status write_report(Session& session, const ClashOptions& given,
 
 /// What is to be done, parsed before a model is read.
 struct ClashRequest {
-  clash::Options options;  ///< of the only test; with rules, what they leave open
+  OnlyTest test;  ///< with rules, what they leave open
   SetRequest sets;
   std::optional<rules::Rules> rules;    ///< they have the tests, too
   std::optional<rules::Rules> profile;  ///< rules for the test of the command line
   model::SceneOptions scene;
   ClashOutput output;
 };
+
+/// Returns what the rules say of files.
+std::span<const rules::FileSettings> files_of(const ClashRequest& request) {
+  return request.rules ? request.rules->files() : std::span<const rules::FileSettings>();
+}
 
 /// Returns what the run writes.
 WrittenFiles written_files(const ClashOptions& given, bool json) {
@@ -163,9 +194,9 @@ WrittenFiles written_files(const ClashOptions& given, bool json) {
 
 Result<ClashRequest> request_of(const ClashOptions& given, bool json) {
   ClashRequest request;
-  const Result<clash::Options> options = test_options(given);
-  if (!options) return options.error();
-  request.options = *options;
+  Result<OnlyTest> test = only_test(given);
+  if (!test) return test.error();
+  request.test = std::move(*test);
   Result<SetRequest> sets = set_request(given.sets);
   if (!sets) return sets.error();
   request.sets = std::move(*sets);
@@ -181,7 +212,7 @@ Result<ClashRequest> request_of(const ClashOptions& given, bool json) {
     return Error{ErrorCode::usage, "there are no rules that exempt", "--list-exempted",
                  "add --rules or --profile"};
   model::SceneOptions wanted =
-      request.rules ? request.rules->scene_options() : clash::scene_options(*options);
+      request.rules ? request.rules->scene_options() : clash::scene_options(request.test.options);
   if (request.profile) {
     wanted.obstruction = request.profile->scene_options().obstruction;
     wanted.insulation = request.profile->scene_options().insulation;
@@ -203,12 +234,15 @@ Result<rules::Plan> plan_of(Session& session, const Loaded& loaded, const ClashR
   if (request.rules) {
     Result<rules::Plan> plan = request.rules->plan(loaded.scene, session.context());
     if (!plan) return plan;
-    for (rules::PlannedTest& test : plan->tests) test.options.engine = request.options.engine;
+    for (rules::PlannedTest& test : plan->tests) test.options.engine = request.test.options.engine;
     return plan;
   }
   Result<ChosenSets> chosen = choose_sets(session, loaded, request.sets);
   if (!chosen) return chosen.error();
-  rules::PlannedTest test{{}, request.options, std::move(chosen->sets), {}};
+  rules::PlannedTest test{{}, request.test.options, std::move(chosen->sets), {}};
+  if (const std::string& attribute = request.test.clearance_attribute; !attribute.empty())
+    test.options.tolerances.object_clearances =
+        rules::object_clearances(*loaded.model, attribute, "--clearance", chosen->diagnostics);
   rules::Plan plan{{std::move(test)}, std::move(chosen->diagnostics)};
   if (request.profile)
     if (const Status applied =
@@ -300,14 +334,16 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   Result<ClashRequest> request = request_of(given, session.json());
   if (!request) return request.error();
-  request->options.engine.log_pairs = !given.result.log_pairs.empty() || session.has_stats_option();
+  request->test.options.engine.log_pairs =
+      !given.result.log_pairs.empty() || session.has_stats_option();
   if (const Status status = check(given.result); !status) return status.error();
   if (const Status status = check_contacts(given, request->output); !status) return status.error();
   if (const Status status = check_files(given); !status) return status.error();
-  const Result<Loaded> loaded = load(session, given.input, request->scene);
+  const Result<Loaded> loaded = load(session, given.input, request->scene, files_of(*request));
   if (!loaded) return loaded.error();
   Result<clash::Findings> findings = findings_of(session, *loaded, *request, given.list_exempted);
   if (!findings) return findings.error();
+  findings->diagnostics.append(idle_file_settings(files_of(*request), given.input.files));
   findings->diagnostics.append(check_columns(request->output.columns, *loaded->model));
   tell(session, *findings, *loaded->model);
   const FailingPairs failing = failing_pairs(*findings, given.fail_on);
@@ -418,6 +454,7 @@ docs/selection.md has the language.
 Examples:
   strake clash ship.glb
   strake clash hvac.rvm steel.rvm --clearance 25mm -o clashes.json
+  strake clash piping.rvm steel.rvm --clearance '@INSU + 25mm'
   strake clash hvac.rvm steel.rvm --group-by assembly --sort size
   strake clash ship.glb --group-by element --group-distance 3m
   strake clash ship.glb --class hit,clearance --top 50

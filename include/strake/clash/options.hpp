@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace strake::clash {
 
@@ -12,6 +15,12 @@ enum class Volumes : std::uint8_t { off, on };
 enum class Curves : std::uint8_t { off, on };
 enum class Contacts : std::uint8_t { list, count };
 
+/// What each object adds to the clearance of its pairs, as the thickness of its insulation.
+struct ObjectClearances {
+  std::string attribute;   ///< what states it: results name it
+  std::vector<double> mm;  ///< one entry per object
+};
+
 /// What the classes of a pair depend on.
 struct Tolerances {
   double clearance_mm = 0;      ///< c: pairs nearer than this and farther than touch_gap violate it
@@ -19,6 +28,13 @@ struct Tolerances {
   double touch_overlap_mm = 1;  ///< t_o: up to this deep is a contact
   /// When on, t_o is at most a quarter of the smaller thickness of the two parts.
   ThicknessCap thickness_cap = ThicknessCap::on;
+  /// What the two objects of a pair add to its clearance, both; null: nothing.
+  std::shared_ptr<const ObjectClearances> object_clearances = {};
+
+  /// Returns what two objects add to c.
+  [[nodiscard]] double added_clearance_mm(std::uint32_t a, std::uint32_t b) const {
+    return object_clearances ? object_clearances->mm[a] + object_clearances->mm[b] : 0;
+  }
   friend bool operator==(const Tolerances&, const Tolerances&) = default;
 };
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,17 @@ namespace strake::rules {
 
 struct RuleFile;
 
+/// What a rules file says of files of the model, as `--unit` and `--up-axis` do.
+struct FileSettings {
+  std::string name;  ///< a pattern of names; one with '/' is of names with as many of their folders
+  std::optional<double> unit_mm;
+  std::optional<char> up_axis;  ///< 'x', 'y' or 'z'
+  std::string where;            ///< what messages call its line
+
+  /// Whether it is about a file, by its path from the root.
+  [[nodiscard]] bool is_of(const std::filesystem::path& file) const;
+};
+
 /// A test, worked out for a scene.
 struct PlannedTest {
   std::string name;
@@ -45,7 +57,7 @@ struct Plan {
   std::vector<PlannedTest> tests;  ///< the enabled tests, in the order of the file
   /// The codes are "rule-matches-nothing" (a rule or a set, by name), "rule-shadowed" (it picks
   /// objects, but earlier ones leave it none), "in-several-disciplines", "in-no-discipline",
-  /// "unit-not-a-number", "obstruction-not-known".
+  /// "unit-not-a-number", "obstruction-not-known", "clearance-not-a-length".
   Diagnostics diagnostics;
   /// The rules that exempt or allow, and match objects; idle_rules() tells which of them do
   /// nothing.
@@ -71,6 +83,10 @@ class Rules {
   /// both.
   [[nodiscard]] const std::string& file() const;
   [[nodiscard]] Hash128 hash() const;
+
+  /// Returns what is said of files, which is to be applied before they are read. Where several
+  /// tables are about a file, the first that says a unit or an axis counts for it.
+  [[nodiscard]] std::span<const FileSettings> files() const;
 
   /// Returns what the scene must hold for all tests: the finest tessellation that one of them
   /// needs, and the categories of bodies that a rule speaks of.

@@ -21,9 +21,9 @@ namespace {
 
 constexpr std::size_t kItemsPerBlock = 4096;
 
-geometry::BoxItem item_of(const ScenePart& ref, const Sets& sets, double reach) {
+geometry::BoxItem item_of(const ScenePart& ref, const Sets& sets, const SearchReach& reach) {
   geometry::BoxItem item;
-  item.box = inflated_box(ref, reach);
+  item.box = inflated_box(ref, reach.of(ref));
   item.owner = ref.object;
   item.sets = static_cast<std::uint8_t>((sets.in_a[ref.object] ? geometry::kSetA : 0U) |
                                         (sets.in_b[ref.object] ? geometry::kSetB : 0U));
@@ -71,8 +71,8 @@ class BoxPairs {
 /// Returns the pairs of boxes. Whether there are many is the same for any team and either broad
 /// phase, so the response to it is too.
 Result<std::vector<geometry::IndexPair>> box_pairs(const std::vector<geometry::BoxItem>& items,
-                                                   const ScenePartList& list, double reach,
-                                                   const Options& options,
+                                                   const ScenePartList& list,
+                                                   const SearchReach& reach, const Options& options,
                                                    const parallel::Context& context) {
   BoxPairs by_boxes(items, options, context);
   auto pairs = by_boxes.find(std::min(options.engine.most_pairs, kManyPairs * items.size()));
@@ -187,7 +187,8 @@ geometry::Box3d common_box_mm(const ScenePart& a, const ScenePart& b, double rea
 }
 
 Result<std::vector<geometry::IndexPair>> find_candidate_pairs(const ScenePartList& list,
-                                                              const Sets& sets, double reach,
+                                                              const Sets& sets,
+                                                              const SearchReach& reach,
                                                               const Options& options,
                                                               const parallel::Context& context) {
   const auto items = parallel::transform(

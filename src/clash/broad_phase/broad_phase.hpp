@@ -57,11 +57,24 @@ inline constexpr double kSnapMargin = 4;
 /// Returns what the inflated boxes of two parts have in common, mm.
 [[nodiscard]] geometry::Box3d common_box_mm(const ScenePart& a, const ScenePart& b, double reach);
 
-/// Returns the pairs of parts of different objects whose boxes come within `reach` grid units, as
+/// How far apart the boxes of two parts may be for the search to find them: `of_all`, and what the
+/// objects of both add, grid units. An object that adds much finds more pairs of its own, and no
+/// others do.
+struct SearchReach {
+  double of_all = 0;
+  std::vector<double> of_object = {};  ///< one entry per object; empty: they add nothing
+
+  /// Returns by what the part's box is inflated, as inflated_box() takes it.
+  [[nodiscard]] double of(const ScenePart& part) const {
+    return of_object.empty() ? of_all : of_all + 2 * of_object[part.object];
+  }
+};
+
+/// Returns the pairs of parts of different objects whose boxes come within reach of each other, as
 /// indices into the list, by (objects, parts). Where these are very many, boxes along the parts'
 /// own faces have to come as near, too.
 [[nodiscard]] Result<std::vector<geometry::IndexPair>> find_candidate_pairs(
-    const ScenePartList& list, const Sets& sets, double reach, const Options& options,
+    const ScenePartList& list, const Sets& sets, const SearchReach& reach, const Options& options,
     const parallel::Context& context);
 
 /// The pairs of objects behind pairs of parts; the pairs of parts of one pair of objects are

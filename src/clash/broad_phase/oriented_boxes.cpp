@@ -105,15 +105,16 @@ Box3l on_grid(const Box3d& box) {
 
 }  // namespace
 
-Result<geometry::BoxesInFrames> make_oriented_boxes(const ScenePartList& list, double reach,
+Result<geometry::BoxesInFrames> make_oriented_boxes(const ScenePartList& list,
+                                                    const SearchReach& reach,
                                                     const parallel::Context& context) {
   auto askew = parallel::transform(
       context, {.name = "parts askew", .n = list.unique.size(), .grain = 64}, [&](std::size_t u) {
-        return tighter_box_of(*list.unique[u], static_cast<std::uint32_t>(u), reach);
+        return tighter_box_of(*list.unique[u], static_cast<std::uint32_t>(u), reach.of_all);
       });
   if (!askew) return askew.error();
   Frames frames;
-  frames.take(list, std::move(*askew), reach);
+  frames.take(list, std::move(*askew), reach.of_all);
   geometry::BoxesInFrames boxes;
   boxes.frames = frames.all;
   if (frames.all.size() == 1) return boxes;
@@ -133,7 +134,7 @@ Result<geometry::BoxesInFrames> make_oriented_boxes(const ScenePartList& list, d
         // Rounding may change its position by this much.
         const double margin = 1 + 1e-12 * (std::fabs(at.x) + std::fabs(at.y) + std::fabs(at.z));
         return on_grid((*extents)[ref.unique].moved(at).inflated(
-            std::ceil(reach / 2 + ref.placed.part->sag) + margin));
+            std::ceil(reach.of(ref) / 2 + ref.placed.part->sag) + margin));
       });
   if (!placed) return placed.error();
   boxes.box = std::move(*placed);

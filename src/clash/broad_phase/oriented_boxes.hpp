@@ -12,7 +12,7 @@ namespace strake::clash {
 /// that parts share where that is as tight for all of them. There is no frame but the first where
 /// no part is rotated. Errors: cancelled.
 [[nodiscard]] Result<geometry::BoxesInFrames> make_oriented_boxes(const ScenePartList& list,
-                                                                  double reach,
+                                                                  const SearchReach& reach,
                                                                   const parallel::Context& context);
 
 }  // namespace strake::clash

@@ -66,13 +66,16 @@ PairTolerances PairToleranceTable::of(const ScenePart& a, const ScenePart& b) co
   PairTolerances options = narrow_[key.tolerances];
   options.contact_distance = key.contact_distance;
   options.snap = key.snap;
+  if (key.added_clearance_mm > 0)
+    options.clearance =
+        (rules_.all()[key.tolerances].clearance_mm + key.added_clearance_mm) * geometry::kGridPerMm;
   options.step = static_cast<double>(std::max(a.step, b.step));
   return options;
 }
 
 PairToleranceKey PairToleranceTable::settings(const ScenePart& a, const ScenePart& b) const {
   return {static_cast<std::uint32_t>(rules_.tolerances(a.object, b.object)),
-          std::max(band(a), band(b)), snap(a, b)};
+          std::max(band(a), band(b)), snap(a, b), rules_.added_clearance_mm(a.object, b.object)};
 }
 
 Result<double> PairToleranceTable::widest_band(std::span<const ScenePart> parts,

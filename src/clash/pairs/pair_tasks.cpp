@@ -31,6 +31,7 @@ Result<UniquePairs> find_unique_pairs(std::span<const geometry::IndexPair> pairs
         for (int k = 0; k < 3; ++k) h = mixed(h, static_cast<std::uint64_t>(at[k]));
         h = mixed(h, settings[i].tolerances);
         h = mixed(h, std::bit_cast<std::uint64_t>(settings[i].snap));
+        h = mixed(h, std::bit_cast<std::uint64_t>(settings[i].added_clearance_mm));
         return mixed(h, std::bit_cast<std::uint64_t>(settings[i].contact_distance));
       },
       [&](std::size_t i, std::size_t j) {

@@ -31,6 +31,7 @@ struct PairToleranceKey {
   std::uint32_t tolerances = 0;
   double contact_distance = 0;
   double snap = 0;
+  double added_clearance_mm = 0;  ///< by the objects of the pair
   friend bool operator==(const PairToleranceKey&, const PairToleranceKey&) = default;
 };
 

@@ -24,19 +24,32 @@ Error bad(const std::string& option, const char* what) {
 
 }  // namespace
 
-Status check(const Tolerances& t) {
-  for (const ToleranceLength& length : kToleranceLengths) {
-    const std::string option = length.name_with(' ');
-    const double value = t.*length.value_mm;
-    if (std::isnan(value)) return bad(option, "is not a number");
-    if (value < 0) return bad(option, "is negative");
-    if (!(value <= kMaxToleranceMm)) return bad(option, "is larger than a kilometre");
-  }
+namespace {
+
+Status check_length(const std::string& option, double value) {
+  if (std::isnan(value)) return bad(option, "is not a number");
+  if (value < 0) return bad(option, "is negative");
+  if (!(value <= kMaxToleranceMm)) return bad(option, "is larger than a kilometre");
+  return {};
+}
+
+}  // namespace
+
+Status check(const Tolerances& t, std::size_t objects) {
+  for (const ToleranceLength& length : kToleranceLengths)
+    if (Status s = check_length(length.name_with(' '), t.*length.value_mm); !s) return s;
+  if (!t.object_clearances) return {};
+  if (t.object_clearances->mm.size() != objects)
+    return Error{ErrorCode::usage,
+                 "the clearances of objects do not have one entry per object of the scene",
+                 "clearance", "build them from the same scene"};
+  for (const double mm : t.object_clearances->mm)
+    if (Status s = check_length("clearance of an object", mm); !s) return s;
   return {};
 }
 
 Status check(const Options& o, const Sets& sets, std::size_t objects) {
-  if (Status s = check(o.tolerances); !s) return s;
+  if (Status s = check(o.tolerances, objects); !s) return s;
   if (std::isnan(o.contact_distance_mm) || o.contact_distance_mm > kMaxToleranceMm)
     return bad("contact distance", "is not a length");
   if (sets.in_a.size() != objects || sets.in_b.size() != objects ||

@@ -7,8 +7,9 @@
 
 namespace strake::clash {
 
-/// Returns a usage error for a tolerance that is no length from 0 to a kilometre.
-[[nodiscard]] Status check(const Tolerances& tolerances);
+/// Returns a usage error for a tolerance that is no length from 0 to a kilometre, and for what
+/// objects add to it where that is none or is not of so many objects.
+[[nodiscard]] Status check(const Tolerances& tolerances, std::size_t objects);
 
 /// Returns a usage error for a tolerance that makes no sense or sets of the wrong size.
 [[nodiscard]] Status check(const Options& options, const Sets& sets, std::size_t objects);

@@ -129,7 +129,10 @@ std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& opti
   return all;
 }
 
-double reach_of(const Tolerances& t) { return std::max(t.clearance_mm, t.touch_gap_mm); }
+/// Returns the reach of tolerances where the objects of a pair add so much to its clearance.
+double reach_of(const Tolerances& t, double added_mm) {
+  return std::max(t.clearance_mm + added_mm, t.touch_gap_mm);
+}
 
 std::size_t count_between(const Policy& policy) {
   return static_cast<std::size_t>(
@@ -167,7 +170,8 @@ RuleMatcher::RuleMatcher(const Policy& policy, const Options& options, const mod
       between_(model.objects.size(), count_between(policy)),
       allowed_(model.objects.size(), policy.allowed.size()) {
   for (const Tolerances& t : tolerances_)
-    one_reach_ = one_reach_ && reach_of(t) == reach_of(tolerances_.front());
+    one_reach_ =
+        one_reach_ && !t.object_clearances && reach_of(t, 0) == reach_of(tolerances_.front(), 0);
   for (std::uint32_t e = 0; e < policy.exemptions.size(); ++e)
     if (const auto* const test = std::get_if<Between>(&policy.exemptions[e].test)) {
       between_.set(between_rule_.size(), test->a, test->b);
@@ -201,9 +205,22 @@ std::size_t RuleMatcher::tolerances(std::uint32_t a, std::uint32_t b) const {
   return found >= Matrix::kDefault ? 0 : found + 1;
 }
 
-double RuleMatcher::reach_mm() const {
-  double reach = 0;
-  for (const Tolerances& t : tolerances_) reach = std::max(reach, reach_of(t));
+double RuleMatcher::added_clearance_mm(std::uint32_t a, std::uint32_t b) const {
+  return tolerances_[tolerances(a, b)].added_clearance_mm(a, b);
+}
+
+SearchReach RuleMatcher::reach() const {
+  double widest_mm = 0;
+  for (const Tolerances& t : tolerances_) widest_mm = std::max(widest_mm, reach_of(t, 0));
+  SearchReach reach{.of_all = search_margin(widest_mm * geometry::kGridPerMm)};
+  for (const Tolerances& t : tolerances_) {
+    if (!t.object_clearances) continue;
+    const std::vector<double>& mm = t.object_clearances->mm;
+    // Each box is rounded outward by itself: a unit more, so that no pair of own_reach() is lost.
+    reach.of_object.resize(mm.size(), 1);
+    for (std::size_t o = 0; o < mm.size(); ++o)
+      reach.of_object[o] = std::max(reach.of_object[o], mm[o] * geometry::kGridPerMm + 1);
+  }
   return reach;
 }
 
@@ -251,7 +268,8 @@ std::uint32_t RuleMatcher::level_rule(Level a, Level b) const {
 }
 
 double RuleMatcher::own_reach(const ScenePart& a, const ScenePart& b) const {
-  return search_margin(reach_of(tolerances_[tolerances(a.object, b.object)]) *
+  const Tolerances& t = tolerances_[tolerances(a.object, b.object)];
+  return search_margin(reach_of(t, t.added_clearance_mm(a.object, b.object)) *
                        geometry::kGridPerMm);
 }
 

@@ -125,12 +125,15 @@ class RuleMatcher {
   /// The tolerances of pairs: all() has the test's own first, then the policy's.
   [[nodiscard]] const std::vector<Tolerances>& all() const { return tolerances_; }
   [[nodiscard]] std::size_t tolerances(std::uint32_t a, std::uint32_t b) const;
-  /// Returns how far apart parts may be for the test to check them, mm.
-  [[nodiscard]] double reach_mm() const;
+  /// Returns what the two objects of a pair add to its clearance, mm.
+  [[nodiscard]] double added_clearance_mm(std::uint32_t a, std::uint32_t b) const;
+  /// Returns how far apart parts may be for the test to check them: as far as the widest tolerances
+  /// reach, and for each object what it may add to a clearance.
+  [[nodiscard]] SearchReach reach() const;
 
   [[nodiscard]] Level level(const ScenePart& part) const;
 
-  /// Removes exempted pairs, and pairs within reach_mm() but beyond the reach of their own
+  /// Removes exempted pairs, and pairs within reach() but beyond the reach of their own
   /// tolerances. `pairs` is by objects.
   [[nodiscard]] Status exempt(const ScenePartList& list, std::vector<geometry::IndexPair>& pairs,
                               const parallel::Context& context, Report& report) const;

@@ -28,7 +28,8 @@ struct ToleranceLength {
 /// rules files, checks and results go by this table.
 inline constexpr std::array kToleranceLengths{
     ToleranceLength{"clearance", &Tolerances::clearance_mm,
-                    "Pairs nearer than this violate it (default 0)"},
+                    "Pairs nearer than this violate it; '@INSU + 25mm' adds what both objects of a "
+                    "pair have as that attribute (default 0)"},
     ToleranceLength{"touch_gap", &Tolerances::touch_gap_mm,
                     "Up to this far apart is a contact (default 1mm)"},
     ToleranceLength{"touch_overlap", &Tolerances::touch_overlap_mm,

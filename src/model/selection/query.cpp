@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/glob.hpp"
-#include "core/text_encoding.hpp"
 #include "model/attributes.hpp"
 
 namespace strake::model::selection {
@@ -24,13 +23,6 @@ namespace {
 struct Comparable {
   double left = 0, right = 0;
 };
-
-/// Returns the unit as values have it: in capitals too, and with more behind it ("150MM x 20MM").
-std::optional<double> unit_of_value_mm(std::string_view unit) {
-  if (unit.empty()) return 1.0;
-  if (const auto mm = unit_mm(unit)) return mm;
-  return unit_mm(lowered(unit.substr(0, unit.find_first_of(" \t"))));
-}
 
 /// Whether two numbers differ by rounding: 6in and 152.4mm are one length, though their products
 /// are not the same double.

@@ -162,10 +162,15 @@ class RunCoverage {
     const auto curves = [](const DocumentTest& test) { return setting(test, "curves") == "true"; };
     if (!curves(here) && curves(other)) return "settings differ: curves";
     if (r.d_mm <= here.touch_gap_mm || r.d_mm < here.clearance_mm) return {};
+    const std::string added = setting(here, "clearance_attribute");
+    if (added != setting(other, "clearance_attribute"))
+      return "settings differ: clearance_attribute";
     if (here.clearance_mm < other.clearance_mm) return "settings differ: clearance_mm";
     if (here.touch_gap_mm < other.touch_gap_mm) return "settings differ: touch_gap_mm";
     // What welding moved out of reach is a result, too.
     if (setting(here, "weld_mm") != setting(other, "weld_mm")) return "settings differ: weld_mm";
+    // What the objects add is of the model: it is gone where they add less, as where they moved.
+    if (!added.empty()) return {};
     return "it was farther apart than the tolerances of either run";
   }
 

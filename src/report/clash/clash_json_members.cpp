@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
+#include "clash/results/required_clearance.hpp"
 #include "clash/rules/tolerance_lengths.hpp"
 #include "core/text_encoding.hpp"
 #include "report/clash/attribute_columns.hpp"
@@ -204,6 +205,14 @@ void regions(std::string& out, const Report& test, const Pair& p) {
               p.allowed_regions_listed(test.options));
 }
 
+/// Appends the clearance that the pair has to keep, where its objects have a say in it.
+void required_clearance(std::string& out, const Report& report, const Pair& p) {
+  const std::optional<double> mm = clash::required_clearance_mm(report, p);
+  if (!mm) return;
+  out += ", \"clearance_mm\": ";
+  append_mm(out, *mm);
+}
+
 void volume(std::string& out, const Pair& p) {
   out += ", \"volume_mm3\": ";
   if (p.volume_mm3)
@@ -238,6 +247,7 @@ void append_result(std::string& out, const ClashContents& contents, std::size_t 
   out += name(p.relation);
   out += '"';
   measured(out, p);
+  required_clearance(out, report, p);
   witness(out, p);
   if (p.cls == clash::Class::hit && report.options.engine.volumes == clash::Volumes::on)
     volume(out, p);
@@ -298,6 +308,9 @@ void tolerances(std::string& out, const clash::Tolerances& t) {
   }
   out += "\"thickness_cap\": ";
   out += t.thickness_cap == clash::ThicknessCap::on ? "true" : "false";
+  if (!t.object_clearances) return;
+  out += ", \"clearance_attribute\": ";
+  append_json(out, t.object_clearances->attribute);
 }
 
 void settings(std::string& out, const Report& report) {

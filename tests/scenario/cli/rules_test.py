@@ -172,12 +172,13 @@ max_depth = "any"
     def test_the_snippets_of_the_documentation_are_one_file_that_runs(self):
         text = (EXAMPLES.parent / 'docs' / 'rules.md').read_text(encoding='utf-8')
         snippets = re.findall(r'(?s)```toml\n(.*?)```', text)
-        self.assertEqual(len(snippets), 6)
+        self.assertEqual(len(snippets), 8)
         self.write('r.toml', ''.join(snippets))
         self.write('m.obj', cubes(0, 90))
         report = self.report('m.obj', *self.SETTINGS, '--rules', 'r.toml')
-        self.assertEqual([test['name'] for test in report['tests']], ['disciplines', 'hvac against steel'])
+        self.assertEqual([test['name'] for test in report['tests']], ['disciplines', 'hvac against steel', 'insulated pipes'])
         self.assertEqual(report['tests'][1]['settings']['clearance_mm'], 50)
+        self.assertEqual(report['tests'][2]['settings']['clearance_attribute'], 'INSU')
 
     def test_a_result_names_its_rules_file(self):
         self.write('m.obj', cubes(0, 90))

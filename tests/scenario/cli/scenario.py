@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the scenarios of the program share: a folder of their own, the program, small models."""
+import base64
+import json
 import math
 import re
 import struct
@@ -74,6 +76,36 @@ def rvm(boxes, whole=True):
     if whole:
         chunk('END:', words(1))
     return content
+
+
+def gltf(tree):
+    """A glTF file of cubes of 100 mm: a tree is (name, extras, place in m along x or None, children)."""
+    corners = b''.join(struct.pack('<3f', *(x / 10 for x in (i & 1, i >> 1 & 1, i >> 2 & 1))) for i in range(8))
+    faces = struct.pack('<36H', *(c for a, b, d, e in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3),
+                                                       (0, 4, 6, 2), (1, 3, 7, 5)) for c in (a, b, d, a, d, e)))
+    nodes = []
+
+    def add(name, extras, at, children):
+        node = {'name': name, 'extras': extras}
+        number = len(nodes)
+        nodes.append(node)
+        if at is not None:
+            node.update(mesh=0, translation=[at, 0, 0])
+        if children:
+            node['children'] = [add(*child) for child in children]
+        return number
+
+    root = add(*tree)
+    return json.dumps({
+        'asset': {'version': '2.0'}, 'scene': 0, 'scenes': [{'nodes': [root]}], 'nodes': nodes,
+        'meshes': [{'primitives': [{'attributes': {'POSITION': 0}, 'indices': 1}]}],
+        'accessors': [{'bufferView': 0, 'componentType': 5126, 'count': 8, 'type': 'VEC3',
+                       'min': [0, 0, 0], 'max': [.1, .1, .1]},
+                      {'bufferView': 1, 'componentType': 5123, 'count': 36, 'type': 'SCALAR'}],
+        'bufferViews': [{'buffer': 0, 'byteOffset': 0, 'byteLength': 96},
+                        {'buffer': 0, 'byteOffset': 96, 'byteLength': 72}],
+        'buffers': [{'byteLength': 168, 'uri': 'data:application/octet-stream;base64,'
+                     + base64.b64encode(corners + faces).decode()}]})
 
 
 class Scenario(unittest.TestCase):

@@ -172,6 +172,21 @@ class Schemas(unittest.TestCase):
         self.assertGreater(len(report['exempted']), 0)
         self.assertGreater(sum('allowed' in result for result in report['results']), 0)
 
+    def test_clash_with_clearances_that_objects_add_to(self):
+        (self.folder / 'r.toml').write_text(
+            '[[discipline]]\nname = "pipes"\nselect = "PIP*"\n[[discipline]]\nname = "rest"\nselect = "*"\n[matrix]\n'
+            '[matrix.cells.pipes]\nrest = { clearance = "@weight_kg + 1mm" }\n', encoding='utf-8')
+        report = self.follows(self.run_strake('clash', 'ship.glb', '--rules', 'r.toml', '--json'), 'clash')
+        self.assertEqual([cell['settings'].get('clearance_attribute') for cell in report['tests'][0]['matrix']['cells']],
+                         [None, 'weight_kg', None])
+        self.assertEqual({'clearance_mm' in result for result in report['results']}, {True, False})
+        self.run_strake('clash', 'ship.glb', '--clearance', '@weight_kg', '-o', 'added.json')
+        self.run_strake('clash', 'ship.glb', '-o', 'plain.json')
+        self.follows((self.folder / 'added.json').read_text(encoding='utf-8'), 'clash')
+        diff = self.follows(self.run_strake('clash', 'diff', 'added.json', 'plain.json', '--json'), 'clash-diff')
+        self.assertEqual([(s['setting'], s['old'], s['new']) for s in diff['settings_changed']],
+                         [('clearance_attribute', 'weight_kg', None)])
+
     def test_clash_by_a_profile(self):
         report = self.follows(self.run_strake('clash', 'ship.glb', '--profile', 'ship', '--json'), 'clash')
         self.assertEqual(report['rules']['profile'], 'ship')

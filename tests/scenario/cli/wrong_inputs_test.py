@@ -122,6 +122,7 @@ USAGE = [
     ('clash a.obj --clearence 25mm', '--clearence', "did you mean '--clearance'"),
     ('clash a.obj --clearance', '--clearance', 'wants a value'),
     ('clash a.obj --clearance 1mm --clearance 2mm', '--clearance', 'more than once'),
+    ('clash a.obj --clearance @', '--clearance', '@NAME'), ('clash a.obj --clearance @A+@B', '--clearance', '@INSU + 25mm'),
     ('clash a.obj --quiet=maybe', '--quiet', 'takes no value'),
     ('clash a.obj --b x --self', '--self', 'leave one of them out'),
     ('clash a.obj --columns Tag', '--columns', '@Tag,@Area'), ('clash a.obj --columns @', '--columns', '@Tag,@Area'),

@@ -19,7 +19,7 @@ using geometry::Vec3d;
 using test::ClashModel;
 using test::expect;
 
-constexpr Options kCurves{.engine = {.curves = Curves::on}};
+constinit const Options kCurves{.engine = {.curves = Curves::on}};
 
 geometry::Polylines chain(const std::vector<Vec3d>& points) {
   geometry::Polylines lines;

@@ -304,9 +304,11 @@ TEST(Detect, EachLengthOfTheTolerancesHasItsRowInTheTable) {
   Tolerances t;
   double next = 0;
   for (const ToleranceLength& length : kToleranceLengths) t.*length.value_mm = ++next;
-  const auto& [clearance, touch_gap, touch_overlap, cap] = t;  // all members: a new one wants a row
+  // All members: a new one that is a length wants a row.
+  const auto& [clearance, touch_gap, touch_overlap, cap, object_clearances] = t;
   EXPECT_EQ(std::vector({clearance, touch_gap, touch_overlap}), std::vector({1.0, 2.0, 3.0}));
   EXPECT_EQ(cap, ThicknessCap::on);
+  EXPECT_EQ(object_clearances, nullptr);
 }
 
 TEST(Detect, TolerancesThatMakeNoSenseAreErrors) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "strake/parallel/team.hpp"
+#include "support/clash_crowd.hpp"
 #include "support/clash_model.hpp"
 #include "support/voxels.hpp"
 
@@ -20,6 +21,8 @@ namespace {
 using geometry::Vec3d;
 using test::box_mesh;
 using test::ClashModel;
+using test::crowd;
+using test::same;
 
 struct Task {
   Sets sets;  ///< empty: everything against itself
@@ -147,28 +150,6 @@ TEST(ClashPolicy, MoreRulesThanAWordHasBits) {
   const Report report = report_of(m, {{}, {}, policy});
   EXPECT_EQ(report.count_hit, 2U);
   EXPECT_EQ(report.exempted[129].pairs, 1U);
-}
-
-/// Boxes of random places and sizes on a coarse lattice, so that many touch.
-ClashModel crowd(unsigned seed, std::size_t n) {
-  std::mt19937 random(seed);
-  const auto pick = [&](int from, int to) {
-    return 5.0 * static_cast<double>(
-                     from + static_cast<int>(random() % static_cast<unsigned>(to - from + 1)));
-  };
-  ClashModel m;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec3d at{pick(0, 60), pick(0, 60), pick(0, 60)};
-    m.box("o" + std::to_string(100 + i), at, at + Vec3d{pick(2, 20), pick(2, 20), pick(2, 20)});
-  }
-  return m;
-}
-
-bool same(const Pair& x, const Pair& y) {
-  return x.a == y.a && x.b == y.b && x.cls == y.cls && x.relation == y.relation &&
-         x.flags == y.flags && x.d_mm == y.d_mm && x.d_lower_mm == y.d_lower_mm &&
-         x.d_upper_mm == y.d_upper_mm && x.point_mm == y.point_mm && x.part_a == y.part_a &&
-         x.part_b == y.part_b && x.allowed == y.allowed;
 }
 
 /// A matrix with tolerances of all kinds for a crowd, every 4th object in no discipline.

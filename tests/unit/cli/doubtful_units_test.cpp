@@ -79,13 +79,23 @@ TEST(DoubtfulUnits, OneAxisThatDiffersIsEnoughToTrust) {
   }
 }
 
-TEST(DoubtfulUnits, AUnitThatIsKnownOfBothIsTrusted) {
+TEST(DoubtfulUnits, AUnitThatSomebodySaysIsTrustedBesideOneThatIsKnown) {
   const Vec3d small = scaled(kPart, 0.001);
   for (const char* known : {"mm (given)", "m (stated)"}) {
     EXPECT_EQ(doubts({{kPart, known}, {small}}), 1U) << known;
     EXPECT_EQ(doubts({{kPart}, {small, known}}), 1U) << known;
-    EXPECT_EQ(doubts({{kPart, known}, {small, known}}), 0U) << known;
   }
+  for (const char* other : {"mm (given)", "m (stated)"}) {
+    EXPECT_EQ(doubts({{kPart, "mm (given)"}, {small, other}}), 0U) << other;
+    EXPECT_EQ(doubts({{kPart, other}, {small, "mm (given)"}}), 0U) << other;
+  }
+}
+
+TEST(DoubtfulUnits, WhatBothFormatsStateIsDoubtedUntilSomebodySaysAUnit) {
+  // As a glTF file in millimetres beside an RVM file: both formats prescribe metres.
+  const File plant{scaled(kPart, 0.001), "m (stated)"}, model{kPart, "m (stated)"};
+  EXPECT_EQ(doubts({plant, model}), 1U);
+  EXPECT_TRUE(doubt({plant, model}).ends_with("say --unit '1.stl=mm'")) << doubt({plant, model});
 }
 
 TEST(DoubtfulUnits, NoOtherUnitIsAdvisedOfAFileWhoseUnitIsKnown) {

@@ -8,6 +8,7 @@
 #include <deque>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -254,6 +255,28 @@ TEST(ClashDiff, SettingsThatWouldNotReportIt) {
   EXPECT_EQ(diff.cannot_tell[0].why, "settings differ: clearance_mm");
   EXPECT_EQ(diff.same.size(), 2U);
   EXPECT_EQ(compare(tight, wide).added[0].why, "settings differ: clearance_mm");
+}
+
+TEST(ClashDiff, ClearancesThatObjectsAddTo) {
+  Folder folder;
+  const ClashModel m = row();
+  const auto adding = [&](const std::string& name, const std::vector<double>& mm) -> auto& {
+    const auto added =
+        std::make_shared<const clash::ObjectClearances>(clash::ObjectClearances{"INSU", mm});
+    return document(folder, name, run(m, {.tolerances = {.object_clearances = added}}), m.model);
+  };
+  const ClashDocument& thick = adding("thick.json", {0, 0, 5, 10});
+  const ClashDocument& plain = document(folder, "plain.json", run(m), m.model);
+  const ClashDiff other = compare(thick, plain);
+  EXPECT_EQ(names(other, other.cannot_tell), Names{"c-d"});
+  EXPECT_EQ(other.cannot_tell[0].why, "settings differ: clearance_attribute");
+  ASSERT_EQ(other.settings.size(), 1U);
+  EXPECT_EQ(other.settings[0].setting, "clearance_attribute");
+  // The objects state less now, so what they lacked is settled.
+  const ClashDiff thinner = compare(thick, adding("thin.json", {0, 0, 2, 3}));
+  EXPECT_EQ(names(thinner, thinner.gone), Names{"c-d"});
+  EXPECT_TRUE(thinner.cannot_tell.empty());
+  EXPECT_TRUE(thinner.settings.empty());
 }
 
 TEST(ClashDiff, OnlySettingsThatDifferAreBlamed) {

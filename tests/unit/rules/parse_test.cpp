@@ -58,6 +58,7 @@ name = "later"
 enabled = false
 a = "set(one)"
 b = "*"
+clearance = "@'Insulation thickness' + 25mm"
 touch_gap = "2mm"
 contact_distance = 0
 without = ["sleeves", "soft against soft"]
@@ -104,7 +105,9 @@ volumes = "hard"
 soft_against_soft = false
 soft = "ACCESS*"
 none = "NOTE*"
+hard = "ACCESS-DOOR*"
 [insulation]
+select = "LAGGING*"
 against_insulation = false
 against_soft = false
 [[allowed]]
@@ -138,6 +141,12 @@ TEST(RulesFile, FaultsNamePlaceAndMend) {
        "'clearance' of [defaults]: '-1mm' is negative (write a length from 0 to 1km)"},
       {"[defaults]\nclearance = \"2km\"", "is longer than a kilometre"},
       {"[defaults]\nclearance = \"nanmm\"", "'clearance' of [defaults]"},
+      {"[defaults]\nclearance = \"@INSU + 25\"",
+       "r.toml, line 2, column 13: 'clearance' of [defaults]: the length '25' has no unit"},
+      {"[[test]]\nname = \"t\"\nclearance = \"@INSU + @LAG\"",
+       "r.toml, line 3, column 13: 'clearance' of [[test]] 't': '@INSU + @LAG' has two attributes "
+       "(write a length, an attribute or one of each"},
+      {"[defaults]\ntouch_gap = \"@INSU\"", "'touch_gap' of [defaults]: '@INSU' is not a length"},
       {"[defaults]\nthickness_cap = \"yes\"",
        "'thickness_cap' of [defaults] is a text, not true or false"},
       {"defaults = 3", "'defaults' is a whole number, not a table (write [defaults] with single"},
@@ -196,6 +205,7 @@ TEST(RulesFile, FaultsNamePlaceAndMend) {
       {"[[exempt]]\nname = \"c\"\na = \"x\"", "[[exempt]] 'c' has no 'b'"},
       {"[obstruction]\nvolumes = \"hart\"", "write one of \"soft\", \"hard\", \"none\""},
       {"[insulation]\nagainst_soft = 1", "not true or false"},
+      {"[insulation]\nselect = \"type =\"", "r.toml, line 2, column 10, [insulation], select"},
       {"[[exempt]]\nname = \"soft against soft\"\na = \"x\"\nb = \"y\"\n[obstruction]",
        "the name 'soft against soft' is given twice"},
       {"[[allowed]]\nname = \"c\"\nb = \"x\"", "[[allowed]] 'c' has no 'a'"},
