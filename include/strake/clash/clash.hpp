@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "strake/clash/options.hpp"
+#include "strake/clash/relation.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
@@ -25,17 +26,6 @@ namespace strake::clash {
 
 /// The classes of a result, from the least to the most severe.
 enum class Class : std::uint8_t { no_hit, clearance_violation, contact, hit };
-
-enum class Relation : std::uint8_t {
-  separate,
-  abut_outside,
-  abut_inside,
-  interfere,
-  a_in_b,
-  b_in_a,
-  duplicate,
-  cross,
-};
 
 /// What a part counts as, from the most to the least solid; `none` is not checked at all.
 enum class Level : std::uint8_t { hard, soft, insulation, none };
@@ -209,6 +199,7 @@ struct Report {
   Options options;
   std::vector<Pair> pairs;    ///< by (a, b); NO_HIT pairs are not kept
   UnlistedContacts unlisted;  ///< those not among the pairs, with Contacts::count
+  NotReported not_reported;   ///< results that Options::reporting takes out of pairs and counts
   /// The regions of pairs with several or with allowed ones, in the order of the pairs; of each
   /// pair the worst first.
   std::vector<Region> regions;

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "strake/clash/reporting.hpp"
+
 namespace strake::clash {
 
 enum class BroadPhase : std::uint8_t { tree, all_pairs };
@@ -58,6 +60,7 @@ struct Options {
   /// Contact distance δ for the relation, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
   EngineOptions engine = {};
+  Reporting reporting = {};
 };
 
 }  // namespace strake::clash

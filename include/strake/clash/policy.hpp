@@ -67,7 +67,7 @@ struct HalfSpace {
 };
 
 /// Results between a and b that are meant: no deeper than max_depth, with the contact region within
-/// the region.
+/// the region, of one of the relations, with no more than max_volume in common.
 struct Allowed {
   std::string rule;
   std::vector<bool> a, b;  ///< one entry per object
@@ -76,6 +76,12 @@ struct Allowed {
   /// The certain depth (Pair::d_lower_mm) is at most this, to within half a grid step; a depth of
   /// just this is allowed, and flagged kBorderline. If absent, the result must be no HIT.
   std::optional<double> max_depth_mm;
+  /// How one of a stands to one of b; empty: in any way. A result flagged kUncertain is not
+  /// allowed, as what the two turn out to be may stand otherwise.
+  RelationSet relations = {};
+  /// The volume that the two objects have in common is certainly at most this. Where it may be
+  /// either, or is not known, the result is not allowed, and flagged kUncertain.
+  std::optional<double> max_volume_mm3 = {};
 };
 
 /// The rules of one test. Where several exempt a pair, it counts for the first of them: the matrix,
