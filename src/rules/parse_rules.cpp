@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "clash/rules/tolerance_lengths.hpp"
+#include "rules/relation_words.hpp"
 #include "rules/rule_file.hpp"
 #include "settings/named_sets.hpp"
 #include "settings/table_reader.hpp"
@@ -106,6 +107,7 @@ class RulesParser {
     test.name = std::move(name);
     test.tolerances = defaults_;
     test.contact_distance_mm = contact_distance_mm_;
+    test.reporting = reporting_;
     return test;
   }
 
@@ -115,6 +117,7 @@ class RulesParser {
     TableReader table(reading_, *value, "[defaults]");
     tolerances(table, defaults_);
     contact_distance_mm_ = table.tolerance_mm("contact_distance").value_or(-1);
+    read_reporting(reading_, table, reporting_);
     if (!table.flag("within_file").value_or(true)) {
       rules_.exempting.push_back({"within one file", place(value->at), {}, FileRule{}});
       rule_names_.emplace_back("within one file");
@@ -215,6 +218,7 @@ class RulesParser {
     tolerances(table, test.tolerances);
     if (const auto distance = table.tolerance_mm("contact_distance"))
       test.contact_distance_mm = *distance;
+    read_reporting(reading_, table, test.reporting);
     test.without = table.texts("without");
     without_at_.emplace_back(test.without, table.at());
   }
@@ -378,11 +382,16 @@ class RulesParser {
       depth = std::numeric_limits<double>::infinity();
     else if (deepest != nullptr)
       depth = table.tolerance_mm("max_depth");
+    const clash::RelationSet relations = read_relations(reading_, table, "relation");
+    const std::optional<double> volume = table.volume_mm3("max_volume");
+    // A relation or a volume says what is meant of a hit, however deep it is.
+    if (deepest == nullptr && (!relations.empty() || volume))
+      depth = std::numeric_limits<double>::infinity();
     auto box = region(table);
     auto planes = cavity(table);
     if (a && b)
       rules_.allowed.push_back({name, place(value.at) + ": " + table.what(), std::move(*a),
-                                std::move(*b), box, std::move(planes), depth});
+                                std::move(*b), box, std::move(planes), depth, relations, volume});
   }
 
   std::optional<geometry::Box3d> region(TableReader& outer) {
@@ -438,6 +447,7 @@ class RulesParser {
   RuleFile rules_;
   Tolerances defaults_;
   double contact_distance_mm_ = -1;
+  clash::Reporting reporting_;
   std::vector<std::string> rule_names_, test_names_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> cells_;  ///< cells of the matrix that are given
   std::vector<std::pair<std::vector<std::string>, SourcePosition>> without_at_;

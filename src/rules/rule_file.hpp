@@ -26,6 +26,7 @@ struct TestRule {
   clash::Tolerances tolerances;
   double contact_distance_mm = -1;
   std::vector<std::string> without;  ///< rules that this test does not follow
+  clash::Reporting reporting = {};
 };
 
 struct CellRule {
@@ -110,6 +111,8 @@ struct AllowedRule {
   std::optional<geometry::Box3d> region_mm;
   std::vector<clash::HalfSpace> cavity;
   std::optional<double> max_depth_mm;
+  clash::RelationSet relations = {};
+  std::optional<double> max_volume_mm3 = {};
 };
 
 /// The content of a rules file.
