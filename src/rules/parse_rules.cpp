@@ -32,6 +32,9 @@ constexpr std::string_view kChecked = "checked", kNotChecked = "not checked";
 /// The most disciplines and the longest name. Results have a cell for each two disciplines, and
 /// every pair carries the names of its rules: a small file must not take gigabytes.
 constexpr std::size_t kMostDisciplines = 300, kLongestName = 200;
+/// The farthest that ends of a joint may be apart: what is farther is no joint, and the search
+/// takes the longer the farther it looks.
+constexpr double kFarthestEndsMm = 1000;
 
 /// Reads the tables of a file one by one. The ParseContext keeps a fault, and what is read after it
 /// is thrown away with the rest.
@@ -297,6 +300,10 @@ class RulesParser {
   void connected(const Value& value) {
     TableReader table(reading_, value, "[[connected]]");
     ExemptingRule& rule = exempting(table);
+    if (const auto within = ends_within(table)) {
+      rule.rule = EndsRule{*within};
+      return;
+    }
     ConnectedRule connected;
     struct ReferenceKey {
       std::string_view name;
@@ -312,7 +319,8 @@ class RulesParser {
       }
     if (connected.references.empty())
       reading_.fault(value.at, "[[connected]] names no attributes",
-                     "write head = \"HREF\" and tail = \"TREF\", or attributes = [\"CREF\"]");
+                     "write head = \"HREF\" and tail = \"TREF\", or attributes = [\"CREF\"], or "
+                     "ends_within = \"5mm\"");
     constexpr std::array<std::string_view, 2> kWords{"partner", "node"};
     connected.node = table.word("by", kWords).value_or("partner") == "node";
     constexpr std::array<std::string_view, 3> kHeirs{"none", "ends", "all"};
@@ -324,6 +332,24 @@ class RulesParser {
     connected.groups = table.flag("groups").value_or(false);
     connected.separator = table.text("separator").value_or("");
     rule.rule = std::move(connected);
+  }
+
+  /// Reads how near ends have to be to each other, if the rule goes by ends.
+  std::optional<double> ends_within(TableReader& table) {
+    const Value* const value = table.value("ends_within");
+    if (value == nullptr) return std::nullopt;
+    const double within = table.tolerance_mm("ends_within").value_or(0);
+    if (within > kFarthestEndsMm)
+      reading_.fault(value->at, "'ends_within' of " + table.what() + " is more than a metre",
+                     "write how far apart the ends of a joint are at most, as \"5mm\"");
+    for (const std::string_view key :
+         {"attributes", "head", "tail", "by", "inherited", "groups", "separator"})
+      if (table.value(key) != nullptr)
+        reading_.fault(value->at,
+                       "'ends_within' and '" + std::string(key) + "' in one [[connected]]",
+                       "write two tables, each with a name: the one goes by ends, the other by "
+                       "attributes");
+    return within;
   }
 
   void same_attribute(const Value& value) {

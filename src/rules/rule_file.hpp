@@ -78,6 +78,11 @@ struct ConnectedRule {
   std::string separator;
 };
 
+/// Objects of which ends meet within a length are no pair.
+struct EndsRule {
+  double within_mm = 0;
+};
+
 struct AttributeRule {
   std::string attribute;
 };
@@ -91,7 +96,8 @@ struct ExemptRule {
 struct ExemptingRule {
   std::string name, where;
   std::optional<Chooser> among;  ///< only objects that this picks
-  std::variant<UnitRule, AssemblyRule, ConnectedRule, AttributeRule, FileRule, ExemptRule> rule;
+  std::variant<UnitRule, AssemblyRule, ConnectedRule, EndsRule, AttributeRule, FileRule, ExemptRule>
+      rule;
 };
 
 struct ObstructionRule {
