@@ -180,8 +180,11 @@ Result<double> parse_volume_mm3(std::string_view text) {
   if (q->unit.empty())
     return usage("the volume " + in_quotes(text) + " has no unit",
                  "write " + shortest(q->number) + "cm3 or another of " + std::string(kVolumeNames));
-  for (const auto& [name, mm3] : kVolumes)
-    if (q->unit == name && std::isfinite(q->number * mm3)) return q->number * mm3;
+  for (const auto& [name, mm3] : kVolumes) {
+    if (q->unit != name) continue;
+    if (std::isfinite(q->number * mm3)) return q->number * mm3;
+    return usage("too large: " + in_quotes(text), "write a smaller volume");
+  }
   if (unit_mm(q->unit))
     return usage(in_quotes(text) + " is a length, not a volume",
                  "write " + std::string(kVolumeNames) + " behind the number");
