@@ -79,6 +79,44 @@ class Small(Rules):
         self.assertEqual(done.returncode, 3)
         self.assertIn('counts 1 places that rules allow, but "results" has 2', done.stderr)
 
+    def test_what_a_test_does_not_report_is_counted_and_is_not_gone(self):
+        # c0 and c1 are 10 deep in each other, a litre each; c2 and c3 are one cube twice.
+        self.write('m.obj', cubes(0, 90, 500, 500))
+        run = ['m.obj', *self.SETTINGS, '--rules', 'r.toml']
+        self.write('r.toml', '[[test]]\nname = "t"\n')
+        self.assertNotIn('not_reported', self.report(*run, '-o', 'all.json')['tests'][0])
+        self.write('r.toml', '[[test]]\nname = "t"\nrelations = ["duplicate", "through"]\nmin_volume = "0.5l"\n')
+        document = self.report(*run, '-o', 'some.json')
+        test, = document['tests']
+        self.assertEqual([(r['a']['name'], r['b']['name']) for r in document['results']], [('c2', 'c3')])
+        self.assertEqual(test['settings']['relations'], ['INTERFERE', 'DUPLICATE', 'CROSS'])
+        self.assertEqual(test['settings']['min_volume_mm3'], 500000)
+        none = {'HIT': 0, 'CONTACT': 0, 'CLEARANCE_VIOLATION': 0, 'ALLOWED': 0}
+        self.assertEqual(test['not_reported'], [{'by': 'relation', 'counts': none},
+                                                {'by': 'volume', 'counts': {**none, 'HIT': 1}}])
+        self.assertEqual(test['counts'], {**none, 'HIT': 1})
+        done = self.run_strake('clash', *run, '--fail-on', 'hit')
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('1 hit, 0 contacts, 0 clearance violations, 1 result not reported by volume\n', done.stdout)
+        diff = self.run_strake('clash', 'diff', 'all.json', 'some.json')
+        self.assertEqual(diff.returncode, 0, diff.stderr)
+        self.assertIn('may be among the 1 results that the test does not report', diff.stdout)
+        self.assertIn('0 gone', diff.stdout)
+        self.write('r.toml', '[[test]]\nname = "t"\nrelations = "inside"\n')
+        done = self.run_strake('clash', *run, '--fail-on', 'hit')
+        self.assertEqual(done.returncode, 0, 'what is not reported fails nothing')
+        self.assertIn('0 hits, 0 contacts, 0 clearance violations, 2 results not reported by relation\n', done.stdout)
+
+    def test_rules_by_relation_and_volume_need_the_exact_narrow_phase(self):
+        self.write('m.obj', cubes(0, 90))
+        for table in ('[[test]]\nname = "t"\nrelations = "through"\n',
+                      '[[allowed]]\nname = "x"\na = "*"\nb = "*"\nmax_volume = "1l"\n'):
+            self.write('r.toml', table)
+            done = self.run_strake('clash', 'm.obj', *self.SETTINGS, '--rules', 'r.toml', '--narrow-phase',
+                                   'sphere-subdivision')
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn('leave out --narrow-phase, or these rules', done.stderr)
+
     def test_exempted_pairs_are_listed_where_asked_for(self):
         self.write('m.obj', cubes(0, 90, 180))
         self.write('r.toml', '[[exempt]]\nname = "a pair"\na = "c0"\nb = "c1"\n')

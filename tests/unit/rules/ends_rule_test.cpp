@@ -81,9 +81,9 @@ TEST(RulesEnds, AnElbowAndItsTwoPipes) {
 TEST(RulesEnds, AReducerJoinsUnlikeDiameters) {
   ClashModel m;
   pipe(m, "wide", 0);
-  m.object("reducer").body(SnoutPrimitive{50, 25, 200, 25, 0}, {{}, {12.5, 0, 1099}});
-  m.object("narrow").body(CylinderPrimitive{25, 1000}, {{}, {25, 0, 1697}});
-  EXPECT_EQ(without(m), (Told{"wide-reducer CONTACT", "reducer-narrow HIT"}));
+  m.object("reducer").body(SnoutPrimitive{50, 25, 200, 25, 0}, {{}, {12.5, 0, 1098}});
+  m.object("narrow").body(CylinderPrimitive{25, 1000}, {{}, {25, 0, 1696}});
+  EXPECT_EQ(without(m), (Told{"wide-reducer HIT", "reducer-narrow HIT"}));
   EXPECT_EQ(with_ends(m), Told{});
 }
 
@@ -115,9 +115,9 @@ TEST(RulesEnds, FacetedPipesJoinByTheirCaps) {
   ClashModel m;
   m.object("a").body(test::cylinder_mesh(50, 1000, 2, 16));
   m.object("b").again({{}, {0, 0, 998}});
-  pipe(m, "c", 1997);
+  pipe(m, "c", 1996);
   m.object("branch").body(test::cylinder_mesh(20, 500, 2, 16), {kAlongX, {10, 0, 500}});
-  EXPECT_EQ(without(m), (Told{"a-b HIT", "a-branch HIT", "b-c CONTACT"}));
+  EXPECT_EQ(without(m), (Told{"a-b HIT", "a-branch HIT", "b-c HIT"}));
   EXPECT_EQ(with_ends(m), (Told{"a-branch HIT"}));
 }
 
