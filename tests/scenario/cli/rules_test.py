@@ -80,7 +80,7 @@ class Small(Rules):
         self.assertIn('counts 1 places that rules allow, but "results" has 2', done.stderr)
 
     def test_what_a_test_does_not_report_is_counted_and_is_not_gone(self):
-        # c0 and c1 are 10 deep in each other, a litre each; c2 and c3 are one cube twice.
+        # c0 and c1 have a tenth of a litre in common; c2 and c3 are one cube of a litre twice.
         self.write('m.obj', cubes(0, 90, 500, 500))
         run = ['m.obj', *self.SETTINGS, '--rules', 'r.toml']
         self.write('r.toml', '[[test]]\nname = "t"\n')
@@ -98,10 +98,11 @@ class Small(Rules):
         done = self.run_strake('clash', *run, '--fail-on', 'hit')
         self.assertEqual(done.returncode, 1)
         self.assertIn('1 hit, 0 contacts, 0 clearance violations, 1 result not reported by volume\n', done.stdout)
-        diff = self.run_strake('clash', 'diff', 'all.json', 'some.json')
-        self.assertEqual(diff.returncode, 0, diff.stderr)
-        self.assertIn('may be among the 1 results that the test does not report', diff.stdout)
-        self.assertIn('0 gone', diff.stdout)
+        told = json.loads(self.run_strake('clash', 'diff', 'all.json', 'some.json', '--json').stdout)
+        self.assertEqual(told['counts'], {'new': 0, 'changed': 0, 'same': 1, 'gone': 0, 'cannot_tell': 1})
+        self.assertIn('may be among the 1 results that the test does not report', told['cannot_tell'][0]['why'])
+        self.assertEqual([(s['setting'], s['old']) for s in told['settings_changed']],
+                         [('min_volume_mm3', None), ('relations', None)])
         self.write('r.toml', '[[test]]\nname = "t"\nrelations = "inside"\n')
         done = self.run_strake('clash', *run, '--fail-on', 'hit')
         self.assertEqual(done.returncode, 0, 'what is not reported fails nothing')
@@ -214,8 +215,21 @@ max_depth = "any"
         self.write('r.toml', ''.join(snippets))
         self.write('m.obj', cubes(0, 90))
         report = self.report('m.obj', *self.SETTINGS, '--rules', 'r.toml')
-        self.assertEqual([test['name'] for test in report['tests']], ['disciplines', 'hvac against steel'])
+        self.assertEqual([test['name'] for test in report['tests']],
+                         ['disciplines', 'hvac against steel', 'things twice', 'what is worth a meeting'])
         self.assertEqual(report['tests'][1]['settings']['clearance_mm'], 50)
+        self.assertEqual(report['tests'][2]['settings']['relations'], ['DUPLICATE'])
+
+    def test_each_example_of_the_documentation_runs_by_itself(self):
+        text = (EXAMPLES.parent / 'docs' / 'rules.md').read_text(encoding='utf-8')
+        examples = re.findall(r'(?m)((?:^    .*\n)+)', text)
+        tables = [re.sub('(?m)^    ', '', example) for example in examples if example.lstrip().startswith('[[')]
+        self.assertGreaterEqual(len(tables), 5)
+        self.write('m.obj', cubes(0, 90))
+        for table in tables:
+            with self.subTest(table=table):
+                self.write('r.toml', table)
+                self.report('m.obj', *self.SETTINGS, '--rules', 'r.toml')
 
     def test_a_result_names_its_rules_file(self):
         self.write('m.obj', cubes(0, 90))
