@@ -16,13 +16,13 @@ using clash::Relation;
 using clash::RelationSet;
 
 /// What people call several relations of results, or one.
-constexpr std::array<std::pair<std::string_view, RelationSet>, 3> kWords{
+constexpr std::array<std::pair<std::string_view, RelationSet>, 3> kRelationWords{
     {{"inside", {Relation::a_in_b}},
      {"through", {Relation::interfere, Relation::cross}},
      {"abut", {Relation::abut_outside, Relation::abut_inside}}}};
 
 std::optional<RelationSet> relations_of(const std::string& word) {
-  for (const auto& [name, relations] : kWords)
+  for (const auto& [name, relations] : kRelationWords)
     if (word == name) return relations;
   for (const Relation relation : clash::kRelations)
     if (word == lowered(clash::name(relation))) return RelationSet{relation};
@@ -31,7 +31,7 @@ std::optional<RelationSet> relations_of(const std::string& word) {
 
 std::string all_words() {
   std::string words;
-  for (const auto& [name, relations] : kWords)
+  for (const auto& [name, relations] : kRelationWords)
     words += (words.empty() ? "" : ", ") + std::string(name);
   for (const Relation relation : clash::kRelations) words += ", " + lowered(clash::name(relation));
   return words;

@@ -16,7 +16,7 @@ namespace {
 
 using geometry::PartKind;
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t kNoPair = std::numeric_limits<std::size_t>::max();
 
 /// The results about two objects whose common volume is wanted: [first, end).
 struct Run {
@@ -49,7 +49,7 @@ std::vector<SolidOverlap> overlaps_of(const PartResults& results, const std::vec
                                       std::vector<CommonVolume>& volumes) {
   std::vector<SolidOverlap> overlaps;
   for (std::size_t r = 0; r < runs.size(); ++r) {
-    std::size_t last = kNone;
+    std::size_t last = kNoPair;
     for (std::size_t i = runs[r].first; i < runs[r].end; ++i) {
       const PartResult& result = results.found[i];
       if (!result.answer->separation.interiors_meet || result.pair_index == last) continue;

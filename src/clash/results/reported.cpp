@@ -19,7 +19,7 @@ enum class Fate : std::uint8_t {
   by_volume,    ///< not reported
 };
 
-void count(const Pair& pair, NotReported::Counts& counts) {
+void count_by_class(const Pair& pair, NotReported::Counts& counts) {
   if (pair.allowed >= 0)
     ++counts.allowed;
   else if (pair.cls == Class::hit)
@@ -81,9 +81,9 @@ Status keep_reported(const PartResults& results, const Sets& sets, const paralle
     Pair& pair = report.pairs[i];
     const Fate fate = (*fates)[i];
     if (fate == Fate::by_relation) {
-      count(pair, report.not_reported.by_relation);
+      count_by_class(pair, report.not_reported.by_relation);
     } else if (fate == Fate::by_volume) {
-      count(pair, report.not_reported.by_volume);
+      count_by_class(pair, report.not_reported.by_volume);
     } else {
       if (fate == Fate::volume_open) pair.flags |= kUncertain;
       kept.push_back(pair);

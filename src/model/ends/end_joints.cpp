@@ -76,7 +76,7 @@ class SceneEnds {
 };
 
 /// Whether two ends meet. The squares of distances up to 2^30 along each axis do not overflow.
-bool meet(const ObjectEnd& x, const ObjectEnd& y, std::int64_t within) {
+bool ends_meet(const ObjectEnd& x, const ObjectEnd& y, std::int64_t within) {
   constexpr double kCosOf30Degrees = 0.8660254037844386;
   const Vec3l apart = y.at - x.at;
   for (int k = 0; k < 3; ++k)
@@ -123,7 +123,7 @@ Result<std::vector<std::pair<std::uint32_t, std::uint32_t>>> joints_of(
             const auto first = std::ranges::lower_bound(ends, Cell{x, y, at.z - 1}, {}, cell);
             for (auto other = first; other != ends.end() && cell(*other) <= Cell{x, y, at.z + 1};
                  ++other)
-              if (ends[i].object < other->object && meet(ends[i], *other, within))
+              if (ends[i].object < other->object && ends_meet(ends[i], *other, within))
                 out.push_back({ends[i].object, other->object});
           }
       });
