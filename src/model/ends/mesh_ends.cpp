@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/union_find.hpp"
@@ -22,13 +23,23 @@ using geometry::Vec3d;
 
 /// The fewest corners of a circle: the side of a faceted body has four.
 constexpr std::size_t kFewestCorners = 6;
-/// How far a corner may lie off its circle, as a part of the radius, and how long the sides may be:
-/// that of a hexagon is as long as the radius.
-constexpr double kOffCircle = 0.01, kLongestSide = 1.1;
+/// How far a corner may lie off its circle, how long a side may be and how long all of them are at
+/// least, as parts of the radius: the sides of a hexagon are as long as that. A long narrow facet
+/// with corners along its sides lies on a circle as well, but not round it.
+constexpr double kOffCircle = 0.01, kLongestSide = 1.1, kLeastWayRound = 5.8;
+/// Two triangles whose planes differ by less than a degree may be one face: the snap turns narrow
+/// ones. Whether the face is plane is decided by all of it.
+constexpr double kCosOfOneDegree = 0.9998476951563913;
 
 /// An edge of a face as its triangle runs along it.
 struct DirectedEdge {
   std::uint32_t from = 0, to = 0, triangle = 0;
+};
+
+/// Triangles that may lie in one plane, and the edges at which they end.
+struct Face {
+  std::vector<DirectedEdge> rim;
+  std::vector<std::uint32_t> triangles;
 };
 
 /// A closed outline, its edges in order.
@@ -46,7 +57,7 @@ class MeshEnds {
   std::vector<MeshEnd> run() {
     std::vector<MeshEnd> ends;
     if (part_.kind == PartKind::solid)
-      for (const auto& edges : rims_of_faces()) add_cap(edges, ends);
+      for (const Face& face : faces()) add_cap(face, ends);
     if (part_.kind == PartKind::sheet) add_open_rims(ends);
     return ends;
   }
@@ -60,41 +71,45 @@ class MeshEnds {
     return cross(corner(triangle[1]) - p, corner(triangle[2]) - p);
   }
 
-  /// Whether two triangles that share an edge lie in one plane: in that of the one or of the other,
-  /// as a sliver has none to speak of.
+  /// Whether two triangles that share an edge may lie in one plane: they are not folded, or the one
+  /// lies in the plane of the other, as a sliver has none to speak of.
   [[nodiscard]] bool in_one_plane(std::uint32_t t, std::uint32_t u,
                                   const geometry::PartEdge& edge) const {
     const Vec3d nt = twice_area(t), nu = twice_area(u);
     if (!(dot(nt, nu) > 0)) return false;
-    const auto lies_off = [&](const Vec3d& normal, std::uint32_t other) {
+    if (dot(nt, nu) >= kCosOfOneDegree * length(nt) * length(nu)) return true;
+    const auto lies_in = [&](const Vec3d& normal, std::uint32_t other) {
       const std::uint32_t v = geometry::opposite_vertex(part_.triangles[other], edge);
-      return std::fabs(dot(normal, corner(v) - corner(edge.v0))) > off_ * length(normal);
+      return std::fabs(dot(normal, corner(v) - corner(edge.v0))) <= off_ * length(normal);
     };
-    return !lies_off(nt, u) || !lies_off(nu, t);
+    return lies_in(nt, u) || lies_in(nu, t);
   }
 
-  [[nodiscard]] UnionFind plane_faces() const {
-    UnionFind faces(part_.triangles.size());
+  [[nodiscard]] UnionFind joined_triangles() const {
+    UnionFind joined(part_.triangles.size());
     for (std::uint32_t e = 0; e + 1 < part_.edges.size(); ++e) {
       const auto triangles = geometry::incident_triangles(part_, e);
       if (triangles.size() == 2 && in_one_plane(triangles[0], triangles[1], part_.edges[e]))
-        faces.join(triangles[0], triangles[1]);
+        joined.join(triangles[0], triangles[1]);
     }
-    return faces;
+    return joined;
   }
 
-  /// Returns, for each plane face, the edges at which it ends.
-  [[nodiscard]] std::vector<std::vector<DirectedEdge>> rims_of_faces() const {
-    UnionFind faces = plane_faces();
-    std::vector<std::vector<DirectedEdge>> rims(part_.triangles.size());
-    for (std::uint32_t t = 0; t < part_.triangles.size(); ++t)
+  /// Returns the faces with enough edges for a circle.
+  [[nodiscard]] std::vector<Face> faces() const {
+    UnionFind joined = joined_triangles();
+    std::vector<Face> faces(part_.triangles.size());
+    for (std::uint32_t t = 0; t < part_.triangles.size(); ++t) {
+      Face& face = faces[joined.root(t)];
+      face.triangles.push_back(t);
       each_edge(t, [&](const DirectedEdge& edge, std::span<const std::uint32_t> triangles) {
         const bool inner =
-            triangles.size() == 2 && faces.root(triangles[0]) == faces.root(triangles[1]);
-        if (!inner) rims[faces.root(t)].push_back(edge);
+            triangles.size() == 2 && joined.root(triangles[0]) == joined.root(triangles[1]);
+        if (!inner) face.rim.push_back(edge);
       });
-    std::erase_if(rims, [](const auto& edges) { return edges.size() < kFewestCorners; });
-    return rims;
+    }
+    std::erase_if(faces, [](const Face& face) { return face.rim.size() < kFewestCorners; });
+    return faces;
   }
 
   template <class Take>
@@ -144,14 +159,27 @@ class MeshEnds {
     const Vec3d to_centre =
         (cross(axis, a) * dot(b, b) + cross(b, axis) * dot(a, a)) * (1 / (2 * square));
     const Circle circle{p + to_centre, unit(axis), length(to_centre)};
+    double way_round = 0;
     for (const DirectedEdge& edge : outline) {
+      const double side = length(corner(edge.to) - corner(edge.from));
+      way_round += side;
       const Vec3d spoke = corner(edge.from) - circle.centre;
       if (std::fabs(length(spoke) - circle.radius) > kOffCircle * circle.radius + off_ ||
           std::fabs(dot(spoke, circle.normal)) > 3 * off_ ||
-          length(corner(edge.to) - corner(edge.from)) > kLongestSide * circle.radius + off_)
+          side > kLongestSide * circle.radius + off_)
         return std::nullopt;
     }
+    if (way_round < kLeastWayRound * circle.radius) return std::nullopt;
     return circle;
+  }
+
+  /// Whether all of a face lies in the plane of a circle.
+  [[nodiscard]] bool is_in_plane(const Face& face, const Circle& circle) const {
+    return std::ranges::all_of(face.triangles, [&](std::uint32_t t) {
+      return std::ranges::all_of(part_.triangles[t], [&](std::uint32_t v) {
+        return std::fabs(dot(corner(v) - circle.centre, circle.normal)) <= 3 * off_;
+      });
+    });
   }
 
   void add(const Circle& circle, const Vec3d& outward, std::vector<MeshEnd>& ends) const {
@@ -159,21 +187,21 @@ class MeshEnds {
     ends.push_back({{std::llround(c.x), std::llround(c.y), std::llround(c.z)}, outward});
   }
 
-  /// Adds a plane face if all its outlines are circles about one centre.
-  void add_cap(const std::vector<DirectedEdge>& edges, std::vector<MeshEnd>& ends) const {
+  /// Adds a face if it is plane and all its outlines are circles about one centre.
+  void add_cap(const Face& face, std::vector<MeshEnd>& ends) const {
     std::vector<Circle> circles;
     std::size_t joined = 0;
-    for (const Outline& outline : outlines(edges)) {
+    for (const Outline& outline : outlines(face.rim)) {
       const auto circle = circle_of(outline);
       if (!circle) return;
       circles.push_back(*circle);
       joined += outline.size();
     }
-    if (circles.empty() || joined != edges.size()) return;
+    if (circles.empty() || joined != face.rim.size()) return;
     const Circle& outer = *std::ranges::max_element(circles, {}, &Circle::radius);
     for (const Circle& circle : circles)
       if (length(circle.centre - outer.centre) > kOffCircle * outer.radius + off_) return;
-    add(outer, outer.normal, ends);
+    if (is_in_plane(face, outer)) add(outer, outer.normal, ends);
   }
 
   /// Adds the circles in which an open surface ends, outward being away from its triangles there.

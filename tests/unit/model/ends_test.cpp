@@ -132,6 +132,7 @@ TEST(Ends, OfOtherMeshesAreNotKnown) {
   EXPECT_TRUE(ends_of_one(test::box_mesh({0, 0, 0}, {10, 10, 1000})).empty());
   EXPECT_TRUE(ends_of_one(test::cylinder_mesh(50, 1000, 3, 5)).empty()) << "five corners";
   EXPECT_TRUE(ends_of_one(test::sphere_mesh(50, 12)).empty());
+  EXPECT_TRUE(ends_of_one(test::sphere_mesh(50, 180)).empty()) << "a degree from facet to facet";
   // An oval, and a bar of half a round.
   const Placement wide{{{Vec3d{1.2, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}}, {}};
   EXPECT_TRUE(ends_of_one(test::cylinder_mesh(50, 1000, 1, 24), wide).empty());
