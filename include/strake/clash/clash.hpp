@@ -204,7 +204,7 @@ struct Report {
   /// pair the worst first.
   std::vector<Region> regions;
   std::uint64_t objects_a = 0, objects_b = 0;
-  /// The number of pairs of each class, without those that a rule allows.
+  /// The number of pairs of each class, without those that a rule allows or that are not reported.
   std::uint64_t count_hit = 0, count_contact = 0, count_clearance = 0;
   std::uint64_t count_allowed = 0;           ///< pairs of any class that a rule allows
   std::uint64_t count_allowed_regions = 0;   ///< the sum of Pair::allowed_regions

@@ -102,14 +102,15 @@ struct Policy {
 /// 2. An exempted pair is counted, and listed where asked for, if parts of the two are within reach
 ///    of each other; where a level leaves out some pairs of their parts, the others are checked.
 /// 3. An allowed result keeps its class and d. The rules are applied to each pair of parts by
-///    itself: one that no rule allows decides the pair, and what is allowed besides is counted
-///    (Pair::allowed_regions). Its place is that of the worst: where the boxes of the two parts
-///    meet beyond region and cavity too, the result is flagged kUncertain.
+///    itself (a volume is that of the two objects): one that no rule allows decides the pair, and
+///    what is allowed besides is counted (Pair::allowed_regions). Its place is that of the worst:
+///    where the boxes of the two parts meet beyond region and cavity too, the result is flagged
+///    kUncertain.
 /// 4. A hard part decides before a soft one, and a soft one before insulation, where the class is
 ///    equal.
 ///
-/// Errors: those of detect(); usage for lists of the wrong size, and for limits of a rule that are
-/// not numbers.
+/// Errors: those of detect(); usage for lists of the wrong size, for limits of a rule that are not
+/// numbers, and for rules by relation or volume where the narrow phase is not the exact one.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,
                                     const Options& options, const Policy& policy,
                                     const parallel::Context& context);
