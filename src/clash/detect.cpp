@@ -161,6 +161,9 @@ class Engine {
     auto joined = aggregate_by_object(results, context_);
     if (!joined) return joined.error();
     report.pairs = std::move(*joined);
+    // The log has the classes of all, whatever is reported of them.
+    if (options_.engine.log_pairs)
+      if (const Status s = log_pairs(evaluated(), objects_, rules_, context_, report); !s) return s;
     if (const Status s = keep_reported(results, sets_, context_, report); !s) return s;
     if (report.options.engine.most_regions > 0 || !report.allowed.empty())
       if (const Status s = aggregate_regions(results, context_, report); !s) return s;
@@ -185,10 +188,8 @@ class Engine {
     if (const Status s = warn_of_unknown_sag(list_, *scene_.model, context_, report.diagnostics);
         !s)
       return s.error();
-    if (options_.engine.contacts == Contacts::count)
-      if (const Status s = leave_out_contacts(context_, report); !s) return s;
-    return options_.engine.log_pairs ? log_pairs(evaluated(), objects_, rules_, context_, report)
-                                     : Status{};
+    return options_.engine.contacts == Contacts::count ? leave_out_contacts(context_, report)
+                                                       : Status{};
   }
 
   void describe_sets(Report& report) const {

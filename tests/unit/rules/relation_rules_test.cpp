@@ -254,6 +254,23 @@ TEST(RulesVolume, TheSameForAnyTeam) {
   EXPECT_EQ(one.reports.at(0).hash, three.reports.at(0).hash);
 }
 
+TEST(RulesRelation, TheLogHasTheClassesOfWhatIsNotReported) {
+  const ClashModel m = scene();
+  const auto rules = Rules::parse("[[test]]\nname = 't'\nrelations = 'cross'", "r.toml");
+  ASSERT_TRUE(rules);
+  const auto scene_made = make_scene(m.model, rules->scene_options(), {}).value();
+  PlannedTest test = rules->plan(scene_made, {}).value().tests.at(0);
+  test.options.engine.log_pairs = true;
+  test.options.engine.contacts = clash::Contacts::count;
+  const auto report = clash::detect(scene_made, test.sets, test.options, test.policy, {}).value();
+  EXPECT_TRUE(report.pairs.empty());
+  const auto logged = [&](clash::Class cls) {
+    return std::ranges::count(report.log, cls, &clash::LoggedPair::cls);
+  };
+  EXPECT_EQ(logged(clash::Class::hit), 3);
+  EXPECT_EQ(logged(clash::Class::contact), 1);
+}
+
 TEST(RulesRelation, TheBaselineTellsNone) {
   const ClashModel m = scene();
   for (const char* const keys : {"relation = 'inside'", "max_volume = '1l'"}) {
