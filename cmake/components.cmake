@@ -99,6 +99,8 @@ strake_component(clash
     clash/options.hpp
     clash/overlaps.hpp
     clash/policy.hpp
+    clash/relation.hpp
+    clash/reporting.hpp
     rules/rules.hpp)
 
 strake_component(drawing

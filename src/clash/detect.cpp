@@ -12,7 +12,9 @@
 #include "clash/regions/object_regions.hpp"
 #include "clash/regions/part_regions.hpp"
 #include "clash/results/common_volumes.hpp"
+#include "clash/results/limited_volumes.hpp"
 #include "clash/results/object_results.hpp"
+#include "clash/results/reported.hpp"
 #include "clash/results/result_counts.hpp"
 #include "clash/results/result_hash.hpp"
 #include "clash/results/unlisted_contacts.hpp"
@@ -45,9 +47,14 @@ class Engine {
     if (const Status s = run_broad_phase(report); !s) return s.error();
     if (const Status s = run_narrow_phase(); !s) return s.error();
     const parallel::StageTimer timer(context_.report, "result by objects");
-    const auto found = collect_results(report);
+    auto found = collect_results(report);
     if (!found) return found.error();
-    if (const Status s = aggregate({*found, pairs_, list_, rules_}, report); !s) return s.error();
+    const PartResults results{*found, pairs_, list_, rules_};
+    if (const Status s =
+            measure_limited_volumes(results, *found, common_volumes_, cache_, context_, report);
+        !s)
+      return s.error();
+    if (const Status s = aggregate(results, report); !s) return s.error();
     if (const Status s = finish(report); !s) return s.error();
     return report;
   }
@@ -153,6 +160,10 @@ class Engine {
     auto joined = aggregate_by_object(results, context_);
     if (!joined) return joined.error();
     report.pairs = std::move(*joined);
+    // The log has the classes of all, whatever is reported of them.
+    if (options_.engine.log_pairs)
+      if (const Status s = log_pairs(evaluated(), objects_, rules_, context_, report); !s) return s;
+    if (const Status s = keep_reported(results, sets_, context_, report); !s) return s;
     if (report.options.engine.most_regions > 0 || !report.allowed.empty())
       if (const Status s = aggregate_regions(results, context_, report); !s) return s;
     if (options_.engine.volumes == Volumes::on)
@@ -176,10 +187,8 @@ class Engine {
     if (const Status s = warn_of_unknown_sag(list_, *scene_.model, context_, report.diagnostics);
         !s)
       return s.error();
-    if (options_.engine.contacts == Contacts::count)
-      if (const Status s = leave_out_contacts(context_, report); !s) return s;
-    return options_.engine.log_pairs ? log_pairs(evaluated(), objects_, rules_, context_, report)
-                                     : Status{};
+    return options_.engine.contacts == Contacts::count ? leave_out_contacts(context_, report)
+                                                       : Status{};
   }
 
   void describe_sets(Report& report) const {
@@ -206,6 +215,7 @@ class Engine {
   ObjectPairs objects_;
   std::vector<Candidate> candidates_;             ///< one per unique pair
   std::vector<std::vector<PartRegion>> regions_;  ///< by unique pair, where told apart
+  std::vector<CommonVolume> common_volumes_;      ///< where a rule or the test limits them
 };
 
 }  // namespace
@@ -216,6 +226,7 @@ Result<Report> detect(const model::Scene& scene, const Sets& sets, const Options
   for (const Tolerances& t : policy.tolerances)
     if (const Status s = check(t, scene.model->objects.size()); !s) return s.error();
   if (const Status s = check(policy, scene.model->objects.size()); !s) return s.error();
+  if (const Status s = check_narrow_phase(policy, options); !s) return s.error();
   return Engine(scene, sets, options, policy, context).run();
 }
 

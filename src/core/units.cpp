@@ -25,6 +25,27 @@ constexpr std::array<std::pair<std::string_view, double>, 27> kUnits{{
     {"foot", 304.8},    {"feet", 304.8},    {"'", 304.8},
 }};
 constexpr std::string_view kUnitNames = "um, mm, cm, dm, m, km, in or ft";
+constexpr std::array<std::pair<std::string_view, double>, 18> kVolumes{{
+    {"mm3", 1},
+    {"mm³", 1},
+    {"cm3", 1e3},
+    {"cm³", 1e3},
+    {"dm3", 1e6},
+    {"dm³", 1e6},
+    {"l", 1e6},
+    {"L", 1e6},
+    {"litre", 1e6},
+    {"litres", 1e6},
+    {"liter", 1e6},
+    {"liters", 1e6},
+    {"m3", 1e9},
+    {"m³", 1e9},
+    {"in3", 16387.064},
+    {"in³", 16387.064},
+    {"ft3", 28316846.592},
+    {"ft³", 28316846.592},
+}};
+constexpr std::string_view kVolumeNames = "mm3, cm3, dm3, l, m3, in3 or ft3";
 /// Scales beyond these are typing errors, and their sheets no paper.
 constexpr double kLargestBlowUp = 1e-6, kLargestReduction = 1e9;
 constexpr double kDegPerRad = 57.29577951308232;
@@ -148,6 +169,27 @@ Result<double> parse_coordinate_mm(std::string_view text) {
     return no_quantity(text, "a coordinate", "write millimetres, or a number and a unit, as 4.5m");
   if (q->unit.empty()) return q->number;
   return in_mm(*q, text);
+}
+
+Result<double> parse_volume_mm3(std::string_view text) {
+  if (const auto point = with_decimal_point(text)) return decimal_comma(text, *point);
+  const auto q = parse_quantity(text);
+  if (!q) return no_quantity(text, "a volume", "write a number and a unit, as 5cm3");
+  if (q->number < 0) return usage(in_quotes(text) + " is negative", "write 0, or a volume as 5cm3");
+  if (q->unit.empty() && q->number == 0) return 0.0;
+  if (q->unit.empty())
+    return usage("the volume " + in_quotes(text) + " has no unit",
+                 "write " + shortest(q->number) + "cm3 or another of " + std::string(kVolumeNames));
+  for (const auto& [name, mm3] : kVolumes) {
+    if (q->unit != name) continue;
+    if (std::isfinite(q->number * mm3)) return q->number * mm3;
+    return usage("too large: " + in_quotes(text), "write a smaller volume");
+  }
+  if (unit_mm(q->unit))
+    return usage(in_quotes(text) + " is a length, not a volume",
+                 "write " + std::string(kVolumeNames) + " behind the number");
+  return usage("unknown unit " + in_quotes(q->unit) + " in " + in_quotes(text),
+               "write " + std::string(kVolumeNames));
 }
 
 Result<double> parse_angle_deg(std::string_view text) {

@@ -44,6 +44,10 @@ inline constexpr double kLongestMm = 1e6;
 /// programs show them.
 [[nodiscard]] Result<double> parse_coordinate_mm(std::string_view text);
 
+/// Parses "5cm3", "0.5 l", "2in³" in cubic millimetres; the units are mm3, cm3, dm3, l, m3, in3 and
+/// ft3. A number without a unit is an error, except 0, and so is a negative one.
+[[nodiscard]] Result<double> parse_volume_mm3(std::string_view text);
+
 /// Parses "20deg" or "20°" in degrees; a bare number means degrees, "0.35rad" is converted.
 [[nodiscard]] Result<double> parse_angle_deg(std::string_view text);
 

@@ -2,7 +2,9 @@
 #include "rules/exemptions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,7 +18,9 @@
 #include "core/seeded_hash.hpp"
 #include "model/assemblies.hpp"
 #include "model/attributes.hpp"
+#include "model/ends/end_joints.hpp"
 #include "model/hierarchy.hpp"
+#include "strake/geometry/grid.hpp"
 
 namespace strake::rules {
 namespace {
@@ -238,6 +242,30 @@ struct Labelling {
     }
     if (test.refers_to.numbers.empty())
       rule_context.warn_no_match(rule.where, "no object has one of the attributes with a value");
+    return test;
+  }
+
+  Test operator()(const EndsRule& ends) const {
+    clash::Linked test{{{0}, {}}, {{0}, {}}};
+    std::vector<std::vector<std::uint32_t>> refers(rule_context.objects()), answers = refers;
+    const std::vector<model::ObjectEnd> all = model::ends_of(rule_context.scene(), among);
+    const auto joints = model::joints_of(all, std::llround(ends.within_mm * geometry::kGridPerMm),
+                                         rule_context.context());
+    if (!joints) rule_context.fail(joints.error());
+    const std::size_t count = joints ? joints->size() : 0;
+    // Each joint is a number of its own, which the one refers to and the other answers to.
+    for (std::uint32_t joint = 0; joint < count; ++joint) {
+      refers[(*joints)[joint].first].push_back(joint);
+      answers[(*joints)[joint].second].push_back(joint);
+    }
+    for (std::size_t o = 0; o < refers.size(); ++o) {
+      append(test.refers_to, std::move(refers[o]));
+      append(test.answers_to, std::move(answers[o]));
+    }
+    if (count == 0)
+      rule_context.warn_no_match(
+          rule.where, all.empty() ? "no object has an end that is known"
+                                  : "no two of " + std::to_string(all.size()) + " ends meet");
     return test;
   }
 

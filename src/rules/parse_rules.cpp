@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rules/file_settings.hpp"
+#include "rules/relation_words.hpp"
 #include "rules/rule_file.hpp"
 #include "rules/tolerance_rule.hpp"
 #include "settings/named_sets.hpp"
@@ -31,6 +32,9 @@ constexpr std::string_view kChecked = "checked", kNotChecked = "not checked";
 /// The most disciplines and the longest name. Results have a cell for each two disciplines, and
 /// every pair carries the names of its rules: a small file must not take gigabytes.
 constexpr std::size_t kMostDisciplines = 300, kLongestName = 200;
+/// The farthest that ends of a joint may be apart: what is farther is no joint, and the search
+/// takes the longer the farther it looks.
+constexpr double kFarthestEndsMm = 1000;
 
 /// Reads the tables of a file one by one. The ParseContext keeps a fault, and what is read after it
 /// is thrown away with the rest.
@@ -96,6 +100,7 @@ class RulesParser {
     test.name = std::move(name);
     test.tolerances = defaults_;
     test.contact_distance_mm = contact_distance_mm_;
+    test.reporting = reporting_;
     return test;
   }
 
@@ -105,6 +110,7 @@ class RulesParser {
     TableReader table(reading_, *value, "[defaults]");
     tolerances(table, defaults_);
     contact_distance_mm_ = table.tolerance_mm("contact_distance").value_or(-1);
+    read_reporting(reading_, table, reporting_);
     if (!table.flag("within_file").value_or(true)) {
       rules_.exempting.push_back({"within one file", place(value->at), {}, FileRule{}});
       rule_names_.emplace_back("within one file");
@@ -206,6 +212,7 @@ class RulesParser {
     tolerances(table, test.tolerances);
     if (const auto distance = table.tolerance_mm("contact_distance"))
       test.contact_distance_mm = *distance;
+    read_reporting(reading_, table, test.reporting);
     test.without = table.texts("without");
     without_at_.emplace_back(test.without, table.at());
   }
@@ -284,6 +291,10 @@ class RulesParser {
   void connected(const Value& value) {
     TableReader table(reading_, value, "[[connected]]");
     ExemptingRule& rule = exempting(table);
+    if (const auto within = ends_within(table)) {
+      rule.rule = EndsRule{*within};
+      return;
+    }
     ConnectedRule connected;
     struct ReferenceKey {
       std::string_view name;
@@ -299,7 +310,8 @@ class RulesParser {
       }
     if (connected.references.empty())
       reading_.fault(value.at, "[[connected]] names no attributes",
-                     "write head = \"HREF\" and tail = \"TREF\", or attributes = [\"CREF\"]");
+                     "write head = \"HREF\" and tail = \"TREF\", or attributes = [\"CREF\"], or "
+                     "ends_within = \"5mm\"");
     constexpr std::array<std::string_view, 2> kWords{"partner", "node"};
     connected.node = table.word("by", kWords).value_or("partner") == "node";
     constexpr std::array<std::string_view, 3> kHeirs{"none", "ends", "all"};
@@ -311,6 +323,24 @@ class RulesParser {
     connected.groups = table.flag("groups").value_or(false);
     connected.separator = table.text("separator").value_or("");
     rule.rule = std::move(connected);
+  }
+
+  /// Reads how near ends have to be to each other, if the rule goes by ends.
+  std::optional<double> ends_within(TableReader& table) {
+    const Value* const value = table.value("ends_within");
+    if (value == nullptr) return std::nullopt;
+    const double within = table.tolerance_mm("ends_within").value_or(0);
+    if (within > kFarthestEndsMm)
+      reading_.fault(value->at, "'ends_within' of " + table.what() + " is more than a metre",
+                     "write how far apart the ends of a joint are at most, as \"5mm\"");
+    for (const std::string_view key :
+         {"attributes", "head", "tail", "by", "inherited", "groups", "separator"})
+      if (table.value(key) != nullptr)
+        reading_.fault(value->at,
+                       "'ends_within' and '" + std::string(key) + "' in one [[connected]]",
+                       "write two tables, each with a name: the one goes by ends, the other by "
+                       "attributes");
+    return within;
   }
 
   void same_attribute(const Value& value) {
@@ -371,11 +401,16 @@ class RulesParser {
       depth = std::numeric_limits<double>::infinity();
     else if (deepest != nullptr)
       depth = table.tolerance_mm("max_depth");
+    const clash::RelationSet relations = read_relations(reading_, table, "relation");
+    const std::optional<double> volume = table.volume_mm3("max_volume");
+    // A relation or a volume says what is meant of a hit, however deep it is.
+    if (deepest == nullptr && (!relations.empty() || volume))
+      depth = std::numeric_limits<double>::infinity();
     auto box = region(table);
     auto planes = cavity(table);
     if (a && b)
       rules_.allowed.push_back({name, place(value.at) + ": " + table.what(), std::move(*a),
-                                std::move(*b), box, std::move(planes), depth});
+                                std::move(*b), box, std::move(planes), depth, relations, volume});
   }
 
   std::optional<geometry::Box3d> region(TableReader& outer) {
@@ -431,6 +466,7 @@ class RulesParser {
   RuleFile rules_;
   ToleranceRule defaults_;
   double contact_distance_mm_ = -1;
+  clash::Reporting reporting_;
   std::vector<std::string> rule_names_, test_names_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> cells_;  ///< cells of the matrix that are given
   std::vector<std::pair<std::vector<std::string>, SourcePosition>> without_at_;

@@ -39,7 +39,8 @@ class PlanBuilder {
     for (const AllowedRule& rule : rules_.allowed)
       watch(plan, rule, [&] {
         allowed_.push_back({rule.name, rule_context_.pick(rule.a), rule_context_.pick(rule.b),
-                            rule.region_mm, rule.cavity, rule.max_depth_mm});
+                            rule.region_mm, rule.cavity, rule.max_depth_mm, rule.relations,
+                            rule.max_volume_mm3});
       });
     make_disciplines();
     for (const TestRule& test : rules_.tests)
@@ -100,6 +101,7 @@ class PlanBuilder {
     planned.name = test.name;
     planned.options.tolerances = tolerances(test.tolerances);
     planned.options.contact_distance_mm = test.contact_distance_mm;
+    planned.options.reporting = test.reporting;
     planned.policy = policy(test);
     if (test.matrix) {
       add_matrix(planned);

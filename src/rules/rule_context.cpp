@@ -8,7 +8,7 @@ namespace strake::rules {
 
 RuleContext::RuleContext(const model::Scene& scene, const std::vector<const Chooser*>& choosers,
                          const parallel::Context& context)
-    : scene_(scene) {
+    : scene_(scene), context_(context) {
   std::vector<model::Selection> selections;
   for (const Chooser* chooser : choosers) selections.push_back(chooser->selection);
   auto answers = model::pick(selections, scene, context);

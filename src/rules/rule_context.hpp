@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rules/rule_file.hpp"
@@ -23,7 +24,7 @@ inline constexpr std::string_view kMatchesNothing = "rule-matches-nothing",
 /// was cancelled; results after that are not used.
 class RuleContext {
  public:
-  /// Evaluates all selections for all objects, in one pass. They must outlive this.
+  /// Evaluates all selections for all objects, in one pass. They and the context must outlive this.
   RuleContext(const model::Scene& scene, const std::vector<const Chooser*>& choosers,
               const parallel::Context& context);
 
@@ -32,6 +33,8 @@ class RuleContext {
   [[nodiscard]] std::size_t objects() const { return model().objects.size(); }
   [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
+  void fail(Error error) { error_ = std::move(error); }
+  [[nodiscard]] const parallel::Context& context() const { return context_; }
 
   /// Returns the objects that one of the selections picks, with a warning where there are none.
   std::vector<bool> pick(const Chooser& chooser);
@@ -60,6 +63,7 @@ class RuleContext {
 
  private:
   const model::Scene& scene_;
+  const parallel::Context& context_;
   std::map<const Chooser*, std::vector<bool>> picked_;
   Diagnostics diagnostics_;
   std::optional<Error> error_;

@@ -34,6 +34,7 @@ struct TestRule {
   ToleranceRule tolerances;
   double contact_distance_mm = -1;
   std::vector<std::string> without;  ///< rules that this test does not follow
+  clash::Reporting reporting = {};
 };
 
 struct CellRule {
@@ -85,6 +86,11 @@ struct ConnectedRule {
   std::string separator;
 };
 
+/// Objects of which ends meet within a length are no pair.
+struct EndsRule {
+  double within_mm = 0;
+};
+
 struct AttributeRule {
   std::string attribute;
 };
@@ -98,7 +104,8 @@ struct ExemptRule {
 struct ExemptingRule {
   std::string name, where;
   std::optional<Chooser> among;  ///< only objects that this picks
-  std::variant<UnitRule, AssemblyRule, ConnectedRule, AttributeRule, FileRule, ExemptRule> rule;
+  std::variant<UnitRule, AssemblyRule, ConnectedRule, EndsRule, AttributeRule, FileRule, ExemptRule>
+      rule;
 };
 
 struct ObstructionRule {
@@ -119,6 +126,8 @@ struct AllowedRule {
   std::optional<geometry::Box3d> region_mm;
   std::vector<clash::HalfSpace> cavity;
   std::optional<double> max_depth_mm;
+  clash::RelationSet relations = {};
+  std::optional<double> max_volume_mm3 = {};
 };
 
 /// The content of a rules file.

@@ -155,6 +155,13 @@ std::optional<double> TableReader::quantity(std::string_view key,
   return std::nullopt;
 }
 
+std::optional<double> TableReader::volume_mm3(std::string_view key) {
+  const Value* const found = value(key);
+  const auto* const zero = found != nullptr ? std::get_if<std::int64_t>(&found->held) : nullptr;
+  if (zero != nullptr && *zero == 0) return 0.0;
+  return quantity(key, parse_volume_mm3, "a volume with its unit in quotes, as \"5cm3\"");
+}
+
 std::optional<std::vector<double>> TableReader::lengths_mm(std::string_view key, std::size_t count,
                                                            std::string_view wanted) {
   const Value* const found = value(key);

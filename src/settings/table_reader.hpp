@@ -63,6 +63,8 @@ class TableReader {
   std::optional<std::int64_t> whole(std::string_view key);
   /// Reads a text with a unit, as "25mm"; 0 needs none. It lies between 0 and a kilometre.
   std::optional<double> tolerance_mm(std::string_view key);
+  /// Reads a text with a unit of volume, as "5cm3"; 0 needs none.
+  std::optional<double> volume_mm3(std::string_view key);
   /// Reads a text that a function of units.hpp understands; `wanted` is what to write instead of
   /// another type, as "an angle in quotes, as \"20deg\"".
   std::optional<double> quantity(std::string_view key, Result<double> (*parse)(std::string_view),

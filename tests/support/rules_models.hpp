@@ -20,6 +20,46 @@ namespace strake::test {
 using Told = std::vector<std::string>;
 using Counts = std::vector<std::pair<std::string, std::uint64_t>>;
 
+/// What a rules file makes of a model.
+struct RulesOutcome {
+  std::vector<clash::Report> reports;
+  Diagnostics diagnostics;
+  std::vector<Told> told;  ///< per test: "a-b HIT", "a-b HIT by RULE"
+};
+
+/// "a-b HIT" for each pair of a report, "a-b HIT by RULE" for one that is allowed.
+inline Told told_of(const model::Model& model, const clash::Report& report) {
+  Told all;
+  for (const clash::Pair& p : report.pairs) {
+    all.push_back(model.object(p.a).id + "-" + model.object(p.b).id + " " +
+                  std::string(name(p.cls)));
+    if (p.allowed >= 0)
+      all.back() += " by " + report.allowed[static_cast<std::size_t>(p.allowed)].rule;
+  }
+  return all;
+}
+
+inline RulesOutcome run_rules(const model::Model& model, std::string_view text,
+                              const parallel::Context& context = {}) {
+  const auto parsed = rules::Rules::parse(text, "r.toml");
+  if (!parsed) {
+    ADD_FAILURE() << parsed.error().text();
+    return {};
+  }
+  const auto scene = make_scene(model, parsed.value().scene_options(), context).value();
+  const rules::Plan plan = parsed.value().plan(scene, context).value();
+  RulesOutcome outcome;
+  for (const rules::PlannedTest& test : plan.tests) {
+    auto report = clash::detect(scene, test.sets, test.options, test.policy, context).value();
+    report.name = test.name;
+    outcome.told.push_back(told_of(model, report));
+    outcome.reports.push_back(std::move(report));
+  }
+  outcome.diagnostics = plan.diagnostics;
+  outcome.diagnostics.append(rules::idle_rules(plan, outcome.reports));
+  return outcome;
+}
+
 /// Cubes of side 100 in a row, each 10 into the next, in groups of a hierarchy.
 class Row {
  public:
@@ -49,30 +89,9 @@ class Row {
     return made;
   }
 
-  struct Outcome {
-    std::vector<clash::Report> reports;
-    Diagnostics diagnostics;
-    std::vector<Told> told;  ///< per test: "a-b HIT", "a-b HIT by RULE"
-  };
-
+  using Outcome = RulesOutcome;
   [[nodiscard]] Outcome run(std::string_view text, const parallel::Context& context = {}) const {
-    const auto parsed = rules::Rules::parse(text, "r.toml");
-    if (!parsed) {
-      ADD_FAILURE() << parsed.error().text();
-      return {};
-    }
-    const auto scene = make_scene(m_.model, parsed.value().scene_options(), context).value();
-    const rules::Plan plan = parsed.value().plan(scene, context).value();
-    Outcome outcome;
-    for (const rules::PlannedTest& test : plan.tests) {
-      auto report = clash::detect(scene, test.sets, test.options, test.policy, context).value();
-      report.name = test.name;
-      outcome.told.push_back(told(report));
-      outcome.reports.push_back(std::move(report));
-    }
-    outcome.diagnostics = plan.diagnostics;
-    outcome.diagnostics.append(rules::idle_rules(plan, outcome.reports));
-    return outcome;
+    return run_rules(m_.model, text, context);
   }
   /// What the only test finds.
   [[nodiscard]] Told hits(std::string_view text) const {
@@ -81,16 +100,6 @@ class Row {
   }
 
  private:
-  [[nodiscard]] Told told(const clash::Report& report) const {
-    Told all;
-    for (const clash::Pair& p : report.pairs) {
-      all.push_back(m_.model.object(p.a).id + "-" + m_.model.object(p.b).id + " " +
-                    std::string(name(p.cls)));
-      if (p.allowed >= 0)
-        all.back() += " by " + report.allowed[static_cast<std::size_t>(p.allowed)].rule;
-    }
-    return all;
-  }
   ClashModel m_;
 };
 

@@ -23,6 +23,8 @@ name = "one"
 a = "set(steel)"
 b = '''*'''
 clearance = "@'INSU 1' + 1in"
+relations = ["duplicate"]
+min_volume = "1l"
 [[test]]
 name = "\u00fcff"
 enabled = false
@@ -73,9 +75,19 @@ attributes = ["HREF", "TREF"]
 inherited = "ends"
 by = "partner"
 separator = ","
+[[connected]]
+name = "ends"
+ends_within = "5mm"
+among = "name = 'b'"
 [[same_attribute]]
 name = "system"
 attribute = "SYSTEM"
+[[allowed]]
+name = "inside"
+a = "*"
+b = "*"
+relation = ["inside", "THROUGH"]
+max_volume = "5cm3"
 [[allowed]]
 name = "seats"
 a = "*"

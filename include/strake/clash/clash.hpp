@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "strake/clash/options.hpp"
+#include "strake/clash/relation.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
@@ -25,17 +26,6 @@ namespace strake::clash {
 
 /// The classes of a result, from the least to the most severe.
 enum class Class : std::uint8_t { no_hit, clearance_violation, contact, hit };
-
-enum class Relation : std::uint8_t {
-  separate,
-  abut_outside,
-  abut_inside,
-  interfere,
-  a_in_b,
-  b_in_a,
-  duplicate,
-  cross,
-};
 
 /// What a part counts as, from the most to the least solid; `none` is not checked at all.
 enum class Level : std::uint8_t { hard, soft, insulation, none };
@@ -209,11 +199,12 @@ struct Report {
   Options options;
   std::vector<Pair> pairs;    ///< by (a, b); NO_HIT pairs are not kept
   UnlistedContacts unlisted;  ///< those not among the pairs, with Contacts::count
+  NotReported not_reported;   ///< results that Options::reporting takes out of pairs and counts
   /// The regions of pairs with several or with allowed ones, in the order of the pairs; of each
   /// pair the worst first.
   std::vector<Region> regions;
   std::uint64_t objects_a = 0, objects_b = 0;
-  /// The number of pairs of each class, without those that a rule allows.
+  /// The number of pairs of each class, without those that a rule allows or that are not reported.
   std::uint64_t count_hit = 0, count_contact = 0, count_clearance = 0;
   std::uint64_t count_allowed = 0;           ///< pairs of any class that a rule allows
   std::uint64_t count_allowed_regions = 0;   ///< the sum of Pair::allowed_regions

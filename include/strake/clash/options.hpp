@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "strake/clash/reporting.hpp"
+
 namespace strake::clash {
 
 enum class BroadPhase : std::uint8_t { tree, all_pairs };
@@ -74,6 +76,7 @@ struct Options {
   /// Contact distance δ for the relation, mm; negative: derived from the sources' precision.
   double contact_distance_mm = -1;
   EngineOptions engine = {};
+  Reporting reporting = {};
 };
 
 }  // namespace strake::clash

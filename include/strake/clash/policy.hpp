@@ -67,7 +67,7 @@ struct HalfSpace {
 };
 
 /// Results between a and b that are meant: no deeper than max_depth, with the contact region within
-/// the region.
+/// the region, of one of the relations, with no more than max_volume in common.
 struct Allowed {
   std::string rule;
   std::vector<bool> a, b;  ///< one entry per object
@@ -76,6 +76,12 @@ struct Allowed {
   /// The certain depth (Pair::d_lower_mm) is at most this, to within half a grid step; a depth of
   /// just this is allowed, and flagged kBorderline. If absent, the result must be no HIT.
   std::optional<double> max_depth_mm;
+  /// How one of a stands to one of b; empty: in any way. A result flagged kUncertain is not
+  /// allowed, as what the two turn out to be may stand otherwise.
+  RelationSet relations = {};
+  /// The volume that the two objects have in common is certainly at most this. Where it may be
+  /// either, or is not known, the result is not allowed, and flagged kUncertain.
+  std::optional<double> max_volume_mm3 = {};
 };
 
 /// The rules of one test. Where several exempt a pair, it counts for the first of them: the matrix,
@@ -96,14 +102,15 @@ struct Policy {
 /// 2. An exempted pair is counted, and listed where asked for, if parts of the two are within reach
 ///    of each other; where a level leaves out some pairs of their parts, the others are checked.
 /// 3. An allowed result keeps its class and d. The rules are applied to each pair of parts by
-///    itself: one that no rule allows decides the pair, and what is allowed besides is counted
-///    (Pair::allowed_regions). Its place is that of the worst: where the boxes of the two parts
-///    meet beyond region and cavity too, the result is flagged kUncertain.
+///    itself (a volume is that of the two objects): one that no rule allows decides the pair, and
+///    what is allowed besides is counted (Pair::allowed_regions). Its place is that of the worst:
+///    where the boxes of the two parts meet beyond region and cavity too, the result is flagged
+///    kUncertain.
 /// 4. A hard part decides before a soft one, and a soft one before insulation, where the class is
 ///    equal.
 ///
-/// Errors: those of detect(); usage for lists of the wrong size, and for limits of a rule that are
-/// not numbers.
+/// Errors: those of detect(); usage for lists of the wrong size, for limits of a rule that are not
+/// numbers, and for rules by relation or volume where the narrow phase is not the exact one.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,
                                     const Options& options, const Policy& policy,
                                     const parallel::Context& context);

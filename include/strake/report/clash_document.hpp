@@ -54,6 +54,7 @@ struct DocumentTest {
   /// The contacts that the run counted but did not list: those that no rule allows, and those that
   /// one does; absent: it listed all.
   std::optional<DocumentCounts> unlisted;
+  std::uint64_t not_reported = 0;  ///< results that the run found and was told not to report
   /// The number of regions that rules allow of results that they do not allow; absent: the run did
   /// not count them.
   std::optional<std::uint64_t> allowed_other_regions;

@@ -21,13 +21,6 @@ using geometry::PartKind;
 /// it takes where each triangle lies over a few of the other part, as on surfaces of like fineness.
 constexpr std::uint64_t kWorkPerTriangle = 16, kLeastWork = 4096;
 
-/// A pair of solid parts whose interiors meet, in a pair of objects that is a HIT.
-struct SolidOverlap {
-  const ScenePart* a = nullptr;
-  const ScenePart* b = nullptr;
-  std::size_t pair = 0;  ///< the pair of objects
-};
-
 std::uint64_t most_work(const Part& a, const Part& b) {
   return kLeastWork + kWorkPerTriangle * (a.triangles.size() + b.triangles.size());
 }
@@ -62,44 +55,47 @@ std::vector<bool> parts_of(const std::vector<SolidOverlap>& overlaps, std::size_
   return parts;
 }
 
-struct VolumeMeasure {
-  std::optional<double> volume;  ///< in cubic grid units
-  std::uint64_t triangle_pairs = 0;
-};
-
 }  // namespace
+
+Result<std::vector<std::optional<geometry::IntersectionVolume>>> measure_overlaps(
+    const std::vector<SolidOverlap>& overlaps, const ScenePartList& list, AccelerationCache& cache,
+    const parallel::Context& context, Counters& counters) {
+  const Status trees_made = cache.ensure_trees(parts_of(overlaps, list.unique.size()), context);
+  if (!trees_made) return trees_made.error();
+  const auto order = parallel::longest_first(overlaps.size(), [&](std::size_t i) {
+    return most_work(*overlaps[i].a->placed.part, *overlaps[i].b->placed.part);
+  });
+  auto measured = parallel::transform(
+      context, {.name = "common volumes", .n = overlaps.size(), .order = order},
+      [&](std::size_t i) {
+        const SolidOverlap& o = overlaps[i];
+        return geometry::intersection_volume(cache.treed(*o.a).treed, cache.treed(*o.b).treed,
+                                             most_work(*o.a->placed.part, *o.b->placed.part));
+      });
+  if (!measured) return measured.error();
+  for (const auto& volume : *measured) {
+    if (volume)
+      counters.volume_triangle_pairs += volume->triangle_pairs;
+    else
+      ++counters.volumes_given_up;
+  }
+  return measured;
+}
 
 Status measure_volumes(const PartResults& results, AccelerationCache& cache,
                        const parallel::Context& context, Report& report) {
   const std::vector<SolidOverlap> overlaps = overlaps_of_hits(results, report.pairs);
-  const Status trees_made =
-      cache.ensure_trees(parts_of(overlaps, results.list.unique.size()), context);
-  if (!trees_made) return trees_made;
-  const auto order = parallel::longest_first(overlaps.size(), [&](std::size_t i) {
-    return most_work(*overlaps[i].a->placed.part, *overlaps[i].b->placed.part);
-  });
-  const auto measured = parallel::transform(
-      context, {.name = "common volumes", .n = overlaps.size(), .order = order},
-      [&](std::size_t i) {
-        const SolidOverlap& o = overlaps[i];
-        const auto common =
-            geometry::intersection_volume(cache.treed(*o.a).treed, cache.treed(*o.b).treed,
-                                          most_work(*o.a->placed.part, *o.b->placed.part));
-        return common ? VolumeMeasure{common->volume, common->triangle_pairs} : VolumeMeasure{};
-      });
+  const auto measured = measure_overlaps(overlaps, results.list, cache, context, report.counters);
   if (!measured) return measured.error();
-  constexpr double kCubic = geometry::kGridPerMm * geometry::kGridPerMm * geometry::kGridPerMm;
   std::vector<bool> unknown(report.pairs.size(), false);
   for (std::size_t i = 0; i < overlaps.size(); ++i) {
     const std::size_t p = overlaps[i].pair;
-    const VolumeMeasure& m = (*measured)[i];
-    report.counters.volume_triangle_pairs += m.triangle_pairs;
-    if (!m.volume) {
+    const auto& common = (*measured)[i];
+    if (common)
+      report.pairs[p].volume_mm3 =
+          report.pairs[p].volume_mm3.value_or(0) + common->volume / kCubicGridPerMm;
+    else
       unknown[p] = true;
-      ++report.counters.volumes_given_up;
-    } else {
-      report.pairs[p].volume_mm3 = report.pairs[p].volume_mm3.value_or(0) + *m.volume / kCubic;
-    }
   }
   for (std::size_t p = 0; p < unknown.size(); ++p)
     if (unknown[p]) report.pairs[p].volume_mm3.reset();

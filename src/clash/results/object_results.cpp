@@ -195,7 +195,7 @@ Pair PartResults::pair(std::size_t i) const {
   pair.part_b = y.number;
   pair.level_a = rules.level(x);
   pair.level_b = rules.level(y);
-  rules.allow(x, y, extent_mm(i), pair);
+  rules.allow(x, y, {extent_mm(i), found[i].common}, pair);
   return pair;
 }
 

@@ -21,6 +21,8 @@ struct PartResult {
   /// Whether the result of the two objects depends on it; regions of two parts other than their
   /// worst decide only where a rule may allow that one.
   bool decides = true;
+  /// What the two objects have in common, where a rule or the test limits it.
+  const CommonVolume* common = nullptr;
 };
 
 /// What was found about parts, and what is needed to aggregate it by objects.

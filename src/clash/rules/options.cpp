@@ -56,6 +56,9 @@ Status check(const Options& o, const Sets& sets, std::size_t objects) {
       (!sets.group.empty() && sets.group.size() != objects))
     return Error{ErrorCode::usage, "the sets do not have one entry per object of the scene", "sets",
                  "build them from the same scene"};
+  if (std::isnan(o.reporting.min_volume_mm3) || o.reporting.min_volume_mm3 < 0)
+    return Error{ErrorCode::usage, "the least volume is no volume", "min volume",
+                 "give 0, or more cubic millimetres"};
   if (o.engine.curves == Curves::on && o.engine.narrow_phase != NarrowPhase::exact)
     return Error{ErrorCode::usage, "lines are checked by the exact narrow phase only", "curves",
                  "leave out --curves or --narrow-phase"};

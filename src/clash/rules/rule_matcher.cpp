@@ -35,6 +35,7 @@ bool has_meaning(const Allowed& rule) {
     return !std::isnan(v.x) && !std::isnan(v.y) && !std::isnan(v.z);
   };
   if (rule.max_depth_mm && std::isnan(*rule.max_depth_mm)) return false;
+  if (rule.max_volume_mm3 && std::isnan(*rule.max_volume_mm3)) return false;
   if (rule.region_mm && !(is_number(rule.region_mm->lo) && is_number(rule.region_mm->hi)))
     return false;
   return std::all_of(rule.cavity.begin(), rule.cavity.end(), [](const HalfSpace& side) {
@@ -75,10 +76,23 @@ Status check(const Policy& policy, std::size_t objects) {
   for (const Allowed& a : policy.allowed)
     if (!has_meaning(a))
       return Error{ErrorCode::usage,
-                   "a depth or a region is not a number, or a plane is not finite or has no normal",
+                   "a depth, a volume or a region is not a number, or a plane is not finite or has "
+                   "no normal",
                    "rule '" + a.rule + "'",
                    "state numbers, and a point and a direction for each plane"};
   return {};
+}
+
+Status check_narrow_phase(const Policy& policy, const Options& options) {
+  const bool asks = options.reporting.leaves_out() ||
+                    std::ranges::any_of(policy.allowed, [](const Allowed& rule) {
+                      return !rule.relations.empty() || rule.max_volume_mm3;
+                    });
+  if (!asks || options.engine.narrow_phase == NarrowPhase::exact) return {};
+  return Error{ErrorCode::usage,
+               "rules by relation and by volume need the exact narrow phase: the baseline does not "
+               "tell these",
+               "narrow phase", "leave out --narrow-phase, or these rules"};
 }
 
 bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b) {
@@ -90,6 +104,18 @@ bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b) {
          share(test.refers_to, b, test.answers_to, a);
 }
 
+namespace {
+
+/// Whether the rule allows how the two stand to each other: what is not certain it does not.
+bool allows_relation(const Allowed& rule, const Pair& pair) {
+  if (rule.relations.empty()) return true;
+  const std::uint32_t a = index(pair.a), b = index(pair.b);
+  return (pair.flags & kUncertain) == 0 &&
+         rule.relations.contains(pair.relation, rule.a[a] && rule.b[b], rule.a[b] && rule.b[a]);
+}
+
+}  // namespace
+
 bool allows(const Allowed& rule, const Pair& pair, double moved_mm) {
   // Half a grid step is what a bracket about a depth on the grid may be off; the next depth that
   // coordinates on the grid can state is a whole step away.
@@ -97,6 +123,7 @@ bool allows(const Allowed& rule, const Pair& pair, double moved_mm) {
   if (rule.max_depth_mm ? -pair.d_lower_mm > *rule.max_depth_mm + kTieMm + moved_mm
                         : pair.cls == Class::hit)
     return false;
+  if (!allows_relation(rule, pair)) return false;
   const geometry::Vec3d& at = pair.point_mm;
   if (rule.region_mm && !rule.region_mm->contains({at, at})) return false;
   return std::all_of(rule.cavity.begin(), rule.cavity.end(),
@@ -401,18 +428,40 @@ Status RuleMatcher::count_candidates(const EvaluatedPairs& evaluated, const Obje
   return {};
 }
 
-void RuleMatcher::allow(const ScenePart& a, const ScenePart& b,
-                        const std::optional<geometry::Box3d>& extent_mm, Pair& pair) const {
+bool RuleMatcher::limits_volume(std::uint32_t a, std::uint32_t b) const {
+  bool some = false;
+  allowed_.each(a, b, [&](std::size_t rule) {
+    return some = policy_.allowed[rule].max_volume_mm3.has_value();
+  });
+  return some;
+}
+
+bool RuleMatcher::limits_volumes() const {
+  return std::ranges::any_of(policy_.allowed,
+                             [](const Allowed& rule) { return rule.max_volume_mm3.has_value(); });
+}
+
+void RuleMatcher::allow(const ScenePart& a, const ScenePart& b, const Surroundings& known,
+                        Pair& pair) const {
   const double moved = static_cast<double>(a.snap) + static_cast<double>(b.snap);
-  allowed_.each(a.object, b.object, [&](std::size_t rule) {
-    if (!allows(policy_.allowed[rule], pair, moved * geometry::kMmPerGrid)) return false;
-    pair.allowed = static_cast<std::int32_t>(rule);
+  bool volume_open = false;
+  allowed_.each(a.object, b.object, [&](std::size_t number) {
+    const Allowed& rule = policy_.allowed[number];
+    if (!allows(rule, pair, moved * geometry::kMmPerGrid)) return false;
+    if (rule.max_volume_mm3 && !known.common->is_at_most(*rule.max_volume_mm3)) {
+      volume_open = volume_open || known.common->may_be_at_most(*rule.max_volume_mm3);
+      return false;
+    }
+    pair.allowed = static_cast<std::int32_t>(number);
     return true;
   });
-  if (pair.allowed < 0) return;
+  if (pair.allowed < 0) {
+    if (volume_open) pair.flags |= kUncertain;
+    return;
+  }
   const Allowed& rule = policy_.allowed[static_cast<std::size_t>(pair.allowed)];
   if (is_as_deep_as_allowed(rule, pair)) pair.flags |= kBorderline;
-  if (!contains_box(rule, extent_mm.value_or(common_box_mm(a, b, own_reach(a, b)))))
+  if (!contains_box(rule, known.extent_mm.value_or(common_box_mm(a, b, own_reach(a, b)))))
     pair.flags |= kUncertain;
   else if (rule.max_depth_mm || pair.severest != Class::hit)
     pair.severest = Class::no_hit;  // without a depth the rule allows the class of d, but no HIT

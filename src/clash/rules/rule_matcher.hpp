@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "clash/broad_phase/broad_phase.hpp"
+#include "clash/pairs/common_volume.hpp"
 #include "clash/pairs/pair_tasks.hpp"
 #include "geometry/bvh/scene_bvh.hpp"
 #include "strake/clash/clash.hpp"
@@ -103,12 +104,16 @@ struct ClassTotals {
 /// Returns a usage error for a policy whose lists do not have one entry per object.
 [[nodiscard]] Status check(const Policy& policy, std::size_t objects);
 
+/// Returns a usage error where rules or the test ask for relations or volumes, which the baseline
+/// does not tell.
+[[nodiscard]] Status check_narrow_phase(const Policy& policy, const Options& options);
+
 /// Whether the rule leaves out pairs of these two objects.
 [[nodiscard]] bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b);
 [[nodiscard]] bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b);
 
-/// Whether a result is meant, by its depth and its point, whatever the objects. `moved_mm` is what
-/// the snap accounts for in its bracket.
+/// Whether a result of two objects that a rule concerns is meant, by its depth, its relation and
+/// its point. `moved_mm` is what the snap accounts for in its bracket.
 [[nodiscard]] bool allows(const Allowed& rule, const Pair& pair, double moved_mm);
 /// Whether the bracket of a result that is meant reaches as deep as the rule allows.
 [[nodiscard]] bool is_as_deep_as_allowed(const Allowed& rule, const Pair& pair);
@@ -142,11 +147,20 @@ class RuleMatcher {
   [[nodiscard]] Status count_candidates(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
                                         const parallel::Context& context, Report& report) const;
   [[nodiscard]] bool may_allow(std::uint32_t a, std::uint32_t b) const;
+  /// Whether a rule that concerns the two allows by the volume that they have in common.
+  [[nodiscard]] bool limits_volume(std::uint32_t a, std::uint32_t b) const;
+  [[nodiscard]] bool limits_volumes() const;  ///< whether a rule does, whatever it concerns
+
+  /// What is known of a result beside its numbers.
+  struct Surroundings {
+    /// Encloses the region; if absent, it may be anywhere between the two parts.
+    std::optional<geometry::Box3d> extent_mm;
+    const CommonVolume* common = nullptr;  ///< not null where limits_volume()
+  };
   /// Sets Pair::allowed by the first rule that allows the result, flagged uncertain where the
-  /// region may reach beyond what the rule allows. `extent_mm` encloses the region; if absent, it
-  /// may be anywhere between the two parts.
-  void allow(const ScenePart& a, const ScenePart& b,
-             const std::optional<geometry::Box3d>& extent_mm, Pair& pair) const;
+  /// region may reach beyond what the rule allows, or where the volume in common leaves open
+  /// whether one does.
+  void allow(const ScenePart& a, const ScenePart& b, const Surroundings& known, Pair& pair) const;
 
   /// Names the rules in force, with counts of 0, and the disciplines of the sets.
   void begin_report(const Sets& sets, Report& report) const;

@@ -84,6 +84,9 @@ class RunCoverage {
              " exempted pairs, which are not listed";
     if (const std::uint64_t contacts = unlisted(*here); contacts > 0)
       return "may be among the " + std::to_string(contacts) + " contacts, which are not listed";
+    if (here->not_reported > 0)
+      return "may be among the " + std::to_string(here->not_reported) +
+             " results that the test does not report";
     return by_settings(r, *here, other);
   }
 

@@ -290,6 +290,12 @@ DocumentTest read_test(const Json& json, std::size_t elements, const std::string
     t.unlisted->contact = count(unlisted, "CONTACT", where);
     t.unlisted->allowed = count(unlisted, "ALLOWED", where);
   }
+  if (json.contains("not_reported"))
+    for (const Json& reason : held(json, "not_reported", Json::value_t::array, where)) {
+      const Json& left_out = held(reason, "counts", Json::value_t::object, where);
+      for (const char* const name : {"HIT", "CONTACT", "CLEARANCE_VIOLATION", "ALLOWED"})
+        t.not_reported += count(left_out, name, where);
+    }
   const Json& settings = held(json, "settings", Json::value_t::object, where);
   t.settings["curves"] = "false";  // older results do not state it
   for (const auto& [key, value] : settings.items()) t.settings[key] = value.dump();

@@ -2,12 +2,14 @@
 #include "report/clash/clash_json_members.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
@@ -313,6 +315,21 @@ void tolerances(std::string& out, const clash::Tolerances& t) {
   append_json(out, t.object_clearances->attribute);
 }
 
+/// Appends which results the test reports, if not all.
+void reporting(std::string& out, const clash::Reporting& reporting) {
+  if (!reporting.relations.empty()) {
+    std::string names;
+    for (const clash::Relation relation : clash::kRelations)
+      if (reporting.relations.contains(relation))
+        names.append(names.empty() ? "\"" : ", \"").append(name(relation)).append("\"");
+    out += ", \"relations\": [" + names + "]";
+  }
+  if (reporting.min_volume_mm3 > 0) {
+    out += ", \"min_volume_mm3\": ";
+    append_mm(out, reporting.min_volume_mm3);
+  }
+}
+
 void settings(std::string& out, const Report& report) {
   out += "\"settings\": {";
   tolerances(out, report.options.tolerances);
@@ -323,7 +340,9 @@ void settings(std::string& out, const Report& report) {
     append_mm(out, report.weld_mm);
   }
   out += ", \"curves\": ";
-  out += report.options.engine.curves == clash::Curves::on ? "true}" : "false}";
+  out += report.options.engine.curves == clash::Curves::on ? "true" : "false";
+  reporting(out, report.options.reporting);
+  out += '}';
 }
 
 void sets(std::string& out, const Report& report) {
@@ -340,6 +359,20 @@ void unlisted(std::string& out, const Report& report) {
   if (report.options.engine.contacts != clash::Contacts::count) return;
   out += "\"unlisted\": {\"CONTACT\": " + std::to_string(report.unlisted.contacts) +
          ", \"ALLOWED\": " + std::to_string(report.unlisted.allowed) + "}, ";
+}
+
+/// Appends the results that the test does not report, if it leaves some out.
+void not_reported(std::string& out, const Report& report) {
+  if (!report.options.reporting.leaves_out()) return;
+  const std::array<std::pair<const char*, clash::NotReported::Counts>, 2> reasons{
+      {{"relation", report.not_reported.by_relation}, {"volume", report.not_reported.by_volume}}};
+  append_list(out, "not_reported", reasons, [&](const auto& reason) {
+    out.append("{\"by\": \"").append(reason.first).append("\", ");
+    const clash::NotReported::Counts& counts = reason.second;
+    append_counts(out, counts.hit, counts.contact, counts.clearance_violation, counts.allowed);
+    out += '}';
+  });
+  out += ", ";
 }
 
 void exempted(std::string& out, const Report& report) {
@@ -434,6 +467,7 @@ void test(std::string& out, const Report& report, const ElementHashes& elements)
                 report.count_allowed);
   out += ", ";
   unlisted(out, report);
+  not_reported(out, report);
   exempted(out, report);
   out += ", ";
   allowed(out, report);

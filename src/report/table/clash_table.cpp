@@ -178,6 +178,19 @@ std::string profile_line(const Report& report, std::string_view profile) {
   return line + "\n";
 }
 
+/// Returns how many results the test does not report, by what it leaves them out.
+std::string not_reported(const Report& report) {
+  std::string text;
+  const auto add = [&](const clash::NotReported::Counts& counts, std::string_view by) {
+    if (counts.all() > 0)
+      text +=
+          ", " + counted(counts.all(), "result", "results") + " not reported by " + std::string(by);
+  };
+  add(report.not_reported.by_relation, "relation");
+  add(report.not_reported.by_volume, "volume");
+  return text;
+}
+
 std::string summary_of(const Report& report, const model::Model& model,
                        const std::array<ClassRows, 3>& classes, std::string_view profile) {
   std::string summary;
@@ -189,6 +202,7 @@ std::string summary_of(const Report& report, const model::Model& model,
   if (report.count_allowed_regions > 0)
     summary +=
         ", " + counted(report.count_allowed_regions, "place", "places") + " of others allowed";
+  summary += not_reported(report);
   for (const clash::Exempted& e : report.exempted)
     if (e.pairs > 0 && profile.empty())
       summary += ", " + std::to_string(e.pairs) + " exempted by " + printable(e.rule);

@@ -79,6 +79,45 @@ class Small(Rules):
         self.assertEqual(done.returncode, 3)
         self.assertIn('counts 1 places that rules allow, but "results" has 2', done.stderr)
 
+    def test_what_a_test_does_not_report_is_counted_and_is_not_gone(self):
+        # c0 and c1 have a tenth of a litre in common; c2 and c3 are one cube of a litre twice.
+        self.write('m.obj', cubes(0, 90, 500, 500))
+        run = ['m.obj', *self.SETTINGS, '--rules', 'r.toml']
+        self.write('r.toml', '[[test]]\nname = "t"\n')
+        self.assertNotIn('not_reported', self.report(*run, '-o', 'all.json')['tests'][0])
+        self.write('r.toml', '[[test]]\nname = "t"\nrelations = ["duplicate", "through"]\nmin_volume = "0.5l"\n')
+        document = self.report(*run, '-o', 'some.json')
+        test, = document['tests']
+        self.assertEqual([(r['a']['name'], r['b']['name']) for r in document['results']], [('c2', 'c3')])
+        self.assertEqual(test['settings']['relations'], ['INTERFERE', 'DUPLICATE', 'CROSS'])
+        self.assertEqual(test['settings']['min_volume_mm3'], 500000)
+        none = {'HIT': 0, 'CONTACT': 0, 'CLEARANCE_VIOLATION': 0, 'ALLOWED': 0}
+        self.assertEqual(test['not_reported'], [{'by': 'relation', 'counts': none},
+                                                {'by': 'volume', 'counts': {**none, 'HIT': 1}}])
+        self.assertEqual(test['counts'], {**none, 'HIT': 1})
+        done = self.run_strake('clash', *run, '--fail-on', 'hit')
+        self.assertEqual(done.returncode, 1)
+        self.assertIn('1 hit, 0 contacts, 0 clearance violations, 1 result not reported by volume\n', done.stdout)
+        told = json.loads(self.run_strake('clash', 'diff', 'all.json', 'some.json', '--json').stdout)
+        self.assertEqual(told['counts'], {'new': 0, 'changed': 0, 'same': 1, 'gone': 0, 'cannot_tell': 1})
+        self.assertIn('may be among the 1 results that the test does not report', told['cannot_tell'][0]['why'])
+        self.assertEqual([(s['setting'], s['old']) for s in told['settings_changed']],
+                         [('min_volume_mm3', None), ('relations', None)])
+        self.write('r.toml', '[[test]]\nname = "t"\nrelations = "inside"\n')
+        done = self.run_strake('clash', *run, '--fail-on', 'hit')
+        self.assertEqual(done.returncode, 0, 'what is not reported fails nothing')
+        self.assertIn('0 hits, 0 contacts, 0 clearance violations, 2 results not reported by relation\n', done.stdout)
+
+    def test_rules_by_relation_and_volume_need_the_exact_narrow_phase(self):
+        self.write('m.obj', cubes(0, 90))
+        for table in ('[[test]]\nname = "t"\nrelations = "through"\n',
+                      '[[allowed]]\nname = "x"\na = "*"\nb = "*"\nmax_volume = "1l"\n'):
+            self.write('r.toml', table)
+            done = self.run_strake('clash', 'm.obj', *self.SETTINGS, '--rules', 'r.toml', '--narrow-phase',
+                                   'sphere-subdivision')
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn('leave out --narrow-phase, or these rules', done.stderr)
+
     def test_exempted_pairs_are_listed_where_asked_for(self):
         self.write('m.obj', cubes(0, 90, 180))
         self.write('r.toml', '[[exempt]]\nname = "a pair"\na = "c0"\nb = "c1"\n')
@@ -176,9 +215,23 @@ max_depth = "any"
         self.write('r.toml', ''.join(snippets))
         self.write('m.obj', cubes(0, 90))
         report = self.report('m.obj', *self.SETTINGS, '--rules', 'r.toml')
-        self.assertEqual([test['name'] for test in report['tests']], ['disciplines', 'hvac against steel', 'insulated pipes'])
+        self.assertEqual([test['name'] for test in report['tests']],
+                         ['disciplines', 'hvac against steel', 'things twice', 'what is worth a meeting',
+                          'insulated pipes'])
         self.assertEqual(report['tests'][1]['settings']['clearance_mm'], 50)
-        self.assertEqual(report['tests'][2]['settings']['clearance_attribute'], 'INSU')
+        self.assertEqual(report['tests'][2]['settings']['relations'], ['DUPLICATE'])
+        self.assertEqual(report['tests'][4]['settings']['clearance_attribute'], 'INSU')
+
+    def test_each_example_of_the_documentation_runs_by_itself(self):
+        text = (EXAMPLES.parent / 'docs' / 'rules.md').read_text(encoding='utf-8')
+        examples = re.findall(r'(?m)((?:^    .*\n)+)', text)
+        tables = [re.sub('(?m)^    ', '', example) for example in examples if example.lstrip().startswith('[[')]
+        self.assertGreaterEqual(len(tables), 5)
+        self.write('m.obj', cubes(0, 90))
+        for table in tables:
+            with self.subTest(table=table):
+                self.write('r.toml', table)
+                self.report('m.obj', *self.SETTINGS, '--rules', 'r.toml')
 
     def test_a_result_names_its_rules_file(self):
         self.write('m.obj', cubes(0, 90))

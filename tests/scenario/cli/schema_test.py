@@ -205,6 +205,13 @@ class Schemas(unittest.TestCase):
                             'clash-diff')
         self.assertEqual(diff['changed'][0]['allowed_region_count'], 1)
 
+    def test_clash_that_reports_some_relations(self):
+        for key in ('relations = ["abut", "duplicate"]', 'min_volume = "1m3"'):
+            (self.folder / 'some.toml').write_text(f'[[test]]\nname = "t"\n{key}\n', encoding='utf-8')
+            report = self.follows(self.run_strake('clash', 'ship.glb', '--rules', 'some.toml', '--json'), 'clash')
+            self.assertEqual([reason['by'] for reason in report['tests'][0]['not_reported']], ['relation', 'volume'])
+            self.assertGreater(sum(reason['counts']['HIT'] for reason in report['tests'][0]['not_reported']), 0)
+
     def test_positional_ids(self):
         for name, cubes in (('old', (('dup', 0), ('dup', 50), ('c', 140))), ('new', (('dup', 0), ('dup', 50), ('c', 145)))):
             (self.folder / 'm.obj').write_text(

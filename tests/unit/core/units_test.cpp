@@ -82,6 +82,27 @@ TEST(Units, unit_names) {
   EXPECT_NE(parse_unit_mm("furlong").error().text().find("um, mm"), std::string::npos);
 }
 
+TEST(Units, volumes) {
+  for (const auto& [text, mm3] :
+       {std::pair{"5cm3", 5e3}, std::pair{"5 cm³", 5e3}, std::pair{"7mm3", 7.0},
+        std::pair{"2dm3", 2e6}, std::pair{"2l", 2e6}, std::pair{"0.5 litres", 5e5},
+        std::pair{"1m3", 1e9}, std::pair{"1in3", 16387.064}, std::pair{"1ft3", 28316846.592},
+        std::pair{"0", 0.0}}) {
+    const Result<double> got = parse_volume_mm3(text);
+    ASSERT_TRUE(got) << text << ": " << got.error().text();
+    EXPECT_DOUBLE_EQ(*got, mm3) << text;
+  }
+  for (const auto& [text, words] :
+       {std::pair{"5", "has no unit (write 5cm3"}, std::pair{"-5cm3", "'-5cm3' is negative"},
+        std::pair{"5mm", "is a length, not a volume"}, std::pair{"5 gallons", "unknown unit"},
+        std::pair{"1,5l", "write 1.5l)"}, std::pair{"", "is not a volume"},
+        std::pair{"nan cm3", "is not a volume"}, std::pair{"1e308m3", "too large"}}) {
+    const Result<double> got = parse_volume_mm3(text);
+    ASSERT_FALSE(got) << text;
+    EXPECT_NE(got.error().text().find(words), std::string::npos) << got.error().text();
+  }
+}
+
 TEST(Units, angles) {
   EXPECT_DOUBLE_EQ(*parse_angle_deg("20deg"), 20);
   EXPECT_DOUBLE_EQ(*parse_angle_deg("20"), 20);

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/results/reported.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "strake/parallel/transform.hpp"
+
+namespace strake::clash {
+namespace {
+
+/// What becomes of a result.
+enum class Fate : std::uint8_t {
+  reported,
+  volume_open,  ///< reported, though it may have less in common than asked for
+  by_relation,  ///< not reported
+  by_volume,    ///< not reported
+};
+
+void count_by_class(const Pair& pair, NotReported::Counts& counts) {
+  if (pair.allowed >= 0)
+    ++counts.allowed;
+  else if (pair.cls == Class::hit)
+    ++counts.hit;
+  else
+    ++(pair.cls == Class::contact ? counts.contact : counts.clearance_violation);
+}
+
+class Reported {
+ public:
+  Reported(const PartResults& results, const Sets& sets, const Reporting& reporting)
+      : results_(results), sets_(sets), reporting_(reporting) {}
+
+  [[nodiscard]] Fate of(const Pair& pair) const {
+    if (!has_relation(pair)) return Fate::by_relation;
+    const CommonVolume* const common = results_.found[pair.first_region].common;
+    if (!(reporting_.min_volume_mm3 > 0) || common == nullptr) return Fate::reported;
+    if (pair.cls != Class::hit || pair.allowed >= 0) return Fate::reported;
+    if (common->is_less_than(reporting_.min_volume_mm3)) return Fate::by_volume;
+    return common->may_be_less_than(reporting_.min_volume_mm3) ? Fate::volume_open : Fate::reported;
+  }
+
+ private:
+  /// Whether the two objects, or any two parts of them, stand in a relation that is reported; what
+  /// they turn out to be where that is not certain, they may.
+  [[nodiscard]] bool has_relation(const Pair& pair) const {
+    if (reporting_.relations.empty() || (pair.flags & kUncertain) != 0) return true;
+    const std::uint32_t a = index(pair.a), b = index(pair.b);
+    const bool forward = sets_.in_a[a] && sets_.in_b[b], backward = sets_.in_a[b] && sets_.in_b[a];
+    if (reporting_.relations.contains(pair.relation, forward, backward)) return true;
+    const std::size_t first = pair.first_region;
+    for (std::size_t i = first; i < results_.found.size() && results_.same_objects(first, i); ++i) {
+      const PartPairResult& answer = *results_.found[i].answer;
+      if (answer.classification.cls != Class::no_hit &&
+          reporting_.relations.contains(answer.relation, forward, backward))
+        return true;
+    }
+    return false;
+  }
+
+  const PartResults& results_;
+  const Sets& sets_;
+  const Reporting& reporting_;
+};
+
+}  // namespace
+
+Status keep_reported(const PartResults& results, const Sets& sets, const parallel::Context& context,
+                     Report& report) {
+  constexpr std::size_t kGrain = 4096;
+  if (!report.options.reporting.leaves_out()) return {};
+  const Reported reported(results, sets, report.options.reporting);
+  const auto fates = parallel::transform(
+      context, {.name = "what is reported", .n = report.pairs.size(), .grain = kGrain},
+      [&](std::size_t i) { return reported.of(report.pairs[i]); });
+  if (!fates) return fates.error();
+  std::vector<Pair> kept;
+  for (std::size_t i = 0; i < fates->size(); ++i) {
+    Pair& pair = report.pairs[i];
+    const Fate fate = (*fates)[i];
+    if (fate == Fate::by_relation) {
+      count_by_class(pair, report.not_reported.by_relation);
+    } else if (fate == Fate::by_volume) {
+      count_by_class(pair, report.not_reported.by_volume);
+    } else {
+      if (fate == Fate::volume_open) pair.flags |= kUncertain;
+      kept.push_back(pair);
+    }
+  }
+  report.pairs = std::move(kept);
+  return {};
+}
+
+}  // namespace strake::clash

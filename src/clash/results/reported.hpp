@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "clash/results/object_results.hpp"
+
+namespace strake::clash {
+
+/// Takes out of a report's pairs what Options::reporting says that the test does not report, and
+/// counts it in `not_reported`. A hit of which the bracket of its volume leaves open whether it is
+/// reported stays, flagged kUncertain. `pairs` still carry the number of their first result in
+/// Pair::first_region. Errors: cancelled.
+[[nodiscard]] Status keep_reported(const PartResults& results, const Sets& sets,
+                                   const parallel::Context& context, Report& report);
+
+}  // namespace strake::clash
