@@ -135,14 +135,20 @@ class DecidedResults {
                                             const model::Model& model, const DecisionFile& file,
                                             const DecisionRules& rules);
 
-/// Returns the text of the decision file with a row of the status `new` for each result that has
-/// none and that no rule allows. All rows and columns stay as they are, but that
+/// What a decision file becomes by a run.
+struct UpdatedDecisions {
+  std::string text;
+  std::uint64_t added = 0;  ///< rows of results that had none
+};
+
+/// Adds a row of the status `new` for each result that has none and that no rule allows. All rows
+/// and columns stay as they are, but that
 ///
 /// 1. rows without a decision (`new`) have what the result measures now, and decided ones get what
-///    they lack of it: it is what a decision made from now on is about;
+///    they lack of it: it is what a decision is about;
 /// 2. rows of a file that was renamed have the key and the labels of today.
 ///
 /// `contents.decided` must be there; contents.csv is the form of a file that is not there yet.
-[[nodiscard]] std::string decisions_text(const ClashContents& contents);
+[[nodiscard]] UpdatedDecisions update_decisions(const ClashContents& contents);
 
 }  // namespace strake::report

@@ -40,10 +40,11 @@ class DecisionLookup {
   }
 
   [[nodiscard]] const Decision* find(const clash::Report& test, const clash::Pair& pair) const {
-    const Decision* row = nullptr;
-    if (!keys_.is_identity()) row = find(keys_.former_key(test.name, pair));
-    if (row == nullptr && (keys_.is_identity() || !keys_.has_label_of_another(pair)))
-      row = find(keys_.key(test.name, pair));
+    const bool is_own = keys_.is_identity() || !keys_.has_label_of_another(pair);
+    const Decision* row = is_own ? find(keys_.key(test.name, pair)) : nullptr;
+    // A decision goes before a row that a run added before the file was known to be renamed.
+    if (!keys_.is_identity() && (row == nullptr || row->status == DecisionStatus::undecided))
+      if (const Decision* const former = find(keys_.former_key(test.name, pair))) row = former;
     const bool positional =
         model_.object(pair.a).positional_id || model_.object(pair.b).positional_id;
     return row != nullptr && positional && !is_same_place(pair, *row) ? nullptr : row;
