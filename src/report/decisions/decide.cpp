@@ -14,8 +14,6 @@ namespace {
 /// How far a clash may be from the place that a file states: a spreadsheet rounds numbers.
 constexpr double kSamePlaceMm = 0.01;
 
-constexpr std::size_t index(DecisionStatus status) { return static_cast<std::size_t>(status); }
-
 bool is_same_place(const clash::Pair& pair, const Decision& row) {
   if (!row.point_mm || !row.d_mm) return false;
   const geometry::Vec3d away = pair.point_mm - *row.point_mm;
@@ -61,7 +59,7 @@ class DecisionLookup {
   std::map<Hash128, const Decision*> rows_;
 };
 
-auto order(const DecidedResult& r) { return std::tuple(r.a, r.b); }
+auto objects_of(const DecidedResult& r) { return std::tuple(r.a, r.b); }
 
 }  // namespace
 
@@ -82,8 +80,8 @@ std::string_view name(Reopened reopened) {
 const DecidedResult* DecidedResults::of(std::size_t test, const clash::Pair& pair) const {
   const std::vector<DecidedResult>& decided = tests[test];
   const std::tuple sought(pair.a, pair.b);
-  const auto at = std::ranges::lower_bound(decided, sought, {}, order);
-  return at == decided.end() || order(*at) != sought ? nullptr : &*at;
+  const auto at = std::ranges::lower_bound(decided, sought, {}, objects_of);
+  return at == decided.end() || objects_of(*at) != sought ? nullptr : &*at;
 }
 
 std::uint64_t DecidedResults::count(Reopened reopened) const {
@@ -110,13 +108,14 @@ Result<DecidedResults> decide(const clash::Findings& findings, const model::Mode
       const Decision* const row = lookup.find(test, pair);
       const bool allowed = pair.allowed >= 0;
       if (!allowed)
-        ++decided.counts[index(row == nullptr ? DecisionStatus::undecided : row->status)];
+        ++decided.counts[static_cast<std::size_t>(row == nullptr ? DecisionStatus::undecided
+                                                                 : row->status)];
       if (row == nullptr) continue;
       found.push_back(row);
       of_test.push_back(
           {pair.a, pair.b, pair.cls, allowed, reopened(pair, *row, rules.deeper_mm), row});
     }
-    std::ranges::sort(of_test, {}, order);
+    std::ranges::sort(of_test, {}, objects_of);
   }
   std::ranges::sort(found);
   for (const Decision& row : file.decisions)

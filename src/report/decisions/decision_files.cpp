@@ -10,32 +10,26 @@
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
+#include "report/files/sort_unique.hpp"
 
 namespace strake::report {
 namespace {
 
 /// Points and depths are compared as multiples of this, in millimetres: a spreadsheet rounds them.
-constexpr double kPlaceMm = 0.01;
+constexpr double kWrittenPlaceMm = 0.01;
 
-using Contents = std::map<std::string, FileContents, std::less<>>;
+using FileContentsByLabel = std::map<std::string, FileContents, std::less<>>;
 
 /// Returns the hash of where a result of a test lies.
-Hash128 place_of(std::string_view test, const geometry::Vec3d& point_mm, double d_mm) {
+Hash128 written_place(std::string_view test, const geometry::Vec3d& point_mm, double d_mm) {
   Hasher hasher;
   hasher.add(test);
   for (const double mm : {point_mm.x, point_mm.y, point_mm.z, d_mm})
-    hasher.add(std::round(mm / kPlaceMm));
+    hasher.add(std::round(mm / kWrittenPlaceMm));
   return hasher.value();
 }
 
-template <class T>
-void sort_unique(std::vector<T>& list) {
-  std::ranges::sort(list);
-  const auto rest = std::ranges::unique(list);
-  list.erase(rest.begin(), rest.end());
-}
-
-RunFiles files_of(Contents&& contents) {
+RunFiles files_of(FileContentsByLabel&& contents) {
   RunFiles run;
   for (auto& [label, file] : contents) {
     file.label = label;
@@ -46,21 +40,21 @@ RunFiles files_of(Contents&& contents) {
   return run;
 }
 
-Contents contents_of(const DecisionFile& decided) {
-  Contents contents;
+FileContentsByLabel contents_of(const DecisionFile& decided) {
+  FileContentsByLabel contents;
   for (const Decision& row : decided.decisions)
     for (const DecisionObject& side : {row.a, row.b}) {
       if (side.file.empty()) continue;
       FileContents& file = contents[side.file];
       if (!side.id.empty()) file.ids.push_back(side.id);
       if (row.point_mm && row.d_mm)
-        file.places.push_back(place_of(row.test, *row.point_mm, *row.d_mm));
+        file.places.push_back(written_place(row.test, *row.point_mm, *row.d_mm));
     }
   return contents;
 }
 
-Contents contents_of(const clash::Findings& findings, const model::Model& model) {
-  Contents contents;
+FileContentsByLabel contents_of(const clash::Findings& findings, const model::Model& model) {
+  FileContentsByLabel contents;
   for (const model::SourceFile& file : model.files) contents.try_emplace(file.label);
   for (const clash::Report& test : findings.tests)
     for (const clash::Pair& pair : test.pairs)
@@ -68,7 +62,7 @@ Contents contents_of(const clash::Findings& findings, const model::Model& model)
         const model::Object& object = model.object(id);
         FileContents& file = contents[model.files[object.file].label];
         if (!object.positional_id) file.ids.push_back(object.id);
-        file.places.push_back(place_of(test.name, pair.point_mm, pair.d_mm));
+        file.places.push_back(written_place(test.name, pair.point_mm, pair.d_mm));
       }
   return contents;
 }
@@ -101,7 +95,8 @@ std::pair<clash::ElementName, clash::ElementName> names_of(const model::Model& m
 
 /// Adds the former names that are asked for and that a file without the columns of files cannot
 /// know.
-void add_asked(Contents& former, const Contents& today, std::span<const std::string> asked) {
+void add_asked(FileContentsByLabel& former, const FileContentsByLabel& today,
+               std::span<const std::string> asked) {
   for (const std::string& text : asked)
     for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1))
       if (at > 0 && today.contains(text.substr(at + 1))) former.try_emplace(text.substr(0, at));
@@ -112,7 +107,7 @@ void add_asked(Contents& former, const Contents& today, std::span<const std::str
 Result<FileMatches> match_decided_files(const clash::Findings& findings, const model::Model& model,
                                         const DecisionFile& decided,
                                         std::span<const std::string> asked) {
-  Contents former = contents_of(decided), today = contents_of(findings, model);
+  FileContentsByLabel former = contents_of(decided), today = contents_of(findings, model);
   if (former.empty()) add_asked(former, today, asked);
   const RunFiles before = files_of(std::move(former));
   RunFiles after = files_of(std::move(today));
