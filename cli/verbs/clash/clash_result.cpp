@@ -93,7 +93,7 @@ Status check(const ClashResultInput& input) {
 }
 
 std::size_t terminal_width() {
-  constexpr std::size_t kDefault = 100, kLeast = 60;
+  constexpr std::size_t kDefault = 100, kLeast = 40;
   winsize size{};
   if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefault;
   return std::max<std::size_t>(size.ws_col, kLeast);

@@ -127,6 +127,7 @@ USAGE = [
     ('clash a.obj --sort size', '--sort', 'add --group-by'),
     ('clash a.obj --group-contacts', '--group-contacts', 'add --group-by'),
     ('clash a.obj --group-distance 1m', '--group-distance', 'add --group-by proximity'),
+    ('clash missing.obj --group-by element --group-distance 0', '--group-distance', 'such as 3m'),
     ('clash a.obj --group-by element --group-contacts --contacts count', '--group-contacts', 'leave out'),
     ('clash a.obj -o x.bcf', '-o', '.json or .csv'), ('clash a.obj -o x', '-o', '.json or .csv'),
     ('clash a.obj -o a.obj', '-o', '.json or .csv'),
