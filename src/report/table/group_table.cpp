@@ -82,9 +82,9 @@ std::size_t room_behind(std::size_t taken, std::size_t width) {
 /// Takes the last three numbers, which are the place, out of the rows and puts them before the
 /// names.
 void move_places(std::vector<GroupRow>& rows) {
-  constexpr std::ptrdiff_t kCoordinates = 3;
+  constexpr std::ptrdiff_t kPlaceNumbers = 3;
   for (GroupRow& row : rows) {
-    const auto first = row.numbers.end() - kCoordinates;
+    const auto first = row.numbers.end() - kPlaceNumbers;
     for (auto number = first; number != row.numbers.end(); ++number)
       row.place += (number == first ? "" : " ") + *number;
     row.place += "  ";
