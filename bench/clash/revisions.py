@@ -5,7 +5,8 @@
 Each RVM is written anew under another name, with its groups in the opposite order, and with objects moved, removed, added,
 renamed or renumbered, so that it is known which object of one file is which of the other. 'strake clash diff' is then
 held against that. Prints a table in Markdown. Of the clashes that are in both runs: how many there are, how many are
-matched with themselves, and how many of all matches are right. Of the new ones: how many there are, how many are told as new, how
+matched with themselves (or with one of the same class, depth and
+place, as copies have), and how many of all matches are right. Of the new ones: how many there are, how many are told as new, how
 many are left open (cannot tell), and how many of those told as new are. Of the mended ones, between objects that both revisions have, the
 same. Attribute files are left aside: ids are paths.
 """
@@ -210,6 +211,7 @@ class Run:
         results = json.loads(self.result.read_text(encoding='utf-8'))['results']
         self.pair_of_key = {r['key']: self.pair(r) for r in results}
         self.pairs = set(self.pair_of_key.values())
+        self.measures = {self.pair(r): (r['class'], *(round(mm, 3) for mm in (r['d_mm'], *r['point_mm']))) for r in results}
 
     def pair(self, entry):
         return frozenset(self.tags[entry[side]['id']] for side in 'ab')
@@ -220,24 +222,32 @@ def share(part, whole):
 
 
 def compared(strake, old, new):
-    """The cells of a row, from how a comparison is and how it should be."""
+    """The numbers of a row, from how a comparison is and how it should be."""
     diff = json.loads(strake('clash', 'diff', old.result, new.result, '--json'))
     both, is_new, is_gone = old.pairs & new.pairs, new.pairs - old.pairs, old.pairs - new.pairs
     matched = [(old.pair_of_key[(e.get('was') or {}).get('key', e['key'])], new.pair_of_key[e['key']])
                for e in diff['same'] + diff['changed']]
-    right = sum(was == now for was, now in matched)
+    # Copies that lie in each other have clashes between which nothing decides, and need not.
+    right = sum(was == now or old.measures[was] == old.measures.get(now) for was, now in matched)
     # What an object that is gone was part of cannot be told: nobody looked at it again.
     there = set(new.tags.values())
     is_mended = {pair for pair in is_gone if pair <= there}
     told = {'new': [new.pair(e) for e in diff['added']], 'gone': [old.pair(e) for e in diff['gone']]}
     open_in = {run: {of.pair(e) for e in diff['cannot_tell'] if e['run'] == name}
                for run, of, name in (('new', new, 'new'), ('gone', old, 'old'))}
-    cells = [len(both), share(right, len(both)), share(right, len(matched))]
+    counts = [len(both), right, len(matched)]
     for run, truth in (('new', is_new), ('gone', is_mended)):
         found = truth & set(told[run])
-        cells += [len(truth), share(len(found), len(truth)), share(len(truth & open_in[run] - found), len(truth)),
-                  share(len(found), len(told[run]))]
-    return [*cells, len(diff['cannot_tell'])]
+        counts += [len(truth), len(found), len(truth & open_in[run] - found), len(told[run])]
+    return [*counts, len(diff['cannot_tell'])]
+
+
+def row(label, what, counts):
+    both, right, matched, *rest = counts
+    cells = [label, what, both, share(right, both), share(right, matched)]
+    for truth, found, left, told in (rest[:4], rest[4:8]):
+        cells += [truth, share(found, truth), share(left, truth), share(found, told)]
+    return '| ' + ' | '.join(map(str, [*cells, rest[8]])) + ' |'
 
 
 def main():
@@ -256,6 +266,7 @@ def main():
     print('| model | 2 % of the objects | in both | matched | right | new | told | open | right | mended | told | open | right '
           '| cannot tell |')
     print('|---|---|' + '---:|' * 12)
+    sums = {}
     for name in given.files:
         path = Path(name)
         with tempfile.TemporaryDirectory() as folder:
@@ -268,8 +279,12 @@ def main():
                 model = Model(path)
                 change(model, random.Random(7))
                 model.reverse()
-                row = compared(strake, old, run(model, path.stem + '_revB'))
-                print('|', ' | '.join(map(str, [path.name, what, *row])), '|', flush=True)
+                counts = compared(strake, old, run(model, path.stem + '_revB'))
+                print(row(path.name, what, counts), flush=True)
+                sums[what] = [x + y for x, y in zip(sums[what], counts)] if what in sums else counts
+    if len(given.files) > 1:
+        for what, counts in sums.items():
+            print(row('all', what, counts))
 
 
 if __name__ == '__main__':
