@@ -9,7 +9,7 @@ namespace strake::report {
 namespace {
 
 Error column_error(const std::string& message, const std::string& name) {
-  return {ErrorCode::input, message, name + ":1",
+  return {ErrorCode::input, message, name + ", line 1",
           "write the headings in the first line, at least key and status, as in key,status,by,date,"
           "comment"};
 }

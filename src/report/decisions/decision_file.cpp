@@ -95,7 +95,7 @@ class DecisionReader {
   }
 
   [[nodiscard]] Error fault(const CsvRecord& record, std::string message, std::string mend) const {
-    return {ErrorCode::input, std::move(message), name_ + ":" + std::to_string(record.line),
+    return {ErrorCode::input, std::move(message), name_ + ", line " + std::to_string(record.line),
             std::move(mend)};
   }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view kMark = "\xEF\xBB\xBF", kBreaks = "\r\n";
 
 std::string place(const std::string& name, std::size_t line) {
-  return name + ":" + std::to_string(line);
+  return name + ", line " + std::to_string(line);
 }
 
 /// Returns the separator that the first line has most of outside its quotes.

@@ -160,11 +160,11 @@ class Decisions(Scenario):
 
     def test_what_is_wrong_is_told_with_its_line(self):
         key = '0' * 26
-        for text, told in ((f'key,status\n{key},done\n', "bad.csv:2: 'done' is no status"),
-                           (f'key,status,date\n{key},new,30.2.2026\n', "bad.csv:2: '30.2.2026' is no date"),
-                           (f'key,status\n{key},new\n{key},new\n', 'bad.csv:3: the key stands in line 2 already'),
-                           ('key,state\n', "bad.csv:1: has no column 'status'"), ('', 'bad.csv:1: is empty'),
-                           ('key,status\nabc,new\n', "bad.csv:2: 'abc' is no key")):
+        for text, told in ((f'key,status\n{key},done\n', "bad.csv, line 2: 'done' is no status"),
+                           (f'key,status,date\n{key},new,30.2.2026\n', "bad.csv, line 2: '30.2.2026' is no date"),
+                           (f'key,status\n{key},new\n{key},new\n', 'bad.csv, line 3: the key stands in line 2 already'),
+                           ('key,state\n', "bad.csv, line 1: has no column 'status'"), ('', 'bad.csv, line 1: is empty'),
+                           ('key,status\nabc,new\n', "bad.csv, line 2: 'abc' is no key")):
             with self.subTest(told):
                 self.write('bad.csv', text)
                 done = self.clash('--decisions', 'bad.csv', '--write-decisions', exit_code=3)

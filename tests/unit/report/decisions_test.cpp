@@ -90,6 +90,20 @@ TEST(CsvTable, GivesBackWhatItReads) {
   }
 }
 
+TEST(CsvTable, ReadsWhateverIsLeftOfAFile) {
+  const std::string whole = "\xEF\xBB\xBFkey;status;\"x\"\"y\"\r\n1;\"2\n3\";4\r5;;\n";
+  std::size_t read = 0;
+  for (std::size_t length = 0; length <= whole.size(); ++length) {
+    const std::string text = whole.substr(0, length);
+    const Result<CsvTable> table = parse_csv_table(text, "t.csv");
+    if (!table) continue;
+    ++read;
+    EXPECT_EQ(csv_text(*table), text);
+    (void)parse_decisions(text, "t.csv");
+  }
+  EXPECT_GT(read, whole.size() / 2);
+}
+
 TEST(CsvTable, KnowsTheSeparatorAndTheLines) {
   const CsvTable table = parse_csv_table("key;\"a,b,c\";x\n\"1\n2\";3;4\n5;6;7\n", "t.csv").value();
   EXPECT_EQ(table.separator, ';');
@@ -105,13 +119,15 @@ TEST(CsvTable, RefusesWhatIsNoCsv) {
     const Result<CsvTable> table = parse_csv_table(text, "t.csv");
     return table ? "no error" : table.error().text();
   };
-  EXPECT_EQ(error("a,b\n1,\"2\n"),
-            "t.csv:2: a quote is not closed (end the cell with a quote; one within it is written "
-            "twice)");
-  EXPECT_EQ(error("a,b\n1,2\n\"3\"4,5\n"),
-            "t.csv:3: there is text behind a quoted cell (write a quote within a cell twice)");
+  EXPECT_EQ(
+      error("a,b\n1,\"2\n"),
+      "t.csv, line 2: a quote is not closed (end the cell with a quote; one within it is written "
+      "twice)");
+  EXPECT_EQ(
+      error("a,b\n1,2\n\"3\"4,5\n"),
+      "t.csv, line 3: there is text behind a quoted cell (write a quote within a cell twice)");
   EXPECT_EQ(error("a\nM\xFCller\n"),
-            "t.csv:2: is not UTF-8 (save it in the spreadsheet as 'CSV UTF-8')");
+            "t.csv, line 2: is not UTF-8 (save it in the spreadsheet as 'CSV UTF-8')");
 }
 
 TEST(Decisions, AreReadInAnyFormThatASpreadsheetWrites) {
@@ -136,23 +152,28 @@ TEST(Decisions, TellWhereAFileIsWrong) {
   const std::string key(26, '0'), head = "key,status,date,d_mm\n";
   EXPECT_TRUE(
       error_of("key,state\n")
-          .starts_with("d.csv:1: has no column 'status' but 'key', 'state' (write the headings"));
-  EXPECT_TRUE(error_of("").starts_with("d.csv:1: is empty ("));
-  EXPECT_TRUE(error_of("key,status,Key\n").starts_with("d.csv:1: has the column 'key' twice ("));
+          .starts_with(
+              "d.csv, line 1: has no column 'status' but 'key', 'state' (write the headings"));
+  EXPECT_TRUE(error_of("").starts_with("d.csv, line 1: is empty ("));
+  EXPECT_TRUE(
+      error_of("key,status,Key\n").starts_with("d.csv, line 1: has the column 'key' twice ("));
   EXPECT_EQ(error_of(head + "x,new,,\n"),
-            "d.csv:2: 'x' is no key (a key is the 26 letters and digits that results have as "
+            "d.csv, line 2: 'x' is no key (a key is the 26 letters and digits that results have as "
             "'key')");
-  EXPECT_EQ(error_of(head + ",approved,,\n").substr(0, 21), "d.csv:2: '' is no key");
-  EXPECT_EQ(error_of(head + key + ",done,,\n"),
-            "d.csv:2: 'done' is no status (write new, active, reviewed, approved or resolved)");
+  EXPECT_EQ(error_of(head + ",approved,,\n").substr(0, 27), "d.csv, line 2: '' is no key");
+  EXPECT_EQ(
+      error_of(head + key + ",done,,\n"),
+      "d.csv, line 2: 'done' is no status (write new, active, reviewed, approved or resolved)");
   for (const char* const date : {"2026-02-30", "1/2/2026", "yesterday", "31.13.2026", "2026-1"})
-    EXPECT_EQ(error_of(head + key + ",new," + date + ",\n"),
-              "d.csv:2: '" + std::string(date) + "' is no date (write 2026-01-31, or 31.1.2026)");
+    EXPECT_EQ(
+        error_of(head + key + ",new," + date + ",\n"),
+        "d.csv, line 2: '" + std::string(date) + "' is no date (write 2026-01-31, or 31.1.2026)");
   EXPECT_EQ(error_of(head + key + ",new,,\n\n" + key + ",new,,\n"),
-            "d.csv:4: the key stands in line 2 already (keep one of the two rows)");
-  EXPECT_EQ(error_of(head + key + ",new,,deep\n").substr(0, 28), "d.csv:2: 'deep' is no number");
-  EXPECT_EQ(error_of(head + key + ",new,,1,and more\n").substr(0, 61),
-            "d.csv:2: the row has more cells than there are headings (put ");
+            "d.csv, line 4: the key stands in line 2 already (keep one of the two rows)");
+  EXPECT_EQ(error_of(head + key + ",new,,deep\n").substr(0, 34),
+            "d.csv, line 2: 'deep' is no number");
+  EXPECT_EQ(error_of(head + key + ",new,,1,and more\n").substr(0, 67),
+            "d.csv, line 2: the row has more cells than there are headings (put ");
 }
 
 TEST(Decisions, SettleWhatIsApproved) {
