@@ -5,6 +5,7 @@ import csv
 import io
 import json
 import os
+import subprocess
 
 from scenario import Scenario, cube, main
 
@@ -157,6 +158,26 @@ class Decisions(Scenario):
         self.assertTrue((self.folder / 'link.csv').is_symlink())
         self.assertEqual(os.stat(self.folder / 'decided.csv').st_mode & 0o777, 0o600)
         self.assertEqual(len(self.rows()), 4)
+
+    def test_a_file_that_somebody_saved_meanwhile_is_left_alone(self):
+        """The run waits at a pipe for its log until the file that it has read is another."""
+        self.decide()
+        self.write('row.obj', cubes([*ROW, (320, 0, 0)]))
+        os.mkfifo(self.folder / 'pairs.csv')
+        path = self.folder / 'decided.csv'
+        saved = path.read_bytes().replace(b',new,', b',active,', 1)
+        before = self.files()
+        words = ['clash', 'row.obj', '--unit', 'mm', '--decisions', 'decided.csv', '--write-decisions', '--log-pairs', 'pairs.csv']
+        with subprocess.Popen([self.STRAKE, *words], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as run:
+            with open(self.folder / 'pairs.csv', encoding='utf-8') as pipe:
+                path.write_bytes(saved)
+                pipe.read()
+            _, told = run.communicate(timeout=100)
+        self.assertEqual(run.returncode, 3, told)
+        self.assertIn('decided.csv: was changed while the run went on, and is left as it is (run the test again)', told)
+        self.assertEqual(path.read_bytes(), saved)
+        self.assertEqual(self.files(), before)
 
     def test_what_is_wrong_is_told_with_its_line(self):
         key = '0' * 26
