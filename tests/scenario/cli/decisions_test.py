@@ -160,19 +160,22 @@ class Decisions(Scenario):
         self.assertEqual(len(self.rows()), 4)
 
     def test_a_file_that_somebody_saved_meanwhile_is_left_alone(self):
-        """The run waits at a pipe for its log until the file that it has read is another."""
+        """The run has read the file when it opens its first output, a pipe, and waits at its second one until it is another."""
         self.decide()
         self.write('row.obj', cubes([*ROW, (320, 0, 0)]))
-        os.mkfifo(self.folder / 'pairs.csv')
+        pipes = [self.folder / name for name in ('results.csv', 'pairs.csv')]
+        for pipe in pipes:
+            os.mkfifo(pipe)
         path = self.folder / 'decided.csv'
         saved = path.read_bytes().replace(b',new,', b',active,', 1)
         before = self.files()
-        words = ['clash', 'row.obj', '--unit', 'mm', '--decisions', 'decided.csv', '--write-decisions', '--log-pairs', 'pairs.csv']
+        words = ['clash', 'row.obj', '--unit', 'mm', '--decisions', 'decided.csv', '--write-decisions',
+                 '-o', 'results.csv', '--log-pairs', 'pairs.csv']
         with subprocess.Popen([self.STRAKE, *words], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               text=True) as run:
-            with open(self.folder / 'pairs.csv', encoding='utf-8') as pipe:
-                path.write_bytes(saved)
-                pipe.read()
+            pipes[0].read_bytes()
+            path.write_bytes(saved)
+            pipes[1].read_bytes()
             _, told = run.communicate(timeout=100)
         self.assertEqual(run.returncode, 3, told)
         self.assertIn('decided.csv: was changed while the run went on, and is left as it is (run the test again)', told)
