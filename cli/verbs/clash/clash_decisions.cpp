@@ -18,8 +18,6 @@ namespace strake::cli {
 
 namespace {
 
-constexpr const char* kGroup = "Decisions";
-
 /// Whether the file is as it was read.
 bool is_unchanged(const DecisionRequest& request) {
   std::error_code ignored;
@@ -41,6 +39,7 @@ void print_lines(Console& console, std::string_view text) {
 }  // namespace
 
 void add_decision_options(CLI::App& command, DecisionInput& options) {
+  constexpr const char* kGroup = "Decisions";
   CLI::Option* const file =
       command
           .add_option("--decisions", options.file,

@@ -65,21 +65,21 @@ class DecisionReader {
       : table_(table), columns_(columns), name_(name) {}
 
   Result<std::vector<Decision>> rows() {
-    std::vector<Decision> rows;
+    std::vector<Decision> all;
     for (std::size_t r = 1; r < table_.records.size(); ++r) {
       const CsvRecord& record = table_.records[r];
       const bool names_none =
           text(record, Column::key).empty() && text(record, Column::status).empty();
       if (is_blank(record) || names_none) continue;
-      Result<Decision> row = this->row(record);
-      if (!row) return row.error();
-      const auto [at, is_new] = lines_.try_emplace(row->key, row->line);
+      Result<Decision> read = row(record);
+      if (!read) return read.error();
+      const auto [at, is_new] = lines_.try_emplace(read->key, read->line);
       if (!is_new)
         return fault(record, "the key stands in line " + std::to_string(at->second) + " already",
                      "keep one of the two rows");
-      rows.push_back(std::move(*row));
+      all.push_back(std::move(*read));
     }
-    return rows;
+    return all;
   }
 
  private:
@@ -105,20 +105,20 @@ class DecisionReader {
       if (!cell_text(record.cells[c]).empty())
         return fault(record, "the row has more cells than there are headings",
                      "put a cell that has the separator in it between quotes");
-    Decision row;
-    row.line = record.line;
+    Decision decision;
+    decision.line = record.line;
     const std::string key = lowered(text(record, Column::key));
     const auto parsed = clash::parse_key(key);
     if (!parsed)
       return fault(record, in_quotes(key) + " is no key",
                    "a key is the 26 letters and digits that results have as 'key'");
-    row.key = *parsed;
-    if (const Status status = decided(record, row); !status) return status.error();
-    if (const Status status = measured(record, row); !status) return status.error();
-    row.test = named(record, Column::test);
-    row.a = {named(record, Column::a_file), named(record, Column::a_id)};
-    row.b = {named(record, Column::b_file), named(record, Column::b_id)};
-    return row;
+    decision.key = *parsed;
+    if (const Status status = decided(record, decision); !status) return status.error();
+    if (const Status status = measured(record, decision); !status) return status.error();
+    decision.test = named(record, Column::test);
+    decision.a = {named(record, Column::a_file), named(record, Column::a_id)};
+    decision.b = {named(record, Column::b_file), named(record, Column::b_id)};
+    return decision;
   }
 
   /// Reads what people write.

@@ -39,19 +39,19 @@ class CsvScanner {
   [[nodiscard]] bool at_end() const { return rest_.empty(); }
 
   Result<CsvRecord> record() {
-    CsvRecord record;
-    record.line = line_;
+    CsvRecord next;
+    next.line = line_;
     for (;;) {
-      Result<std::string> cell = this->cell();
-      if (!cell) return cell.error();
-      record.cells.push_back(std::move(*cell));
-      if (rest_.empty()) return record;
+      Result<std::string> read = cell();
+      if (!read) return read.error();
+      next.cells.push_back(std::move(*read));
+      if (rest_.empty()) return next;
       if (rest_.front() != separator_) break;
       rest_.remove_prefix(1);
     }
-    record.end = take(rest_.starts_with("\r\n") ? 2 : 1);
+    next.end = take(rest_.starts_with("\r\n") ? 2 : 1);
     ++line_;
-    return record;
+    return next;
   }
 
  private:
@@ -76,13 +76,13 @@ class CsvScanner {
       if (!rest_.substr(end + 1).starts_with('"')) break;
     }
     const std::size_t began = line_;
-    std::string cell = take(end + 1);
-    line_ += breaks_in(cell);
+    std::string quoted = take(end + 1);
+    line_ += breaks_in(quoted);
     if (!rest_.empty() && rest_.front() != separator_ &&
         kBreaks.find(rest_.front()) == kBreaks.npos)
       return Error{ErrorCode::input, "there is text behind a quoted cell", place(name_, began),
                    "write a quote within a cell twice"};
-    return cell;
+    return quoted;
   }
 
   /// Returns how many lines end within a cell.
