@@ -124,6 +124,7 @@ strake_component(report
     report/clash.hpp
     report/clash_diff.hpp
     report/clash_document.hpp
+    report/decisions.hpp
     report/file_match.hpp
     report/view_diff.hpp
     report/view_document.hpp)

@@ -119,8 +119,8 @@ void add_output_option(CLI::App& command, std::vector<std::string>& files, std::
       ->group("Output");
 }
 
-void add_match_files_option(CLI::App& command, std::vector<std::string>& pairs) {
-  command
+CLI::Option* add_match_files_option(CLI::App& command, std::vector<std::string>& pairs) {
+  return command
       .add_option(
           "--match-files", pairs,
           "A file of the old run that is another in the new one, by their labels, as "

@@ -40,7 +40,7 @@ void add_input_options(CLI::App& command, InputOptions& options);
 void add_output_option(CLI::App& command, std::vector<std::string>& files, std::string_view what,
                        std::span<const OutputFormat> formats);
 /// Adds --match-files of a comparison.
-void add_match_files_option(CLI::App& command, std::vector<std::string>& pairs);
+CLI::Option* add_match_files_option(CLI::App& command, std::vector<std::string>& pairs);
 /// Adds an option whose value is one of a few words.
 CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
                         const std::vector<std::string>& words, const std::string& help);

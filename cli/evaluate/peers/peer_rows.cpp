@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -18,6 +20,23 @@ constexpr int kRowsSchemaVersion = 1;
 Error no_peer_rows(const std::string& name, const std::string& what) {
   return Error{ErrorCode::input, "these are no rows of a peer program: " + what, name,
                "build the peer programs and strake from the same sources"};
+}
+
+/// Says which count of a row, as it is written, is none; empty: each is one. Without this a
+/// negative number would be read as a huge one.
+std::string fault_of_counts(const nlohmann::json& row) {
+  struct Count {
+    const char* name;
+    std::uint64_t most;
+  };
+  for (const auto& [name, most] : {Count{"objects", std::numeric_limits<std::uint64_t>::max()},
+                                   Count{"triangles", std::numeric_limits<std::uint64_t>::max()},
+                                   Count{"threads", std::numeric_limits<unsigned>::max()}}) {
+    const nlohmann::json& value = row.at(name);
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most)
+      return "\"" + std::string(name) + "\" is " + value.dump() + ", which is no count";
+  }
+  return {};
 }
 
 /// Says what cannot be in a row; empty: nothing.
@@ -51,6 +70,9 @@ Result<std::vector<PeerRow>> parse_peer_rows(std::string_view text, const std::s
   try {
     if (document.at("schema_version") != kRowsSchemaVersion)
       return no_peer_rows(name, "its schema_version is another");
+    for (const nlohmann::json& row : document.at("rows"))
+      if (const std::string fault = fault_of_counts(row); !fault.empty())
+        return no_peer_rows(name, fault);
     auto rows = document.at("rows").get<std::vector<PeerRow>>();
     for (const PeerRow& row : rows)
       if (const std::string fault = fault_of(row); !fault.empty()) return no_peer_rows(name, fault);

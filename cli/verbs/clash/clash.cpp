@@ -18,6 +18,7 @@
 #include "clash/rules/tolerance_lengths.hpp"
 #include "cli/run/file_settings.hpp"
 #include "cli/run/load.hpp"
+#include "cli/verbs/clash/clash_decisions.hpp"
 #include "cli/verbs/clash/clash_hint.hpp"
 #include "cli/verbs/clash/clash_output.hpp"
 #include "cli/verbs/clash/clash_profile.hpp"
@@ -45,6 +46,7 @@ struct ClashOptions {
   bool list_exempted = false, curves = false;
   ClashResultInput result;
   ClashOutputInput output;
+  DecisionInput decisions;
   std::vector<std::string> outputs;
 };
 
@@ -174,6 +176,7 @@ struct ClashRequest {
   std::optional<rules::Rules> profile;  ///< rules for the test of the command line
   model::SceneOptions scene;
   ClashOutput output;
+  std::optional<DecisionRequest> decisions;
 };
 
 /// Returns what the rules say of files.
@@ -183,7 +186,10 @@ std::span<const rules::FileSettings> files_of(const ClashRequest& request) {
 
 /// Returns what the run writes.
 WrittenFiles written_files(const ClashOptions& given, bool json) {
-  WrittenFiles files{.json = json, .pair_log = !given.result.log_pairs.empty(), .table = !json};
+  WrittenFiles files{.json = json,
+                     .pair_log = !given.result.log_pairs.empty(),
+                     .decisions = given.decisions.write,
+                     .table = !json};
   for (const std::string& file : given.outputs) {
     const std::string suffix = suffix_of(file);
     files.csv = files.csv || suffix == ".csv";
@@ -225,6 +231,9 @@ Result<ClashRequest> request_of(const ClashOptions& given, bool json) {
   Result<ClashOutput> output = clash_output(given.output, written_files(given, json));
   if (!output) return output.error();
   request.output = std::move(*output);
+  Result<std::optional<DecisionRequest>> decisions = decision_request(given.decisions);
+  if (!decisions) return decisions.error();
+  request.decisions = std::move(*decisions);
   return request;
 }
 
@@ -283,6 +292,12 @@ Status check_files(const ClashOptions& given) {
         ErrorCode::usage, "no model file is given", {}, "'strake clash --help' tells more"};
   std::vector<std::string> others = given.input.files;
   if (!given.rules.empty()) others.push_back(given.rules);
+  if (given.decisions.write)
+    if (const Status status = check_other_output("--decisions", given.decisions.file, {".csv"},
+                                                 others, given.outputs);
+        !status)
+      return status;
+  if (!given.decisions.file.empty()) others.push_back(given.decisions.file);
   if (const Status status =
           check_outputs(given.outputs, formats_of(report::clash_writers()), others);
       !status)
@@ -315,20 +330,29 @@ void tell(Session& session, const clash::Findings& findings, const model::Model&
 
 /// Groups and writes what was found, after what is not to be written is taken out of it.
 Status put_out(Session& session, const ClashOptions& given, const ClashRequest& request,
-               const Loaded& loaded, clash::Findings& findings) {
+               const Loaded& loaded, const report::DecidedResults* decided,
+               clash::Findings& findings) {
   if (!request.output.classes.all()) report::leave_out_others(findings, request.output.classes);
   const Result<std::optional<clash::Grouping>> grouping =
-      group(session, given.result, findings, *loaded.model);
+      group(session, given.result, findings, *loaded.model, decided);
   if (!grouping) return grouping.error();
   std::optional<report::RulesSource> source;
   const Diagnostics loading = loaded.diagnostics();
   if (request.rules) source = {request.rules->file(), request.rules->hash()};
   if (request.profile) source = {request.profile->file(), request.profile->hash(), given.profile};
-  return write_report(
-      session, given,
-      {findings, *loaded.model, *grouping ? &**grouping : nullptr, source ? &*source : nullptr,
-       &loading, request.output.columns, request.output.csv, request.output.classes},
-      request.output.rows);
+  const report::ClashContents contents{findings,
+                                       *loaded.model,
+                                       *grouping ? &**grouping : nullptr,
+                                       source ? &*source : nullptr,
+                                       &loading,
+                                       request.output.columns,
+                                       request.output.csv,
+                                       request.output.classes,
+                                       decided};
+  if (const Status status = write_report(session, given, contents, request.output.rows); !status)
+    return status;
+  if (!request.decisions) return {};
+  return write_decisions(session, given.decisions, *request.decisions, contents);
 }
 
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
@@ -346,8 +370,12 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   findings->diagnostics.append(idle_file_settings(files_of(*request), given.input.files));
   findings->diagnostics.append(check_columns(request->output.columns, *loaded->model));
   tell(session, *findings, *loaded->model);
-  const FailingPairs failing = failing_pairs(*findings, given.fail_on);
-  if (const Status status = put_out(session, given, *request, *loaded, *findings); !status)
+  const Result<std::optional<report::DecidedResults>> looked_up =
+      decide(session, given.decisions, request->decisions, *findings, *loaded->model);
+  if (!looked_up) return looked_up.error();
+  const report::DecidedResults* const decided = *looked_up ? &**looked_up : nullptr;
+  const FailingPairs failing = failing_pairs(*findings, given.fail_on, decided);
+  if (const Status status = put_out(session, given, *request, *loaded, decided, *findings); !status)
     return status.error();
   const bool first_look = !request->rules && given.profile.empty() && given.result.group_by.empty();
   if (session.console().narrates() && !session.json() && first_look && request->output.classes.hit)
@@ -422,6 +450,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   add_rules_file(*command, *options);
   add_result_options(*command, options->result);
   add_clash_output_options(*command, options->output);
+  add_decision_options(*command, options->decisions);
   add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
              "How near pairs are found; the result is the same (default tree)")
       ->group("Running");
@@ -460,6 +489,7 @@ Examples:
   strake clash ship.glb --class hit,clearance --top 50
   strake clash hvac.rvm steel.rvm --columns @Tag,@Area --csv excel-comma -o clashes.csv
   strake clash hvac.rvm steel.rvm --profile plant --group-by assembly
+  strake clash ship.glb --class hit --decisions decided.csv --write-decisions --fail-on hit
   strake clash ship.glb --log-pairs pairs.csv --stats
   strake clash diff monday.json tuesday.json
   strake clash ship.glb --a 'PIP*' --b 'type = mesh and not PIP*' -o pipes.csv

@@ -119,7 +119,7 @@ Result<ClashOutput> clash_output(const ClashOutputInput& input, const WrittenFil
       return option_error("there is no table with --json", "--top", "leave out one of them");
   }
   output.csv = csv_form(input.csv);
-  if (!input.csv.empty() && !files.csv && !files.pair_log)
+  if (!input.csv.empty() && !files.csv && !files.pair_log && !files.decisions)
     return option_error("no .csv is written", "--csv", "add -o FILE.csv");
   return output;
 }

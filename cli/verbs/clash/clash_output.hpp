@@ -34,8 +34,9 @@ struct ClashOutput {
 /// What a run writes, as far as the options bear on it.
 struct WrittenFiles {
   bool csv = false, json = false;
-  bool pair_log = false;  ///< CSV too, but without attributes
-  bool table = false;     ///< on the terminal
+  bool pair_log = false;   ///< CSV too, but without attributes
+  bool decisions = false;  ///< likewise
+  bool table = false;      ///< on the terminal
 };
 
 void add_clash_output_options(CLI::App& command, ClashOutputInput& options);

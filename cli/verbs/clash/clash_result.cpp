@@ -35,6 +35,9 @@ Result<clash::GroupRules> rules_of(const ClashResultInput& input) {
           length_option(rules.distance_mm, input.group_distance, "--group-distance");
       !status)
     return status.error();
+  if (!(rules.distance_mm >= clash::kLeastGroupDistanceMm))
+    return Error{ErrorCode::usage, "'" + input.group_distance + "' is less than a millimetre",
+                 "--group-distance", "give a length such as 3m"};
   return rules;
 }
 
@@ -90,7 +93,7 @@ Status check(const ClashResultInput& input) {
 }
 
 std::size_t terminal_width() {
-  constexpr std::size_t kDefault = 100, kLeast = 60;
+  constexpr std::size_t kDefault = 100, kLeast = 40;
   winsize size{};
   if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefault;
   return std::max<std::size_t>(size.ws_col, kLeast);
@@ -140,12 +143,17 @@ clash::SortBy sort_by(const std::string& word) {
 
 Result<std::optional<clash::Grouping>> group(Session& session, const ClashResultInput& input,
                                              const clash::Findings& findings,
-                                             const model::Model& model) {
+                                             const model::Model& model,
+                                             const report::DecidedResults* decided) {
   if (input.group_by.empty()) return std::optional<clash::Grouping>();
   const Result<clash::GroupRules> rules = rules_of(input);
   if (!rules) return rules.error();
   const auto timer = session.step("group");
-  Result<clash::Grouping> grouping = group_results(findings, model, *rules);
+  Result<clash::Grouping> grouping =
+      group_results(findings, model, *rules, [&](const clash::ResultRef& r) {
+        return decided != nullptr &&
+               decided->is_settled(r.test, findings.tests[r.test].pairs[r.pair]);
+      });
   if (!grouping) return grouping.error();
   return std::optional(std::move(*grouping));
 }
@@ -218,13 +226,16 @@ std::string first_of(const std::vector<std::string>& names) {
 
 }  // namespace
 
-FailingPairs failing_pairs(const clash::Findings& findings, const std::string& fail_on) {
+FailingPairs failing_pairs(const clash::Findings& findings, const std::string& fail_on,
+                           const report::DecidedResults* decided) {
   FailingPairs failing;
   if (fail_on.empty()) return failing;
   const clash::Class worst = failing_class(fail_on);
-  for (const clash::Report& test : findings.tests) {
+  for (std::size_t t = 0; t < findings.tests.size(); ++t) {
+    const clash::Report& test = findings.tests[t];
     if (worst <= clash::Class::contact) failing.surely += test.unlisted.contacts;
     for (const clash::Pair& pair : test.pairs) {
+      if (decided != nullptr && decided->is_settled(t, pair)) continue;
       if (pair.allowed < 0 && pair.cls >= worst)
         ++failing.surely;
       else if (pair.severest >= worst)

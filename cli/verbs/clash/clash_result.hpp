@@ -12,6 +12,7 @@
 #include "strake/clash/clash.hpp"
 #include "strake/clash/group.hpp"
 #include "strake/core/result.hpp"
+#include "strake/report/decisions.hpp"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the library's own name
 class App;
@@ -37,11 +38,12 @@ void add_result_options(CLI::App& command, ClashResultInput& options);
 /// Adds the pairs that cost most to --stats.
 void count_costs(Stats& stats, const clash::Findings& findings, const model::Model& model);
 
-/// Returns the groups, if any are asked for.
+/// Returns the groups, if any are asked for, without what decisions settle.
 [[nodiscard]] Result<std::optional<clash::Grouping>> group(Session& session,
                                                            const ClashResultInput& input,
                                                            const clash::Findings& findings,
-                                                           const model::Model& model);
+                                                           const model::Model& model,
+                                                           const report::DecidedResults* decided);
 
 /// Results that stop --fail-on.
 struct FailingPairs {
@@ -49,10 +51,11 @@ struct FailingPairs {
   std::uint64_t perhaps = 0;  ///< that may be as bad, as far as is known
 };
 
-/// Counts them in findings that still have the results of all classes; `fail_on` is --fail-on as
-/// written, empty if it is not given.
+/// Counts them in findings that still have the results of all classes, without what decisions
+/// settle; `fail_on` is --fail-on as written, empty if it is not given.
 [[nodiscard]] FailingPairs failing_pairs(const clash::Findings& findings,
-                                         const std::string& fail_on);
+                                         const std::string& fail_on,
+                                         const report::DecidedResults* decided);
 
 /// Returns the exit code of a clash run; `fail_on` is --fail-on as written, empty if it is not
 /// given. Prints on standard error those reasons that standard output does not show.

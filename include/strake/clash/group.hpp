@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,9 +36,12 @@ enum class SortBy : std::uint8_t {
   size,    ///< the most results first, then as by depth
 };
 
+/// The least distance of groups.
+inline constexpr double kLeastGroupDistanceMm = 1;
+
 struct GroupRules {
   GroupBy by = GroupBy::element;
-  double distance_mm = 3000;  ///< for GroupBy::proximity and `apart`; at least 1 mm
+  double distance_mm = 3000;  ///< for GroupBy::proximity and `apart`; at least the least one
   SortBy sort = SortBy::depth;
   /// Contacts are mostly meant, and so many that they join everything to everything: they belong to
   /// no group unless asked for.
@@ -72,11 +76,15 @@ struct Grouping {
   std::vector<Group> groups;  ///< as rules.sort has them
 };
 
-/// Puts every result that no rule allows, and that is no contact unless asked for, in exactly one
-/// group. The grouping is the same for any order of files and objects. Errors: usage for a distance
-/// below 1 mm or not a number.
+/// Tells whether a result belongs to no group, as one that is approved.
+using LeavesOut = std::function<bool(const ResultRef&)>;
+
+/// Puts every result that no rule allows, that is no contact unless asked for and that is not left
+/// out, in exactly one group. The grouping is the same for any order of files and objects. Errors:
+/// usage for a distance below 1 mm or not a number.
 [[nodiscard]] Result<Grouping> group_results(const Findings& findings, const model::Model& model,
-                                             const GroupRules& rules);
+                                             const GroupRules& rules,
+                                             const LeavesOut& leaves_out = {});
 
 /// Returns "element", "proximity", "test", "files" or "assembly".
 [[nodiscard]] std::string_view name(GroupBy by);

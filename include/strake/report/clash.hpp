@@ -26,6 +26,8 @@
 /// went to the sink is no document.
 namespace strake::report {
 
+class DecidedResults;
+
 /// Takes text piece by piece; pieces end anywhere.
 using Sink = parallel::FunctionRef<void(std::string_view)>;
 
@@ -76,6 +78,8 @@ struct ClashContents {
   /// What leave_out_others() was called with: JSON says so, lest a comparison take what is not
   /// there for mended.
   WrittenClasses classes = {};
+  /// The decisions about these findings, if there are any. The table leaves out what they settle.
+  const DecidedResults* decided = nullptr;
 };
 
 /// Writes the document of schemas/clash.schema.json, one result a line, streamed: memory does not

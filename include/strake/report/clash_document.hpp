@@ -67,9 +67,10 @@ struct DocumentTest {
   std::vector<std::uint8_t> in_a, in_b;  ///< bits, as in the document
 };
 
-/// The rules file that a result was made with; both are empty where there was none.
+/// The rules file that a result was made with; all are empty where there was none.
 struct DocumentRules {
   std::string file, hash;
+  std::string profile = {};  ///< the profile that it is, if it is one that the program brings along
   friend bool operator==(const DocumentRules&, const DocumentRules&) = default;
 };
 

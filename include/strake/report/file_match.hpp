@@ -48,7 +48,7 @@ struct FileMatch {
   /// How many ids are in both files, of those that the results name of either; of a split or merged
   /// file, of those of the part. With `by_places`, how many places.
   std::uint64_t common = 0, of = 0;
-  bool by_places = false;  ///< neither file has lasting ids
+  bool by_places = false;  ///< one of the files has no lasting ids, or neither has
   friend bool operator==(const FileMatch&, const FileMatch&) = default;
 };
 
@@ -80,11 +80,11 @@ struct FilePair {
 /// Pairs that are `asked` for come first, then files of equal labels. What is left goes by what is
 /// in it. Two files are one, renamed, where more than half of the lasting ids of either that the
 /// results name are in the other: at least three of them, twenty where both have places and share
-/// none, or fewer with more than half of the places in common; where neither has lasting ids,
-/// places decide alone. Of several candidates one is taken only if the others have less than nine
-/// tenths of its ids in common, or, where ids do not tell, of its places; else none is, and all are
-/// ambiguous. A file of which more than half of the ids, as many at least, are in a file of the
-/// other run and not in the counterpart of that one is a part of it.
+/// none, or fewer with more than half of the places in common; where one of them has no lasting
+/// ids, places decide alone. Of several candidates one is taken only if the others have less than
+/// nine tenths of its ids in common, or, where ids do not tell, of its places; else none is, and
+/// all are ambiguous. A file of which more than half of the ids, as many at least, are in a file of
+/// the other run and not in the counterpart of that one is a part of it.
 ///
 /// Errors: usage for a pair that is asked for and names a file that its run does not have, or one
 /// that another pair names.

@@ -17,14 +17,14 @@
 namespace strake::clash {
 namespace {
 
-constexpr double kLeastDistanceMm = 1;
-
-std::vector<GroupingItem> items_of(const Findings& findings, bool contacts) {
+std::vector<GroupingItem> items_of(const Findings& findings, bool contacts,
+                                   const LeavesOut& leaves_out) {
   std::vector<GroupingItem> items;
   for (std::uint32_t t = 0; t < findings.tests.size(); ++t) {
     const std::vector<Pair>& pairs = findings.tests[t].pairs;
     for (std::uint32_t p = 0; p < pairs.size(); ++p)
-      if (pairs[p].allowed < 0 && (contacts || pairs[p].cls != Class::contact))
+      if (pairs[p].allowed < 0 && (contacts || pairs[p].cls != Class::contact) &&
+          !(leaves_out && leaves_out({t, p})))
         items.push_back({&pairs[p], t, p});
   }
   return items;
@@ -213,11 +213,11 @@ void sort_groups(std::vector<Group>& groups, SortBy by) {
 }  // namespace
 
 Result<Grouping> group_results(const Findings& findings, const model::Model& model,
-                               const GroupRules& rules) {
-  if (!(rules.distance_mm >= kLeastDistanceMm))
+                               const GroupRules& rules, const LeavesOut& leaves_out) {
+  if (!(rules.distance_mm >= kLeastGroupDistanceMm))
     return Error{ErrorCode::usage, "the distance of groups is less than a millimetre",
                  "group distance", "give a length such as 3m"};
-  const std::vector<GroupingItem> items = items_of(findings, rules.contacts);
+  const std::vector<GroupingItem> items = items_of(findings, rules.contacts, leaves_out);
   std::optional<model::ObjectAssemblies> assemblies;
   if (rules.by == GroupBy::assembly) assemblies.emplace(model);
   const model::ObjectAssemblies* const known = assemblies ? &*assemblies : nullptr;

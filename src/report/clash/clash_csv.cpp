@@ -13,6 +13,7 @@
 #include "report/text/formatting.hpp"
 #include "report/text/ordered_lines.hpp"
 #include "strake/report/clash.hpp"
+#include "strake/report/decisions.hpp"
 
 namespace strake::report {
 namespace {
@@ -25,6 +26,9 @@ constexpr std::array kResultColumns{
     "away_x",        "away_y",       "away_z",       "allowed_by", "exempted_by", "a_level",
     "b_level",       "a_discipline", "b_discipline", "group",      "regions",     "allowed_regions",
     "depth_complete"};
+
+/// Behind them, where there are decisions: with these the file is a decision file itself.
+constexpr std::array kDecidedColumns{"status", "by", "date", "comment", "reopened"};
 
 constexpr std::array kLogColumns{
     "test",       "a_id",           "a_name",          "a_file",
@@ -75,6 +79,19 @@ void attributes(CsvRow& row, const ClashContents& contents, model::ObjectId a, m
       row.value(stated_text(contents.model, id, attribute).value_or(std::string()));
 }
 
+/// Appends the decision about a result; without one it is new, unless a rule allows it.
+void decision(CsvRow& row, const ClashContents& contents, std::size_t test, const clash::Pair& p) {
+  if (contents.decided == nullptr) return;
+  const DecidedResult* const decided = contents.decided->of(test, p);
+  if (decided == nullptr) {
+    row.word(p.allowed < 0 ? name(DecisionStatus::undecided) : "")
+        .blank(kDecidedColumns.size() - 1);
+    return;
+  }
+  const Decision& d = *decided->decision;
+  row.word(name(d.status)).text(d.by).word(d.date).text(d.comment).word(name(decided->reopened));
+}
+
 /// Appends the class of a pair, its relation, and where it is measured and how much.
 void measured(CsvRow& row, const clash::Pair& p) {
   row.word(name(p.cls)).word(name(p.relation));
@@ -84,9 +101,10 @@ void measured(CsvRow& row, const clash::Pair& p) {
   append_flags(row.cell(), p.flags, " ", "");
 }
 
-void line(std::string& out, const ClashContents& contents, const clash::Report& test,
-          const clash::Pair& p, std::string_view group) {
+void line(std::string& out, const ClashContents& contents, std::size_t number, const clash::Pair& p,
+          std::string_view group) {
   const model::Model& model = contents.model;
+  const clash::Report& test = contents.findings.tests[number];
   CsvRow row(out, contents.csv);
   identity(row, model, p.a);
   identity(row, model, p.b);
@@ -108,6 +126,7 @@ void line(std::string& out, const ClashContents& contents, const clash::Report& 
   positive(row, p.regions);
   positive(row, p.allowed_regions);
   row.word(p.depth_complete ? "" : "false");
+  decision(row, contents, number, p);
   attributes(row, contents, p.a, p.b);
   row.end();
 }
@@ -125,6 +144,7 @@ void exempted_line(std::string& out, const ClashContents& contents, const clash:
   discipline(row, test, p.a);
   discipline(row, test, p.b);
   row.blank(kLast);
+  if (contents.decided != nullptr) row.blank(kDecidedColumns.size());
   attributes(row, contents, p.a, p.b);
   row.end();
 }
@@ -134,13 +154,16 @@ void exempted_line(std::string& out, const ClashContents& contents, const clash:
 Status write_clash_csv(const ClashContents& contents, Sink sink, const parallel::Context& context) {
   const GroupNumbers numbers(contents);
   BufferedWriter buffer(sink);
-  begin(buffer.text(), contents.csv, kResultColumns, contents.columns);
+  std::vector<const char*> columns(kResultColumns.begin(), kResultColumns.end());
+  if (contents.decided != nullptr)
+    columns.insert(columns.end(), kDecidedColumns.begin(), kDecidedColumns.end());
+  begin(buffer.text(), contents.csv, columns, contents.columns);
   for (std::size_t t = 0; t < contents.findings.tests.size(); ++t) {
     const clash::Report& test = contents.findings.tests[t];
     const Status pairs =
         write_lines(context, test.pairs.size(), buffer, [&](std::size_t p, std::string& out) {
           const auto group = numbers.of(t, p);
-          line(out, contents, test, test.pairs[p],
+          line(out, contents, t, test.pairs[p],
                group ? contents.grouping->groups[*group].id : std::string_view());
         });
     if (!pairs) return pairs;

@@ -94,6 +94,10 @@ void run(std::string& out, std::string_view name, const ClashDocument& document)
     append_json(out, document.made_by.file);
     out += ", \"hash\": ";
     append_json(out, document.made_by.hash);
+    if (!document.made_by.profile.empty()) {
+      out += ", \"profile\": ";
+      append_json(out, document.made_by.profile);
+    }
     out += "}";
   }
   out += ", \"results\": " + std::to_string(document.results.size()) + "}";

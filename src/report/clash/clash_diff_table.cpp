@@ -102,14 +102,18 @@ std::string in_test(const std::string& name) {
   return name.empty() ? std::string() : " of test '" + printable(name) + "'";
 }
 
+/// Returns what the rules of a run are called.
+std::string rules_name(const DocumentRules& rules) {
+  if (rules.file.empty()) return "none";
+  return rules.profile.empty() ? printable(rules.file) : "profile " + printable(rules.profile);
+}
+
 /// Returns where the two runs were not made with the same rules.
 std::string rules_text(const DocumentRules& before, const DocumentRules& after) {
   if (before == after) return {};
-  const auto name = [](const DocumentRules& rules) {
-    return rules.file.empty() ? std::string("none") : printable(rules.file);
-  };
-  if (before.file == after.file) return "rules file " + name(after) + " is not what it was\n";
-  return "rules file: was " + name(before) + ", is " + name(after) + "\n";
+  const std::string was = rules_name(before), is = rules_name(after);
+  if (was != is) return "rules: were " + was + ", are " + is + "\n";
+  return (after.profile.empty() ? "rules file " : "") + is + " is not what it was\n";
 }
 
 std::string settings_text(const ClashDiff& diff) {

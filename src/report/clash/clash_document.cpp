@@ -137,6 +137,8 @@ class ClashDocumentReader {
         document_.made_by.file = text("file");
       else if (key == "hash")
         document_.made_by.hash = text("hash");
+      else if (key == "profile")
+        document_.made_by.profile = text("profile");
       else
         json_.skip();
     });

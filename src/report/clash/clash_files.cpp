@@ -13,6 +13,7 @@
 
 #include "clash/results/clash_key.hpp"
 #include "report/files/match_documents.hpp"
+#include "report/files/sort_unique.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/report/clash_diff.hpp"
 
@@ -49,13 +50,6 @@ void add_places(const ClashDocument& run, Contents& contents) {
   for (const DocumentResult& r : run.results)
     for (const DocumentObject* const o : {&run.a(r), &run.b(r)})
       contents[o->file].places.push_back(place_of(run, r, *o));
-}
-
-template <class T>
-void sort_unique(std::vector<T>& list) {
-  std::ranges::sort(list);
-  const auto rest = std::ranges::unique(list);
-  list.erase(rest.begin(), rest.end());
 }
 
 /// Returns the labels of the files of a run.

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
+#include "clash/results/clash_key.hpp"
 #include "report/clash/clash_json_members.hpp"
 #include "report/clash/clash_schema_version.hpp"
 #include "report/clash/group_numbers.hpp"
+#include "report/files/file_match_output.hpp"
 #include "report/json/json_writer.hpp"
 #include "report/text/formatting.hpp"
 #include "report/text/ordered_lines.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/report/clash.hpp"
+#include "strake/report/decisions.hpp"
 
 namespace strake::report {
 namespace {
@@ -106,6 +110,41 @@ void groups(BufferedWriter& buffer, const clash::Grouping& grouping) {
   out += '}';
 }
 
+/// Appends what was decided as a whole: which file says so, how many results are of each status and
+/// came back, and decisions that no result has.
+void decisions(std::string& out, const DecidedResults& decided) {
+  out += "\"decisions\": {\"file\": ";
+  append_json(out, std::filesystem::path(decided.file->name).filename().string());
+  out += ", \"deeper_mm\": ";
+  append_mm(out, decided.deeper_mm);
+  out += ", \"counts\": {";
+  for (std::size_t s = 0; s < kDecisionStatuses.size(); ++s) {
+    out += s == 0 ? "" : ", ";
+    append_key(out, name(kDecisionStatuses[s]));
+    out += std::to_string(decided.counts[s]);
+  }
+  out += "}, \"reopened\": {";
+  for (const Reopened why : {Reopened::deeper, Reopened::more_regions, Reopened::found_again}) {
+    out += why == Reopened::deeper ? "" : ", ";
+    std::string key(name(why));
+    std::ranges::replace(key, ' ', '_');
+    append_key(out, key);
+    out += std::to_string(decided.count(why));
+  }
+  out += "}, ";
+  append_list(
+      out, "not_found", decided.not_found,
+      [&](const Decision* row) {
+        out += "{\"key\": \"" + clash::key_text(row->key) + "\", \"status\": ";
+        append_json(out, name(row->status));
+        append_decided(out, *row);
+        out += '}';
+      },
+      "\n  ");
+  append_file_matches(out, decided.files);
+  out += '}';
+}
+
 /// Appends the list `name` of what items(test) returns, one a line: write(text, number of the test,
 /// number of the item in it, item).
 template <class Items, class Write>
@@ -190,6 +229,10 @@ Status write_clash_json(const ClashContents& contents, Sink sink,
   out += ",\n";
   if (const Status s = not_compared(buffer, contents, context); !s) return s;
   out += ",\n";
+  if (contents.decided != nullptr) {
+    decisions(out, *contents.decided);
+    out += ",\n";
+  }
   if (contents.grouping != nullptr) {
     groups(buffer, *contents.grouping);
     out += ",\n";

@@ -223,7 +223,35 @@ void volume(std::string& out, const Pair& p) {
     out += "null";
 }
 
+/// Appends a member that has a text, if it has one.
+void stated(std::string& out, std::string_view key, std::string_view text) {
+  if (text.empty()) return;
+  out += ", ";
+  append_key(out, key);
+  append_json(out, text);
+}
+
+void decision(std::string& out, const ClashContents& contents, std::size_t test, const Pair& p) {
+  if (contents.decided == nullptr) return;
+  const DecidedResult* const decided = contents.decided->of(test, p);
+  if (decided == nullptr && p.allowed >= 0) return;
+  out += ", \"decision\": {\"status\": ";
+  append_json(out,
+              name(decided == nullptr ? DecisionStatus::undecided : decided->decision->status));
+  if (decided != nullptr) {
+    append_decided(out, *decided->decision);
+    stated(out, "reopened", name(decided->reopened));
+  }
+  out += '}';
+}
+
 }  // namespace
+
+void append_decided(std::string& out, const Decision& decision) {
+  stated(out, "by", decision.by);
+  stated(out, "date", decision.date);
+  stated(out, "comment", decision.comment);
+}
 
 void append_result(std::string& out, const ClashContents& contents, std::size_t test, const Pair& p,
                    std::optional<std::uint32_t> group) {
@@ -255,6 +283,7 @@ void append_result(std::string& out, const ClashContents& contents, std::size_t 
     volume(out, p);
   regions(out, report, p);
   flags(out, p.flags);
+  decision(out, contents, test, p);
   out += '}';
 }
 

@@ -11,6 +11,7 @@
 #include "strake/clash/group.hpp"
 #include "strake/model/model.hpp"
 #include "strake/report/clash.hpp"
+#include "strake/report/decisions.hpp"
 
 /// Writes the members of a clash document.
 namespace strake::report {
@@ -42,6 +43,9 @@ class ElementHashes {
 /// Appends a result, with the number of its group if there are groups.
 void append_result(std::string& out, const ClashContents& contents, std::size_t test,
                    const clash::Pair& pair, std::optional<std::uint32_t> group);
+
+/// Appends the members `by`, `date` and `comment` of a decision, as far as it has them.
+void append_decided(std::string& out, const Decision& decision);
 
 void append_group(std::string& out, const clash::Group& group);
 

@@ -21,8 +21,11 @@ struct FileLikeness {
 
   /// Whether the two are one file, as far as they themselves tell.
   [[nodiscard]] bool is_one_file() const;
-  /// Whether places decide, as neither file has lasting ids.
-  [[nodiscard]] bool by_places() const { return of == 0; }
+  /// Whether places decide, as one of the two has no lasting ids, or neither has: a few objects
+  /// that have names now say nothing of all others.
+  [[nodiscard]] bool by_places() const {
+    return common == 0 && (ids_before == 0 || ids_after == 0);
+  }
 };
 
 [[nodiscard]] FileLikeness likeness(const RunFiles& before, const FileContents& old_file,

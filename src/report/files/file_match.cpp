@@ -140,9 +140,9 @@ class FileMatcher {
     result_.matches.push_back(std::move(match));
   }
 
-  /// Whether two files are worth comparing: they share ids, or have none.
+  /// Whether two files are worth comparing: they share ids, or one of them has none.
   [[nodiscard]] bool may_be_one(const FileContents& old_file, const FileContents& new_file) const {
-    return (old_file.ids.empty() && new_file.ids.empty()) ||
+    return old_file.ids.empty() || new_file.ids.empty() ||
            may_have_most(after_, new_file, old_file.ids) ||
            may_have_most(before_, old_file, new_file.ids);
   }

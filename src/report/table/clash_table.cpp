@@ -17,6 +17,7 @@
 #include "report/text/columns.hpp"
 #include "report/text/formatting.hpp"
 #include "strake/report/clash.hpp"
+#include "strake/report/decisions.hpp"
 
 namespace strake::report {
 namespace {
@@ -35,18 +36,67 @@ struct TableBlock {
   std::size_t hidden = 0;
 };
 
-TableBlock worst_of(const Report& report, clash::Class cls, std::size_t rows, clash::SortBy sort) {
+/// What was decided about the results of one test; of nothing where there are no decisions.
+class TestDecisions {
+ public:
+  TestDecisions(const DecidedResults* decided, std::size_t test) : decided_(decided), test_(test) {}
+
+  [[nodiscard]] bool is_settled(const Pair& pair) const {
+    return decided_ != nullptr && decided_->is_settled(test_, pair);
+  }
+  [[nodiscard]] Reopened reopened(const Pair& pair) const {
+    const DecidedResult* const d = decided_ == nullptr ? nullptr : decided_->of(test_, pair);
+    return d == nullptr ? Reopened::no : d->reopened;
+  }
+  /// Returns what the table says of a result.
+  [[nodiscard]] std::string_view status(const Pair& pair) const {
+    if (decided_ == nullptr) return {};
+    const DecidedResult* const d = decided_->of(test_, pair);
+    if (d == nullptr) return name(DecisionStatus::undecided);
+    return d->reopened == Reopened::no ? name(d->decision->status) : name(d->reopened);
+  }
+  /// Returns how many results are settled, of those that are(result).
+  template <class Are>
+  [[nodiscard]] std::uint64_t count_settled(Are&& are) const {
+    if (decided_ == nullptr) return 0;
+    return static_cast<std::uint64_t>(std::ranges::count_if(
+        decided_->tests[test_], [&](const DecidedResult& r) { return r.is_settled() && are(r); }));
+  }
+
+ private:
+  const DecidedResults* decided_;
+  std::size_t test_;
+};
+
+/// A test as the table shows it.
+struct ShownTest {
+  const Report& report;
+  TestDecisions decisions;
+  const model::Model& model;
+
+  /// Whether a result may have a row.
+  [[nodiscard]] bool lists(const Pair& pair) const {
+    return pair.allowed < 0 && !decisions.is_settled(pair);
+  }
+};
+
+TableBlock worst_of(const ShownTest& test, clash::Class cls, std::size_t rows, clash::SortBy sort) {
   TableBlock block;
+  const Report& report = test.report;
   for (std::size_t i = 0; i < report.pairs.size(); ++i)
-    if (report.pairs[i].cls == cls && report.pairs[i].allowed < 0) block.pairs.push_back(i);
+    if (report.pairs[i].cls == cls && test.lists(report.pairs[i])) block.pairs.push_back(i);
   const std::size_t shown = std::min(rows, block.pairs.size());
   const auto volume = [&](std::size_t i) {
     return sort == clash::SortBy::volume ? report.pairs[i].volume_mm3.value_or(0) : 0;
   };
+  // What came back is told, whatever its depth.
+  const auto is_old = [&](std::size_t i) {
+    return test.decisions.reopened(report.pairs[i]) == Reopened::no;
+  };
   std::partial_sort(block.pairs.begin(), block.pairs.begin() + static_cast<std::ptrdiff_t>(shown),
                     block.pairs.end(), [&](std::size_t i, std::size_t j) {
-                      return std::tuple(-volume(i), report.pairs[i].d_mm, i) <
-                             std::tuple(-volume(j), report.pairs[j].d_mm, j);
+                      return std::tuple(is_old(i), -volume(i), report.pairs[i].d_mm, i) <
+                             std::tuple(is_old(j), -volume(j), report.pairs[j].d_mm, j);
                     });
   block.hidden = block.pairs.size() - shown;
   block.pairs.resize(shown);
@@ -60,14 +110,15 @@ struct ClassRows {
   std::size_t unlisted = 0;  ///< of those that are not listed, as many as were only counted
 };
 
-std::size_t listed(const Report& report, clash::Class cls) {
+std::size_t listed(const ShownTest& test, clash::Class cls) {
   return static_cast<std::size_t>(std::ranges::count_if(
-      report.pairs, [&](const Pair& p) { return p.cls == cls && p.allowed < 0; }));
+      test.report.pairs, [&](const Pair& p) { return p.cls == cls && test.lists(p); }));
 }
 
 /// Returns the rows of each class: a fifth for each, so that none hides the others, and the rest to
 /// those that need a decision before those that are mostly meant.
-std::array<ClassRows, 3> shares(const Report& report, std::size_t rows) {
+std::array<ClassRows, 3> shares(const ShownTest& test, std::size_t rows) {
+  const Report& report = test.report;
   constexpr std::size_t kParts = 5;
   std::array<ClassRows, 3> all{{
       {clash::Class::hit, "hit", "hits", report.count_hit, 0, 0},
@@ -76,7 +127,10 @@ std::array<ClassRows, 3> shares(const Report& report, std::size_t rows) {
       {clash::Class::clearance_violation, "clearance violation", "clearance violations",
        report.count_clearance, 0, 0},
   }};
-  for (ClassRows& c : all) c.listed = listed(report, c.cls);
+  for (ClassRows& c : all) {
+    c.listed = listed(test, c.cls);
+    c.count -= test.decisions.count_settled([&](const DecidedResult& r) { return r.cls == c.cls; });
+  }
   const auto give = [&](ClassRows& c, std::size_t most) {
     const std::size_t given = std::min({most, rows, c.listed - c.rows});
     c.rows += given;
@@ -110,9 +164,10 @@ std::string counted(std::uint64_t n, std::string_view one, std::string_view many
 std::string counted(const ClassRows& c, std::size_t n) { return counted(n, c.one, c.many); }
 
 /// Returns how many results brackets leave open: the classes counted are those of the nominal d.
-std::string uncertain(const Report& report) {
+std::string uncertain(const ShownTest& test) {
   std::uint64_t all = 0, worse = 0;
-  for (const Pair& p : report.pairs) {
+  for (const Pair& p : test.report.pairs) {
+    if (test.decisions.is_settled(p)) continue;
     if ((p.flags & clash::kUncertain) != 0) ++all;
     if (p.severest > (p.allowed < 0 ? p.cls : clash::Class::no_hit)) ++worse;
   }
@@ -191,14 +246,18 @@ std::string not_reported(const Report& report) {
   return text;
 }
 
-std::string summary_of(const Report& report, const model::Model& model,
-                       const std::array<ClassRows, 3>& classes, std::string_view profile) {
+std::string summary_of(const ShownTest& test, const std::array<ClassRows, 3>& classes,
+                       std::string_view profile) {
+  const Report& report = test.report;
   std::string summary;
   for (const ClassRows& c : classes) {
     summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
     summary += not_listed(c);
   }
   if (report.count_allowed > 0) summary += ", " + std::to_string(report.count_allowed) + " allowed";
+  if (const auto approved = test.decisions.count_settled([](const auto&) { return true; });
+      approved > 0)
+    summary += ", " + std::to_string(approved) + " approved";
   if (report.count_allowed_regions > 0)
     summary +=
         ", " + counted(report.count_allowed_regions, "place", "places") + " of others allowed";
@@ -206,7 +265,7 @@ std::string summary_of(const Report& report, const model::Model& model,
   for (const clash::Exempted& e : report.exempted)
     if (e.pairs > 0 && profile.empty())
       summary += ", " + std::to_string(e.pairs) + " exempted by " + printable(e.rule);
-  summary += uncertain(report) + not_compared(report, model) + "\n";
+  summary += uncertain(test) + not_compared(report, test.model) + "\n";
   return profile.empty() ? summary : summary + profile_line(report, profile);
 }
 
@@ -218,17 +277,27 @@ std::string cell_row(std::string_view cell, const std::array<std::string, 4>& co
 }
 
 /// Returns the cells of a matrix in which something was found.
-std::string matrix_table(const Report& report, std::size_t width) {
+std::string matrix_table(const ShownTest& test, std::size_t width) {
+  const Report& report = test.report;
   constexpr std::size_t kCounts = 4 * (kNumberColumns + 2), kMost = 40;
   const std::size_t columns = std::clamp(width - std::min(width, kCounts), kLeastCell, kMost);
   std::string out;
   for (const clash::CellReport& c : report.cells) {
-    if (c.hit + c.contact + c.clearance_violation + c.allowed == 0) continue;
+    const auto open = [&](std::uint64_t found, clash::Class cls) {
+      return found - test.decisions.count_settled([&](const DecidedResult& r) {
+        return r.cls == cls && std::minmax(report.discipline[index(r.a)],
+                                           report.discipline[index(r.b)]) == std::minmax(c.a, c.b);
+      });
+    };
+    const std::array counts{open(c.hit, clash::Class::hit), open(c.contact, clash::Class::contact),
+                            open(c.clearance_violation, clash::Class::clearance_violation),
+                            c.allowed};
+    if (std::ranges::all_of(counts, [](std::uint64_t n) { return n == 0; })) continue;
     if (out.empty())
       out = cell_row("disciplines", {"hits", "contacts", "clearance", "allowed"}, columns);
     out += cell_row(report.disciplines[c.a].name + " x " + report.disciplines[c.b].name,
-                    {std::to_string(c.hit), std::to_string(c.contact),
-                     std::to_string(c.clearance_violation), std::to_string(c.allowed)},
+                    {std::to_string(counts[0]), std::to_string(counts[1]),
+                     std::to_string(counts[2]), std::to_string(counts[3])},
                     columns);
   }
   return out.empty() ? out : out + "\n";
@@ -245,11 +314,12 @@ std::string_view source_of(const Report& report, const model::Model& model, mode
   return model.files[model.object(id).file].label;
 }
 
-PairRow row_of(const Report& report, const model::Model& model, const Pair& p) {
+PairRow row_of(const ShownTest& test, const Pair& p) {
   const auto side = [&](model::ObjectId id) {
-    return RowSide{source_of(report, model, id), label(model, id)};
+    return RowSide{source_of(test.report, test.model, id), label(test.model, id)};
   };
   return {short_class_name(p.cls),
+          test.decisions.status(p),
           fixed(p.d_mm, 3),
           range_of(p),
           p.volume_mm3 ? fixed(*p.volume_mm3, 1) : "-",
@@ -269,19 +339,37 @@ PairTableHead head_of(const Report& report, const model::Model& model,
   return head;
 }
 
-std::string test_table(const Report& report, const model::Model& model, const TableOptions& options,
+std::string test_table(const ShownTest& test, const TableOptions& options,
                        std::string_view profile) {
-  const std::array<ClassRows, 3> classes = shares(report, options.rows);
+  const std::array<ClassRows, 3> classes = shares(test, options.rows);
   std::array<PairBlock, 3> blocks;
   for (std::size_t c = 0; c < classes.size(); ++c) {
-    const TableBlock worst = worst_of(report, classes[c].cls, classes[c].rows, options.sort);
+    const TableBlock worst = worst_of(test, classes[c].cls, classes[c].rows, options.sort);
     for (const std::size_t i : worst.pairs)
-      blocks[c].rows.push_back(row_of(report, model, report.pairs[i]));
+      blocks[c].rows.push_back(row_of(test, test.report.pairs[i]));
     if (worst.hidden > 0) blocks[c].more = "… and " + counted(classes[c], worst.hidden) + " more\n";
   }
-  std::string out = pair_table(blocks, head_of(report, model, options));
+  std::string out = pair_table(blocks, head_of(test.report, test.model, options));
   if (!out.empty()) out += "\n";
-  return out + matrix_table(report, options.width) + summary_of(report, model, classes, profile);
+  return out + matrix_table(test, options.width) + summary_of(test, classes, profile);
+}
+
+/// Returns what was decided of all tests, in one line.
+std::string decisions_line(const DecidedResults& decided) {
+  std::string line = "decisions of " + printable(decided.file->name) + ":";
+  for (std::size_t s = 0; s < kDecisionStatuses.size(); ++s)
+    line += (s == 0 ? " " : ", ") + std::to_string(decided.counts[s]) + " " +
+            std::string(name(kDecisionStatuses[s]));
+  const std::uint64_t deeper = decided.count(Reopened::deeper),
+                      more = decided.count(Reopened::more_regions),
+                      again = decided.count(Reopened::found_again);
+  if (deeper > 0)
+    line += "; approved, but deeper or nearer than they were: " + std::to_string(deeper);
+  if (more > 0) line += "; approved, but at more places than they were: " + std::to_string(more);
+  if (again > 0) line += "; resolved, but found again: " + std::to_string(again);
+  if (!decided.not_found.empty())
+    line += "; no longer found: " + std::to_string(decided.not_found.size());
+  return line + "\n";
 }
 
 }  // namespace
@@ -292,17 +380,15 @@ std::string clash_table(const ClashContents& contents, const TableOptions& optio
   if (grouped) out = group_table(*contents.grouping, options);
   const std::string_view profile =
       contents.rules != nullptr ? std::string_view(contents.rules->profile) : std::string_view();
-  bool first = true;
-  for (const Report& test : contents.findings.tests) {
-    if (!first && contents.grouping == nullptr) out += "\n";
-    first = false;
-    if (!test.name.empty()) out += "== " + printable(test.name) + "\n";
+  for (std::size_t t = 0; t < contents.findings.tests.size(); ++t) {
+    const ShownTest test{contents.findings.tests[t], {contents.decided, t}, contents.model};
+    if (t > 0 && contents.grouping == nullptr) out += "\n";
+    if (!test.report.name.empty()) out += "== " + printable(test.report.name) + "\n";
     out += contents.grouping != nullptr
-               ? matrix_table(test, options.width) +
-                     summary_of(test, contents.model, shares(test, 0), profile)
-               : test_table(test, contents.model, options, profile);
+               ? matrix_table(test, options.width) + summary_of(test, shares(test, 0), profile)
+               : test_table(test, options, profile);
   }
-  return out;
+  return contents.decided == nullptr ? out : out + decisions_line(*contents.decided);
 }
 
 }  // namespace strake::report

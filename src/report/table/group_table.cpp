@@ -18,12 +18,16 @@
 namespace strake::report {
 namespace {
 
-constexpr std::size_t kClassColumns = 9, kDepthColumns = 10, kLeastGroupName = 8;
+constexpr std::size_t kClassColumns = 9, kDepthColumns = 10, kGroupIndent = 4;
+/// The least columns for a name, and those by which it stands beside the numbers although it is
+/// wider.
+constexpr std::size_t kLeastGroupName = 8, kLeastBeside = 24;
 
 /// A row of the table of groups, or its head: class, numbers and, as it is shown, the name.
 struct GroupRow {
   std::string_view cls;
   std::vector<std::string> numbers;
+  std::string place = {};  ///< where it stands before the name, below the numbers
 };
 
 GroupRow row_of(const clash::Group& group, bool place) {
@@ -53,16 +57,56 @@ std::vector<std::string> aligned(const std::vector<GroupRow>& rows) {
   return lines;
 }
 
-/// Returns the names of the groups in `room` columns, and puts the path that all begin with, if
-/// they have one, into `lead`.
-std::vector<std::string> shown_names(std::span<const clash::Group> groups, std::size_t room,
-                                     std::string& lead) {
+/// Returns the names of the groups as they are shown but for their width, and puts the path that
+/// all begin with, if they have one, into `lead`.
+std::vector<std::string> names_of(std::span<const clash::Group> groups, std::string& lead) {
   std::vector<std::string_view> names;
   for (const clash::Group& group : groups) names.emplace_back(group.name);
   lead = common_lead(names);
   std::vector<std::string> shown;
   for (const std::string_view name : names) shown.push_back(without_lead(name, lead));
-  return cut_apart(shown, room);
+  return shown;
+}
+
+std::size_t widest_of(const std::vector<std::string>& texts) {
+  std::size_t widest = 0;
+  for (const std::string& text : texts) widest = std::max(widest, columns_in(text));
+  return widest;
+}
+
+/// Returns what is left of a line, but no less than a name needs.
+std::size_t room_behind(std::size_t taken, std::size_t width) {
+  return std::max(width - std::min(width, taken), kLeastGroupName);
+}
+
+/// Takes the last three numbers, which are the place, out of the rows and puts them before the
+/// names.
+void move_places(std::vector<GroupRow>& rows) {
+  constexpr std::ptrdiff_t kPlaceNumbers = 3;
+  for (GroupRow& row : rows) {
+    const auto first = row.numbers.end() - kPlaceNumbers;
+    for (auto number = first; number != row.numbers.end(); ++number)
+      row.place += (number == first ? "" : " ") + *number;
+    row.place += "  ";
+    row.numbers.erase(first, row.numbers.end());
+  }
+}
+
+/// Cuts names that are wider than the terminal; returns whether they stand behind the numbers. Else
+/// they stand below them, and the places with them where even the numbers are too wide.
+bool fit_names(std::vector<GroupRow>& rows, std::vector<std::string>& names, bool place,
+               std::size_t width) {
+  const std::size_t taken = aligned(rows).front().size();
+  const std::size_t room = width - std::min(width, taken);
+  if (room >= std::min(widest_of(names), kLeastBeside)) {
+    names = cut_apart(names, room_behind(taken, width));
+    return true;
+  }
+  if (place && taken > width) move_places(rows);
+  std::size_t before = kGroupIndent;
+  for (const GroupRow& row : rows) before = std::max(before, kGroupIndent + row.place.size());
+  names = cut_apart(names, room_behind(before, width));
+  return false;
 }
 
 }  // namespace
@@ -75,16 +119,17 @@ std::string group_table(const clash::Grouping& grouping, const TableOptions& opt
   std::vector<GroupRow> rows{{"class", {"d mm", "results", "size m"}}};
   if (place) rows[0].numbers.insert(rows[0].numbers.end(), {"x mm", "y mm", "z mm"});
   for (const clash::Group& group : groups) rows.push_back(row_of(group, place));
-  const std::vector<std::string> lines = aligned(rows);
-  const std::size_t taken = lines.front().size();
   std::string lead;
-  const std::vector<std::string> names = shown_names(
-      groups, options.width > taken + kLeastGroupName ? options.width - taken : kLeastGroupName,
-      lead);
+  std::vector<std::string> names = names_of(groups, lead);
+  const bool beside = fit_names(rows, names, place, options.width);
+  names.insert(names.begin(), std::string(name(grouping.rules.by)));
+  const std::vector<std::string> lines = aligned(rows);
   std::string out;
   if (!lead.empty()) out = std::string(kLeadMark) + " stands for " + printable(lead) + "\n";
-  out += ended(lines.front() + std::string(name(grouping.rules.by)));
-  for (std::size_t g = 0; g < shown; ++g) out += ended(lines[g + 1] + names[g]);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const std::string below = std::string(kGroupIndent, ' ') + rows[r].place + names[r];
+    out += beside ? ended(lines[r] + names[r]) : ended(lines[r]) + ended(below);
+  }
   if (shown < all) {
     const std::size_t more = all - shown;
     out += "… and " + std::to_string(more) + (more == 1 ? " group more\n" : " groups more\n");

@@ -29,13 +29,13 @@ struct SideText {
 
 /// A row, or the head over all rows, whose sides are as they are shown.
 struct Line {
-  std::vector<std::string> numbers;  ///< class, d, range, volume, relation and place
+  std::vector<std::string> numbers;  ///< class, status, d, range, volume, relation and place
   SideText a, b;
 };
 
 std::vector<std::string> numbers_of(const PairRow& row) {
-  std::vector<std::string> numbers{std::string(row.cls), row.d, row.range, row.volume,
-                                   std::string(row.relation)};
+  std::vector<std::string> numbers{std::string(row.cls), std::string(row.status),  row.d, row.range,
+                                   row.volume,           std::string(row.relation)};
   numbers.insert(numbers.end(), row.place_mm.begin(), row.place_mm.end());
   return numbers;
 }
@@ -63,7 +63,18 @@ class PairTable {
 
  private:
   /// Numbers of the columns in Line::numbers.
-  enum Column : std::size_t { kClass, kD, kRange, kVolume, kRelation, kX, kY, kZ, kColumns };
+  enum Column : std::size_t {
+    kClass,
+    kStatus,
+    kD,
+    kRange,
+    kVolume,
+    kRelation,
+    kX,
+    kY,
+    kZ,
+    kColumns
+  };
 
   /// Coordinates belong together.
   [[nodiscard]] static std::string_view gap_behind(std::size_t column) {
@@ -96,9 +107,10 @@ class PairTable {
   [[nodiscard]] Line title() const {
     const std::string source(head_.source);
     const bool beside = stand_ == NamesStand::beside;
-    return {{"class", "d mm", "d range mm", "volume mm3", "relation", "x mm", "y mm", "z mm"},
-            {source, beside ? "a" : std::string(kBothNames)},
-            beside ? SideText{source, "b"} : SideText{}};
+    return {
+        {"class", "status", "d mm", "d range mm", "volume mm3", "relation", "x mm", "y mm", "z mm"},
+        {source, beside ? "a" : std::string(kBothNames)},
+        beside ? SideText{source, "b"} : SideText{}};
   }
 
   void find_widths() {
@@ -156,7 +168,7 @@ class PairTable {
     std::string text;
     for (std::size_t c = 0; c < widths_.size(); ++c) {
       if (widths_[c] == 0) continue;
-      const bool is_word = c == kClass || c == kRelation;
+      const bool is_word = c == kClass || c == kStatus || c == kRelation;
       text += is_word ? left_aligned(line.numbers[c], widths_[c])
                       : right_aligned(line.numbers[c], widths_[c]);
       text += gap_behind(c);

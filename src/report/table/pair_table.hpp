@@ -24,6 +24,7 @@ struct RowSide {
 /// A result as the table shows it. Texts are printable but for those of the sides.
 struct PairRow {
   std::string_view cls;
+  std::string_view status = {};  ///< what was decided; empty where nothing is known of that
   std::string d;
   std::string range, volume;  ///< empty where there is nothing to show
   std::string_view relation;

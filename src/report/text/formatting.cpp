@@ -5,10 +5,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <ranges>
+#include <span>
 #include <vector>
 
 #include "core/number.hpp"
 #include "core/text_encoding.hpp"
+#include "report/text/columns.hpp"
 
 namespace strake::report {
 namespace {
@@ -91,25 +94,56 @@ std::string_view short_class_name(clash::Class cls) {
   return cls == clash::Class::clearance_violation ? "CLEARANCE" : clash::name(cls);
 }
 
-std::string fit_to_columns(std::string_view text, std::size_t columns) {
-  std::vector<std::string_view> characters;
+namespace {
+
+/// A printable character with the columns that it takes.
+struct ShownCharacter {
+  std::string_view bytes;
+  std::size_t columns = 1;
+};
+
+std::vector<ShownCharacter> shown_characters(std::string_view text) {
+  std::vector<ShownCharacter> shown;
   while (!text.empty()) {
     const TakenCharacter c = take_character(text);
-    characters.push_back(is_printable(c) ? c.bytes : "?");
+    shown.push_back(is_printable(c) ? ShownCharacter{c.bytes, columns_of(c.code)}
+                                    : ShownCharacter{"?"});
   }
+  return shown;
+}
+
+/// Returns how many of the characters fit.
+template <class Characters>
+std::size_t count_fitting(const Characters& characters, std::size_t columns) {
+  std::size_t count = 0;
+  for (const ShownCharacter& c : characters) {
+    if (c.columns > columns) break;
+    columns -= c.columns;
+    ++count;
+  }
+  return count;
+}
+
+std::string bytes_of(std::span<const ShownCharacter> characters) {
   std::string out;
-  if (characters.size() <= columns) {
-    for (const std::string_view c : characters) out += c;
-    out.append(columns - characters.size(), ' ');
-    return out;
-  }
-  if (columns == 0) return out;
+  for (const ShownCharacter& c : characters) out += c.bytes;
+  return out;
+}
+
+}  // namespace
+
+std::string fit_to_columns(std::string_view text, std::size_t columns) {
+  const std::vector<ShownCharacter> shown = shown_characters(text);
+  const std::span all(shown);
+  if (count_fitting(all, columns) == all.size()) return left_aligned(bytes_of(all), columns);
+  if (columns == 0) return {};
   // The tail of a name tells more than its head, so it gets the larger half.
   const std::size_t head = (columns - 1) / 2, tail = columns - 1 - head;
-  for (std::size_t i = 0; i < head; ++i) out += characters[i];
-  out += "…";
-  for (std::size_t i = characters.size() - tail; i < characters.size(); ++i) out += characters[i];
-  return out;
+  std::span rest = all.last(count_fitting(std::views::reverse(all), tail));
+  // A mark whose character is left out would stand over the dots.
+  while (!rest.empty() && rest.front().columns == 0) rest = rest.subspan(1);
+  return left_aligned(bytes_of(all.first(count_fitting(all, head))) + "…" + bytes_of(rest),
+                      columns);
 }
 
 }  // namespace strake::report

@@ -34,8 +34,8 @@ void append_flags(std::string& out, std::uint16_t flags, std::string_view betwee
 /// Returns the name of a class for a column of a table.
 [[nodiscard]] std::string_view short_class_name(clash::Class cls);
 
-/// Returns at most `columns` characters of the text, the middle left out where it is longer; padded
-/// to the left-aligned width. Control characters, those that change the direction of writing, and
+/// Returns the text in so many columns of a terminal, filled up with blanks; where it is wider, its
+/// middle is left out. Control characters, those that change the direction of writing, and
 /// bytes that are not UTF-8 become '?'.
 [[nodiscard]] std::string fit_to_columns(std::string_view text, std::size_t columns);
 

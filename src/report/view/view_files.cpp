@@ -26,7 +26,7 @@ Hash128 place_of(const ViewPiece& piece) {
   return hasher.value();
 }
 
-std::vector<std::string> labels_of(const ViewDocument& drawing) {
+std::vector<std::string> labels_of_drawing(const ViewDocument& drawing) {
   std::vector<std::string> labels;
   for (const ViewObject& o : drawing.objects)
     if (labels.empty() || labels.back() != o.file) labels.push_back(o.file);
@@ -37,8 +37,8 @@ std::vector<std::string> labels_of(const ViewDocument& drawing) {
 }
 
 /// Returns the files of a drawing; with `contents`, what it holds of them.
-RunFiles files_of(const ViewDocument& drawing, const std::vector<std::string>& labels,
-                  bool with_contents) {
+RunFiles files_of_drawing(const ViewDocument& drawing, const std::vector<std::string>& labels,
+                          bool with_contents) {
   std::map<std::string_view, FileContents> contents;
   if (with_contents) {
     for (const ViewObject& o : drawing.objects) contents[o.file].ids.push_back(o.id);
@@ -63,7 +63,7 @@ void DrawnIds::add(const ViewDocument& drawing) {
 
 Result<FileMatches> match_files(const ViewDocument& before, const ViewDocument& after,
                                 std::span<const std::string> asked) {
-  return match_documents(before, after, asked, labels_of, files_of);
+  return match_documents(before, after, asked, labels_of_drawing, files_of_drawing);
 }
 
 }  // namespace strake::report

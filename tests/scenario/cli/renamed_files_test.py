@@ -44,6 +44,24 @@ class Glb:
                                     if 'mesh' not in nodes[child] or nodes[child]['extras']['id'] in ids]
         return self
 
+    def rename(self, ids):
+        for id in ids:
+            node = self.objects()[id]
+            node['name'] = node['extras']['id'] = id + '-R'
+        return self
+
+    def double(self, ids, metres):
+        """Adds a double of each, with an id of its own, so far along x."""
+        nodes = self.json['nodes']
+        for id in ids:
+            number = next(n for n, node in enumerate(nodes) if 'mesh' in node and node['extras']['id'] == id)
+            node = json.loads(json.dumps(nodes[number]))
+            node['name'] = node['extras']['id'] = id + '-2'
+            node['matrix'][12] += metres
+            nodes.append(node)
+            next(n for n in nodes if number in n.get('children', ()))['children'].append(len(nodes) - 1)
+        return self
+
     def write(self, path):
         text = json.dumps(self.json).encode()
         text += b' ' * (-len(text) % 4)
@@ -123,6 +141,41 @@ class RenamedFiles(Scenario):
                          {frozenset(ids_of(r)) for r in old if ids_of(r) & changed})
         self.assertEqual(diff['counts'], counts(gone=len(diff['gone']), same=len(old) - len(diff['gone'])))
         self.assertEqual(len(diff['files_matched']), 1)
+
+    def test_one_per_cent_removed_renamed_or_added(self):
+        """Exactly their clashes are told, under another name of the file and in another order."""
+        old = self.clash(['ship.glb'], 'old.json')
+        some = set(sorted({id for r in old for id in ids_of(r)})[::100])
+        theirs = [frozenset(ids_of(r)) for r in old if ids_of(r) & some]
+        self.assertGreater(len(theirs), 0)
+        rest = len(old) - len(theirs)
+        self.glb().keep(set(self.glb().objects()) - some).reverse().write(self.folder / 'removed.glb')
+        self.glb().rename(some).reverse().write(self.folder / 'renamed.glb')
+        self.glb().double(some, .02).reverse().write(self.folder / 'added.glb')
+        self.clash(['removed.glb'], 'removed.json')
+        diff = self.diff('clash', 'old.json', 'removed.json')
+        self.assertEqual(diff['counts'], counts(same=rest, cannot_tell=len(theirs)))
+        self.assertCountEqual([frozenset(ids_of(e)) for e in diff['cannot_tell']], theirs)
+        self.clash(['renamed.glb'], 'renamed.json')
+        diff = self.diff('clash', 'old.json', 'renamed.json')
+        self.assertEqual(diff['counts'], counts(new=len(theirs), same=rest, cannot_tell=len(theirs)))
+        self.assertCountEqual([frozenset(id.removesuffix('-R') for id in ids_of(e)) for e in diff['added']], theirs)
+        added = [frozenset(ids_of(r)) for r in self.clash(['added.glb'], 'added.json')
+                 if any(id.endswith('-2') for id in ids_of(r))]
+        self.assertGreater(len(added), 0)
+        diff = self.diff('clash', 'old.json', 'added.json')
+        self.assertEqual(diff['counts'], counts(new=len(added), same=len(old)))
+        self.assertCountEqual([frozenset(ids_of(e)) for e in diff['added']], added)
+
+    def test_another_format(self):
+        """What was exported as GLB is exported as OBJ: ids and geometry stay, numbers are rounded otherwise."""
+        for kind in ('usual', 'slender', 'dense', 'repeated', 'unlike'):
+            with self.subTest(kind):
+                for file in ('m.glb', 'm.obj'):
+                    self.text('generate', 'ship', '--objects', 300, '--seed', 7, '--kind', kind, '-o', file)
+                old = self.clash(['m.glb'], 'old.json')
+                self.clash(['m.obj'], 'new.json')
+                self.assertEqual(self.diff('clash')['counts'], counts(same=len(old)))
 
     def test_drawings_of_renamed_files(self):
         self.draw(['ship.glb'], 'old.json')

@@ -187,6 +187,23 @@ class Schemas(unittest.TestCase):
         self.assertEqual([(s['setting'], s['old'], s['new']) for s in diff['settings_changed']],
                          [('clearance_attribute', 'weight_kg', None)])
 
+    def test_clash_with_decisions(self):
+        run = ['clash', 'ship.glb', '--decisions', 'decided.csv', '--json']
+        first = self.follows(self.run_strake(*run, '--write-decisions'), 'clash')
+        text = (self.folder / 'decided.csv').read_text(encoding='utf-8')
+        for key, status in zip([result['key'] for result in first['results']], ('approved', 'resolved')):
+            text = text.replace(f'{key},new,,,,', f'{key},{status},Ann,2026-01-31,as built,')
+        text += '0' * 26 + ',active,Bob,,,\r\n'
+        (self.folder / 'decided.csv').write_text(text, encoding='utf-8', newline='')
+        (self.folder / 'ship_revB.glb').write_bytes((self.folder / 'ship.glb').read_bytes())
+        told = self.follows(self.run_strake('clash', 'ship_revB.glb', *run[2:]), 'clash')
+        self.assertEqual([told['decisions'][key] for key in ('file', 'not_found')],
+                         ['decided.csv', [{'key': '0' * 26, 'status': 'active', 'by': 'Bob'}]])
+        self.assertEqual(told['decisions']['reopened'], {'deeper': 0, 'more_places': 0, 'found_again': 1})
+        self.assertEqual([m['new'] for m in told['decisions']['files_matched']], ['ship_revB.glb'])
+        decided = [result['decision'] for result in told['results'] if result['decision']['status'] != 'new']
+        self.assertEqual({d['status'] for d in decided}, {'approved', 'resolved'})
+
     def test_clash_by_a_profile(self):
         report = self.follows(self.run_strake('clash', 'ship.glb', '--profile', 'ship', '--json'), 'clash')
         self.assertEqual(report['rules']['profile'], 'ship')

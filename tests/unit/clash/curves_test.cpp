@@ -19,7 +19,7 @@ using geometry::Vec3d;
 using test::ClashModel;
 using test::expect;
 
-constinit const Options kCurves{.engine = {.curves = Curves::on}};
+Options with_curves() { return {.engine = {.curves = Curves::on}}; }
 
 geometry::Polylines chain(const std::vector<Vec3d>& points) {
   geometry::Polylines lines;
@@ -35,12 +35,12 @@ ClashModel cube_and_line(const std::vector<Vec3d>& points) {
   return m;
 }
 
-Pair judged(const ClashModel& m) { return test::only(m, kCurves); }
+Pair judged(const ClashModel& m) { return test::only(m, with_curves()); }
 
 TEST(Curves, AreOffUnlessAskedFor) {
   const ClashModel m = cube_and_line({{-500, 500, 500}, {1500, 500, 500}});
   EXPECT_TRUE(m.detect({}).pairs.empty());
-  EXPECT_EQ(m.detect(kCurves).pairs.size(), 1U);
+  EXPECT_EQ(m.detect(with_curves()).pairs.size(), 1U);
 }
 
 TEST(Curves, ALineThroughACubeIsAsDeepAsItsMiddle) {
@@ -61,7 +61,7 @@ TEST(Curves, ClassesFollowTheThresholds) {
          Relation::b_in_a, -0.5, 0.01);
   const ClashModel near = cube_and_line({{200, 200, 1020}, {800, 200, 1020}});
   EXPECT_EQ(judged(near).cls, Class::no_hit);
-  Options clearance = kCurves;
+  Options clearance = with_curves();
   clearance.tolerances.clearance_mm = 25;
   const Pair p = test::only(near, clearance);
   expect(p, Class::clearance_violation, Relation::separate, 20);
@@ -153,19 +153,19 @@ TEST(Curves, ChangeNothingElseAndDependOnNothing) {
         .body(geometry::Primitive{geometry::CircularTorusPrimitive{90, 20, 1.5}},
               {{}, {x, 100, 50}});
   }
-  const Report with = m.detect(kCurves), without = m.detect({});
+  const Report with = m.detect(with_curves()), without = m.detect({});
   EXPECT_GT(with.pairs.size(), without.pairs.size() + 20);
   std::size_t same = 0;
   for (const Pair& p : with.pairs)
     for (const Pair& q : without.pairs)
       same += p.a == q.a && p.b == q.b && p.d_mm == q.d_mm && p.cls == q.cls ? 1 : 0;
   EXPECT_EQ(same, without.pairs.size());
-  Options all = kCurves;
+  Options all = with_curves();
   all.engine.broad_phase = BroadPhase::all_pairs;
   EXPECT_EQ(m.detect(all).hash, with.hash);
   for (const unsigned workers : {2U, 3U, 8U}) {
     parallel::Team team(workers);
-    EXPECT_EQ(m.detect(kCurves, {.team = &team}).hash, with.hash);
+    EXPECT_EQ(m.detect(with_curves(), {.team = &team}).hash, with.hash);
   }
 }
 
@@ -188,7 +188,7 @@ TEST(Curves, WhichIsCalledAMirrorsTheAnswer) {
 TEST(Curves, TheBaselineKnowsNoLines) {
   const ClashModel m = cube_and_line({{-500, 500, 500}, {1500, 500, 500}});
   const model::Scene scene = make_scene(m.model, {}, {}).value();
-  Options options = kCurves;
+  Options options = with_curves();
   options.engine.narrow_phase = NarrowPhase::sphere_subdivision;
   const auto report = detect(scene, one_set(scene), options, {});
   ASSERT_FALSE(report);

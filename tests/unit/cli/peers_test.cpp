@@ -147,6 +147,9 @@ TEST_F(FakePeers, WhatIsNoAnswerIsARow) {
         damaged(measured_row(), "\"measured\"", "\"fine\""),
         damaged(measured_row(), "\"cpu_s\": 3.0", "\"cpu_s\": -3.0"),
         damaged(measured_row(), "\"wall_s\": 2.5", "\"wall_s\": 0"),
+        damaged(measured_row(), "\"objects\": 500", "\"objects\": -500"),
+        damaged(measured_row(), "\"triangles\": 12000", "\"triangles\": 1.5"),
+        damaged(measured_row(), "\"threads\": 1", "\"threads\": 4294967296"),
         damaged(measured_row(), "\"measured\"", "\"disagrees\"")}) {
     EXPECT_FALSE(parse_peer_rows(text, "x").has_value()) << text;
     play("cat > \"$json\" <<'END'\n" + text + "\nEND");

@@ -329,12 +329,22 @@ TEST(ClashDiff, RulesThatAreNotTheSameAreTold) {
   };
   EXPECT_EQ(told(one, one), "0 new, 0 changed, 2 unchanged, 0 gone, 0 cannot tell");
   EXPECT_EQ(told(one, changed), "rules file a.toml is not what it was");
-  EXPECT_EQ(told(one, other), "rules file: was a.toml, is b.toml");
-  EXPECT_EQ(told(plain, one), "rules file: was none, is a.toml");
+  EXPECT_EQ(told(one, other), "rules: were a.toml, are b.toml");
+  EXPECT_EQ(told(plain, one), "rules: were none, are a.toml");
+  const ClashDocument& profile = made_by("4.json", {"plant.toml", {1, 1}, "plant"});
+  const ClashDocument& later = made_by("5.json", {"plant.toml", {1, 2}, "plant"});
+  EXPECT_EQ(told(profile, later), "profile plant is not what it was");
+  EXPECT_EQ(told(plain, profile), "rules: were none, are profile plant");
+  EXPECT_EQ(told(profile, made_by("6.json", {"plant.toml", {1, 1}})),
+            "rules: were profile plant, are plant.toml");
   std::string text;
   write_clash_diff_json(compare(plain, one), [&](std::string_view piece) { text += piece; });
   EXPECT_FALSE(json::parse(text)["old"].contains("rules"));
   EXPECT_EQ(json::parse(text)["new"]["rules"]["file"], "a.toml");
+  EXPECT_FALSE(json::parse(text)["new"]["rules"].contains("profile"));
+  text.clear();
+  write_clash_diff_json(compare(plain, profile), [&](std::string_view piece) { text += piece; });
+  EXPECT_EQ(json::parse(text)["new"]["rules"]["profile"], "plant");
 }
 
 TEST(ClashDiff, ExemptedAndAllowed) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "report/text/columns.hpp"
+#include "report/text/formatting.hpp"
 #include "report/text/table_names.hpp"
 #include "strake/clash/group.hpp"
 #include "strake/report/clash.hpp"
@@ -140,6 +141,49 @@ TEST(ClashTable, GroupsHaveTheirPlaceToo) {
                 "HIT           -20.000        1     0.0  1100  2050  3050  /PLANT/WD1/left\n"),
       std::string::npos)
       << text;
+}
+
+/// The table of one group by element of a name.
+std::string group_table_of(const std::string& name, std::size_t width) {
+  const ClashModel m = two_boxes(name, "other");
+  const clash::Findings findings{{m.detect()}, {}};
+  const clash::Grouping by_element = clash::group_results(findings, m.model, {}).value();
+  return clash_table({findings, m.model, &by_element}, {.width = width});
+}
+
+TEST(ClashTable, GroupsOfANarrowTerminalHaveTheirNamesBelow) {
+  const std::string name = "BOX 1 of EQUIPMENT with a name";
+  const std::string numbers = "class            d mm  results  size m";
+  EXPECT_NE(group_table_of(name, 100).find("3050  " + name + "\n"), std::string::npos);
+  const std::string below = group_table_of(name, 70);
+  EXPECT_NE(below.find(numbers + "  x mm  y mm  z mm\n    element\n"), std::string::npos) << below;
+  EXPECT_NE(below.find("  1100  2050  3050\n    " + name + "\n"), std::string::npos) << below;
+  const std::string narrow = group_table_of(name, 50);
+  EXPECT_NE(narrow.find(numbers + "\n    x mm y mm z mm  element\n"), std::string::npos) << narrow;
+  EXPECT_NE(narrow.find("    1100 2050 3050  BOX 1 of EQU"), std::string::npos) << narrow;
+  for (const std::size_t width : {40U, 50U, 60U, 70U, 80U, 100U}) {
+    const std::string table = group_table_of(name, width);
+    std::string_view rest = std::string_view(table).substr(0, table.find("\n\n"));
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find('\n'), rest.size());
+      EXPECT_LE(columns_in(rest.substr(0, end)), width) << table;
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+  }
+}
+
+TEST(TableNames, OfEastAsianScriptsTakeTwoColumnsForACharacter) {
+  EXPECT_EQ(columns_in("配管 A1"), 7U);
+  EXPECT_EQ(columns_in("ﾊﾞﾙﾌﾞ"), 5U) << "half-width forms are narrow";
+  EXPECT_EQ(columns_in("밸브"), 4U);
+  EXPECT_EQ(columns_in("e\xCC\x81"), 1U) << "the mark stands over the letter";
+  EXPECT_EQ(columns_in("Bäöß …"), 6U);
+  EXPECT_EQ(left_aligned("配管", 6), "配管  ");
+  EXPECT_EQ(fit_to_columns("配管系統図", 6), "配…図 ");
+  EXPECT_EQ(fit_to_columns("配管系統図", 10), "配管系統図");
+  EXPECT_EQ(fit_to_columns("abcdefghij", 6), "ab…hij");
+  const std::string table = table_of(two_boxes("配管", "x"));
+  EXPECT_NE(table.find("mm  a     b\n"), std::string::npos) << table;
 }
 
 }  // namespace

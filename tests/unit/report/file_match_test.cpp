@@ -114,6 +114,15 @@ TEST(FileMatch, PlacesDecideWhereNeitherHasLastingIds) {
       "common)\n");
 }
 
+TEST(FileMatch, PlacesDecideWhereOneHasNoLastingIds) {
+  // Somebody adds objects with names to a file in which nothing has one.
+  const FileMatches files =
+      matched({file("a", {}, {1, 2, 3})}, {file("b", ids(0, 5), {1, 2, 3, 4, 5})});
+  EXPECT_EQ(files.matches, (std::vector<FileMatch>{{"a", "b", FileRelation::renamed, 3, 5, true}}));
+  EXPECT_TRUE(
+      matched({file("a", {}, {1, 2, 3})}, {file("b", ids(0, 5), {3, 4, 5, 6})}).matches.empty());
+}
+
 TEST(FileMatch, PlacesDecideBetweenFilesOfTheSameIds) {
   const FileMatches files =
       matched({file("port", ids(0, 9), {1, 2, 3}), file("starboard", ids(0, 9), {4, 5, 6})},

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "strake/clash/clash.hpp"
+#include "strake/core/hash.hpp"
+#include "strake/core/result.hpp"
+#include "strake/geometry/vec.hpp"
+#include "strake/model/model.hpp"
+#include "strake/report/file_match.hpp"
+
+/// What people decided about clashes, in a CSV file that they edit, taken up by the next run.
+///
+///     const auto file = report::read_decisions("decided.csv");
+///     const auto decided = report::decide(findings, model, *file, {});
+///     write_clash_json({.findings = findings, .model = model, .decided = &*decided}, ...);
+namespace strake::report {
+
+struct ClashContents;
+
+enum class DecisionStatus : std::uint8_t { undecided, active, reviewed, approved, resolved };
+
+inline constexpr std::array kDecisionStatuses{DecisionStatus::undecided, DecisionStatus::active,
+                                              DecisionStatus::reviewed, DecisionStatus::approved,
+                                              DecisionStatus::resolved};
+
+/// Returns "new", "active", "reviewed", "approved" or "resolved".
+[[nodiscard]] std::string_view name(DecisionStatus status);
+
+/// One of the two objects that a row names; both are empty where the file has no such columns.
+struct DecisionObject {
+  std::string file, id;
+};
+
+/// A row of the file.
+struct Decision {
+  Hash128 key;  ///< the clash::parse_key() of its text
+  DecisionStatus status = DecisionStatus::undecided;
+  std::string by, date, comment;  ///< the date as 2026-01-31; each may be empty
+  // The clash when it was decided about, as far as the file says.
+  std::optional<double> d_mm;
+  std::optional<geometry::Vec3d> point_mm;
+  std::uint32_t regions = 0;  ///< 0: not said
+  std::string test;
+  DecisionObject a, b;
+  std::size_t line = 0;
+};
+
+struct DecisionFile {
+  std::string name;                 ///< as given
+  std::string text;                 ///< all of it; empty where there is no file yet
+  std::vector<Decision> decisions;  ///< in the order of the file
+};
+
+/// Reads decisions: CSV of UTF-8 with a line of headings, separated by commas, semicolons or tabs,
+/// with or without a byte order mark. It needs the columns `key` and `status`; `by`, `date`,
+/// `comment`, and `d_mm`, `x_mm`, `y_mm`, `z_mm`, `regions`, `test`, `a_file`, `a_id`, `b_file` and
+/// `b_id` as results have them, are read where they are there, all others are not.
+/// Errors (input), each with file and line: a column that is missing or there twice, a key that is
+/// none or there twice, an unknown status, a date that is none, a number that is none.
+[[nodiscard]] Result<DecisionFile> parse_decisions(std::string text, std::string name);
+[[nodiscard]] Result<DecisionFile> read_decisions(const std::filesystem::path& file);
+
+/// Why a decision does not settle its clash any more.
+enum class Reopened : std::uint8_t {
+  no,
+  deeper,        ///< approved, and deeper or nearer than it was
+  more_regions,  ///< approved, and the two meet at more places than they did
+  found_again,   ///< resolved, and still there
+};
+
+/// Returns "deeper", "more places" or "found again"; an empty text for `no`.
+[[nodiscard]] std::string_view name(Reopened reopened);
+
+/// A result with the decision about it.
+struct DecidedResult {
+  model::ObjectId a{}, b{};  ///< as in the pair
+  clash::Class cls = clash::Class::no_hit;
+  bool allowed = false;  ///< a rule allows it
+  Reopened reopened = Reopened::no;
+  const Decision* decision = nullptr;
+
+  /// Whether nobody needs to look at it: approved, and no worse than it was then.
+  [[nodiscard]] bool is_settled() const {
+    return decision->status == DecisionStatus::approved && reopened == Reopened::no && !allowed;
+  }
+};
+
+struct DecisionRules {
+  /// An approved clash comes back where its d is less than it was by more than this.
+  double deeper_mm = 1;
+  /// Files that have another name now, as OLD=NEW.
+  std::span<const std::string> match_files = {};
+};
+
+/// The decisions about the results of findings; it refers to the DecisionFile.
+class DecidedResults {
+ public:
+  const DecisionFile* file = nullptr;
+  double deeper_mm = 0;
+  FileMatches files;                              ///< which file had which name when decided
+  std::vector<std::vector<DecidedResult>> tests;  ///< of each test by (a, b)
+  std::vector<const Decision*> not_found;         ///< decisions about no result, as in the file
+  /// Results of each status that no rule allows; those without a decision are new.
+  std::array<std::uint64_t, kDecisionStatuses.size()> counts{};
+
+  /// Returns the decision about a result; null if there is none.
+  [[nodiscard]] const DecidedResult* of(std::size_t test, const clash::Pair& pair) const;
+  [[nodiscard]] bool is_settled(std::size_t test, const clash::Pair& pair) const {
+    const DecidedResult* const decided = of(test, pair);
+    return decided != nullptr && decided->is_settled();
+  }
+  /// Returns how many results that no rule allows came back for this reason.
+  [[nodiscard]] std::uint64_t count(Reopened reopened) const;
+};
+
+/// Looks up the decision about each result, by its key. A file that has another name than when its
+/// clashes were decided about is found by what is in it, as in a comparison of two runs, or by
+/// DecisionRules::match_files: its results have the decisions about their former keys.
+///
+/// Where the id of an object is only a position in its file, a key may be another clash's: the
+/// decision is taken only where the place and d that the file states are those of the result.
+///
+/// Errors: usage, as of match_files() and parse_file_pairs().
+[[nodiscard]] Result<DecidedResults> decide(const clash::Findings& findings,
+                                            const model::Model& model, const DecisionFile& file,
+                                            const DecisionRules& rules);
+
+/// What a decision file becomes by a run.
+struct UpdatedDecisions {
+  std::string text;
+  std::uint64_t added = 0;  ///< rows of results that had none
+};
+
+/// Adds a row of the status `new` for each result that has none and that no rule allows. All rows
+/// and columns stay as they are, but that
+///
+/// 1. rows without a decision (`new`) have what the result measures now, and decided ones get what
+///    they lack of it: it is what a decision is about;
+/// 2. rows of a file that was renamed have the key and the labels of today.
+///
+/// `contents.decided` must be there; contents.csv is the form of a file that is not there yet.
+[[nodiscard]] UpdatedDecisions update_decisions(const ClashContents& contents);
+
+}  // namespace strake::report

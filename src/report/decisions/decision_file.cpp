@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "clash/results/clash_key.hpp"
+#include "core/number.hpp"
+#include "core/text_encoding.hpp"
+#include "report/decisions/decision_columns.hpp"
+#include "report/document/document_reader.hpp"
+#include "report/text/csv_table.hpp"
+#include "strake/report/decisions.hpp"
+
+namespace strake::report {
+namespace {
+
+using Column = DecisionColumn;
+
+/// Returns the whole number that a text is, of digits alone.
+std::optional<int> digits(std::string_view text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool signless = !text.empty() && text.front() != '-';
+  if (error != std::errc() || end != text.data() + text.size() || !signless) return std::nullopt;
+  return number;
+}
+
+/// Returns a date as 2026-01-31, which it may be written as, or as 31.1.2026; nothing where it is
+/// anything else. Months and days between strokes stand in either order, so that nobody can tell.
+std::optional<std::string> date_of(std::string_view text) {
+  const char between = text.find('.') == std::string_view::npos ? '-' : '.';
+  const std::size_t first = text.find(between), last = text.rfind(between);
+  if (first == std::string_view::npos || first == last) return std::nullopt;
+  std::array parts{digits(text.substr(0, first)), digits(text.substr(first + 1, last - first - 1)),
+                   digits(text.substr(last + 1))};
+  if (between == '.') std::swap(parts.front(), parts.back());
+  const auto& [year, month, day] = parts;
+  constexpr int kFirstYear = 1900, kLastYear = 9999;
+  if (!year || !month || !day || *year < kFirstYear || *year > kLastYear) return std::nullopt;
+  const std::chrono::year_month_day date(std::chrono::year(*year),
+                                         std::chrono::month(static_cast<unsigned>(*month)),
+                                         std::chrono::day(static_cast<unsigned>(*day)));
+  if (*month > 12 || *day > 31 || !date.ok()) return std::nullopt;
+  const auto two = [](int n) { return (n < 10 ? "-0" : "-") + std::to_string(n); };
+  return std::to_string(*year) + two(*month) + two(*day);
+}
+
+std::optional<DecisionStatus> status_of(std::string_view text) {
+  const std::string word = lowered(text);
+  if (word.empty()) return DecisionStatus::undecided;
+  for (const DecisionStatus status : kDecisionStatuses)
+    if (word == name(status)) return status;
+  return std::nullopt;
+}
+
+/// Reads the rows of a file one by one.
+class DecisionReader {
+ public:
+  DecisionReader(const CsvTable& table, const DecisionColumns& columns, const std::string& name)
+      : table_(table), columns_(columns), name_(name) {}
+
+  Result<std::vector<Decision>> rows() {
+    std::vector<Decision> all;
+    for (std::size_t r = 1; r < table_.records.size(); ++r) {
+      const CsvRecord& record = table_.records[r];
+      const bool names_none =
+          text(record, Column::key).empty() && text(record, Column::status).empty();
+      if (is_blank(record) || names_none) continue;
+      Result<Decision> read = row(record);
+      if (!read) return read.error();
+      const auto [at, is_new] = lines_.try_emplace(read->key, read->line);
+      if (!is_new)
+        return fault(record, "the key stands in line " + std::to_string(at->second) + " already",
+                     "keep one of the two rows");
+      all.push_back(std::move(*read));
+    }
+    return all;
+  }
+
+ private:
+  [[nodiscard]] std::string text(const CsvRecord& record, Column column) const {
+    return columns_.text(record, column);
+  }
+
+  /// Returns a name without the apostrophe that keeps a spreadsheet from taking it for a formula.
+  [[nodiscard]] std::string named(const CsvRecord& record, Column column) const {
+    std::string name = text(record, column);
+    if (name.starts_with('\'')) name.erase(0, 1);
+    return name;
+  }
+
+  [[nodiscard]] Error fault(const CsvRecord& record, std::string message, std::string mend) const {
+    return {ErrorCode::input, std::move(message), name_ + ", line " + std::to_string(record.line),
+            std::move(mend)};
+  }
+
+  Result<Decision> row(const CsvRecord& record) const {
+    const std::size_t headings = table_.records.front().cells.size();
+    for (std::size_t c = headings; c < record.cells.size(); ++c)
+      if (!cell_text(record.cells[c]).empty())
+        return fault(record, "the row has more cells than there are headings",
+                     "put a cell that has the separator in it between quotes");
+    Decision decision;
+    decision.line = record.line;
+    const std::string key = lowered(text(record, Column::key));
+    const auto parsed = clash::parse_key(key);
+    if (!parsed)
+      return fault(record, in_quotes(key) + " is no key",
+                   "a key is the 26 letters and digits that results have as 'key'");
+    decision.key = *parsed;
+    if (const Status status = decided(record, decision); !status) return status.error();
+    if (const Status status = measured(record, decision); !status) return status.error();
+    decision.test = named(record, Column::test);
+    decision.a = {named(record, Column::a_file), named(record, Column::a_id)};
+    decision.b = {named(record, Column::b_file), named(record, Column::b_id)};
+    return decision;
+  }
+
+  /// Reads what people write.
+  Status decided(const CsvRecord& record, Decision& row) const {
+    const std::string word = text(record, Column::status), date = text(record, Column::date);
+    const auto status = status_of(word);
+    if (!status)
+      return fault(record, in_quotes(word) + " is no status",
+                   "write new, active, reviewed, approved or resolved");
+    row.status = *status;
+    row.by = text(record, Column::by);
+    row.comment = text(record, Column::comment);
+    if (date.empty()) return {};
+    auto read = date_of(date);
+    if (!read)
+      return fault(record, in_quotes(date) + " is no date", "write 2026-01-31, or 31.1.2026");
+    row.date = std::move(*read);
+    return {};
+  }
+
+  /// Reads a number, with a point or a comma; nothing where there is none.
+  Result<std::optional<double>> number(const CsvRecord& record, Column column) const {
+    std::string written = text(record, column);
+    if (written.empty()) return std::optional<double>();
+    std::ranges::replace(written, ',', '.');
+    const auto value = parse_number(written);
+    if (!value)
+      return fault(record, in_quotes(text(record, column)) + " is no number",
+                   "write as many " +
+                       std::string(column == Column::regions ? "places" : "millimetres") +
+                       " as the result had, or nothing");
+    return value;
+  }
+
+  /// Reads what the program writes.
+  Status measured(const CsvRecord& record, Decision& row) const {
+    std::array<std::optional<double>, 5> values;
+    constexpr std::array kColumns{Column::d, Column::x, Column::y, Column::z, Column::regions};
+    for (std::size_t i = 0; i < kColumns.size(); ++i) {
+      const Result<std::optional<double>> value = number(record, kColumns[i]);
+      if (!value) return value.error();
+      values[i] = *value;
+    }
+    const auto& [d, x, y, z, regions] = values;
+    row.d_mm = d;
+    if (x && y && z) row.point_mm = geometry::Vec3d{*x, *y, *z};
+    if (regions && *regions >= 1 && *regions <= std::numeric_limits<std::uint32_t>::max())
+      row.regions = static_cast<std::uint32_t>(*regions);
+    return {};
+  }
+
+  const CsvTable& table_;
+  const DecisionColumns& columns_;
+  const std::string& name_;
+  std::map<Hash128, std::size_t> lines_;  ///< of the keys that were read
+};
+
+}  // namespace
+
+std::string_view name(DecisionStatus status) {
+  switch (status) {
+    case DecisionStatus::undecided:
+      return "new";
+    case DecisionStatus::active:
+      return "active";
+    case DecisionStatus::reviewed:
+      return "reviewed";
+    case DecisionStatus::approved:
+      return "approved";
+    case DecisionStatus::resolved:
+      return "resolved";
+  }
+  return "";
+}
+
+Result<DecisionFile> parse_decisions(std::string text, std::string name) {
+  const Result<CsvTable> table = parse_csv_table(text, name);
+  if (!table) return table.error();
+  const Result<DecisionColumns> columns = DecisionColumns::read(*table, name);
+  if (!columns) return columns.error();
+  Result<std::vector<Decision>> rows = DecisionReader(*table, *columns, name).rows();
+  if (!rows) return rows.error();
+  return DecisionFile{std::move(name), std::move(text), std::move(*rows)};
+}
+
+Result<DecisionFile> read_decisions(const std::filesystem::path& file) {
+  Result<std::ifstream> in = open_document(file);
+  if (!in) return in.error();
+  std::string text{std::istreambuf_iterator<char>(*in), std::istreambuf_iterator<char>()};
+  if (in->bad())
+    return Error{ErrorCode::input, "cannot be read", file.string(), "check who may read it"};
+  return parse_decisions(std::move(text), file.string());
+}
+
+}  // namespace strake::report

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/decisions/decision_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "clash/results/clash_key.hpp"
+#include "report/files/sort_unique.hpp"
+
+namespace strake::report {
+namespace {
+
+/// Points and depths are compared as multiples of this, in millimetres: a spreadsheet rounds them.
+constexpr double kWrittenPlaceMm = 0.01;
+
+using FileContentsByLabel = std::map<std::string, FileContents, std::less<>>;
+
+/// Returns the hash of where a result of a test lies.
+Hash128 written_place(std::string_view test, const geometry::Vec3d& point_mm, double d_mm) {
+  Hasher hasher;
+  hasher.add(test);
+  for (const double mm : {point_mm.x, point_mm.y, point_mm.z, d_mm})
+    hasher.add(std::round(mm / kWrittenPlaceMm));
+  return hasher.value();
+}
+
+RunFiles files_of(FileContentsByLabel&& contents) {
+  RunFiles run;
+  for (auto& [label, file] : contents) {
+    file.label = label;
+    sort_unique(file.ids);
+    std::ranges::sort(file.places);
+    run.files.push_back(std::move(file));
+  }
+  return run;
+}
+
+FileContentsByLabel contents_of(const DecisionFile& decided) {
+  FileContentsByLabel contents;
+  for (const Decision& row : decided.decisions)
+    for (const DecisionObject& side : {row.a, row.b}) {
+      if (side.file.empty()) continue;
+      FileContents& file = contents[side.file];
+      if (!side.id.empty()) file.ids.push_back(side.id);
+      if (row.point_mm && row.d_mm)
+        file.places.push_back(written_place(row.test, *row.point_mm, *row.d_mm));
+    }
+  return contents;
+}
+
+FileContentsByLabel contents_of(const clash::Findings& findings, const model::Model& model) {
+  FileContentsByLabel contents;
+  for (const model::SourceFile& file : model.files) contents.try_emplace(file.label);
+  for (const clash::Report& test : findings.tests)
+    for (const clash::Pair& pair : test.pairs)
+      for (const model::ObjectId id : {pair.a, pair.b}) {
+        const model::Object& object = model.object(id);
+        FileContents& file = contents[model.files[object.file].label];
+        if (!object.positional_id) file.ids.push_back(object.id);
+        file.places.push_back(written_place(test.name, pair.point_mm, pair.d_mm));
+      }
+  return contents;
+}
+
+IdsByFile ids_of(const model::Model& model) {
+  IdsByFile ids;
+  for (const model::Object& object : model.objects)
+    ids[model.files[object.file].label].insert(object.id);
+  return ids;
+}
+
+IdsByFile ids_of(const DecisionFile& decided) {
+  IdsByFile ids;
+  for (const Decision& row : decided.decisions)
+    for (const DecisionObject* const side : {&row.a, &row.b}) ids[side->file].insert(side->id);
+  return ids;
+}
+
+bool has(const IdsByFile& ids, std::string_view label, std::string_view id) {
+  const auto file = ids.find(label);
+  return file != ids.end() && file->second.contains(id);
+}
+
+/// Returns the names of the two objects of a pair; they refer to the model.
+std::pair<clash::ElementName, clash::ElementName> names_of(const model::Model& model,
+                                                           const clash::Pair& pair) {
+  const model::Object &a = model.object(pair.a), &b = model.object(pair.b);
+  return {{model.files[a.file].label, a.id}, {model.files[b.file].label, b.id}};
+}
+
+/// Adds the former names that are asked for and that a file without the columns of files cannot
+/// know.
+void add_asked(FileContentsByLabel& former, const FileContentsByLabel& today,
+               std::span<const std::string> asked) {
+  for (const std::string& text : asked)
+    for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1))
+      if (at > 0 && today.contains(text.substr(at + 1))) former.try_emplace(text.substr(0, at));
+}
+
+}  // namespace
+
+Result<FileMatches> match_decided_files(const clash::Findings& findings, const model::Model& model,
+                                        const DecisionFile& decided,
+                                        std::span<const std::string> asked) {
+  FileContentsByLabel former = contents_of(decided), today = contents_of(findings, model);
+  if (former.empty()) add_asked(former, today, asked);
+  const RunFiles before = files_of(std::move(former));
+  RunFiles after = files_of(std::move(today));
+  const IdsByFile ids = ids_of(model);
+  after.has = [&](std::string_view label, std::string_view id) { return has(ids, label, id); };
+  const Result<std::vector<FilePair>> pairs = parse_file_pairs(asked, before, after);
+  if (!pairs) return pairs.error();
+  return match_files(before, after, *pairs);
+}
+
+DecidedKeys::DecidedKeys(const FileMatches& files, const model::Model& model,
+                         const DecisionFile& decided)
+    : model_(model),
+      files_(files),
+      ids_then_(files.by_label_alone() ? IdsByFile() : ids_of(decided)),
+      ids_now_(files.by_label_alone() ? IdsByFile() : ids_of(model)),
+      map_(
+          files,
+          [this](std::string_view label, std::string_view id) { return has(ids_then_, label, id); },
+          [this](std::string_view label, std::string_view id) {
+            return has(ids_now_, label, id);
+          }) {}
+
+Hash128 DecidedKeys::key(std::string_view test, const clash::Pair& pair) const {
+  const auto [a, b] = names_of(model_, pair);
+  return clash::pair_hash(test, a, b);
+}
+
+Hash128 DecidedKeys::former_key(std::string_view test, const clash::Pair& pair) const {
+  const auto [a, b] = names_of(model_, pair);
+  const std::string was_a = map_.label_in_other(Run::after, a.file_label, a.id),
+                    was_b = map_.label_in_other(Run::after, b.file_label, b.id);
+  return clash::pair_hash(test, {was_a, a.id}, {was_b, b.id});
+}
+
+bool DecidedKeys::has_label_of_another(const clash::Pair& pair) const {
+  const auto [a, b] = names_of(model_, pair);
+  return std::ranges::any_of(files_.matches, [&, one = a, other = b](const FileMatch& match) {
+    return match.before != match.after &&
+           (match.before == one.file_label || match.before == other.file_label);
+  });
+}
+
+std::optional<Decision> DecidedKeys::renamed(const Decision& row) const {
+  const auto key_of = [&row](const DecisionObject& a, const DecisionObject& b) {
+    return clash::pair_hash(row.test, {a.file, a.id}, {b.file, b.id});
+  };
+  if (is_identity() || key_of(row.a, row.b) != row.key) return std::nullopt;
+  Decision today = row;
+  for (DecisionObject* const side : {&today.a, &today.b}) {
+    side->file = map_.label_in_other(Run::before, side->file, side->id);
+    if (side->file.starts_with('\0')) return std::nullopt;
+  }
+  today.key = key_of(today.a, today.b);
+  return today.key == row.key ? std::nullopt : std::optional(std::move(today));
+}
+
+}  // namespace strake::report

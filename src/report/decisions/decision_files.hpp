@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "report/files/file_map.hpp"
+#include "strake/core/hash.hpp"
+#include "strake/core/result.hpp"
+#include "strake/report/decisions.hpp"
+#include "strake/report/file_match.hpp"
+
+namespace strake::report {
+
+/// Tells which file of a model had which name when decisions were made. Errors: usage, as of
+/// match_files() and parse_file_pairs().
+[[nodiscard]] Result<FileMatches> match_decided_files(const clash::Findings& findings,
+                                                      const model::Model& model,
+                                                      const DecisionFile& decided,
+                                                      std::span<const std::string> asked);
+
+/// Ids of objects by the labels of their files.
+using IdsByFile = std::map<std::string_view, std::set<std::string_view>>;
+
+/// Tells the key that a clash had when decisions were made, and that a row has today. The matches,
+/// the model and the decisions must outlive it.
+class DecidedKeys {
+ public:
+  DecidedKeys(const FileMatches& files, const model::Model& model, const DecisionFile& decided);
+  DecidedKeys(const DecidedKeys&) = delete;
+  DecidedKeys& operator=(const DecidedKeys&) = delete;
+
+  /// Whether all files have the names that they had.
+  [[nodiscard]] bool is_identity() const { return map_.is_identity(); }
+  [[nodiscard]] Hash128 former_key(std::string_view test, const clash::Pair& pair) const;
+  /// Returns the key of a clash today.
+  [[nodiscard]] Hash128 key(std::string_view test, const clash::Pair& pair) const;
+  /// Whether the label of one of the two was that of another file when decisions were made.
+  [[nodiscard]] bool has_label_of_another(const clash::Pair& pair) const;
+  /// Returns a row with the key and the labels of today, if they are others than it states, and if
+  /// it names what its key is made of.
+  [[nodiscard]] std::optional<Decision> renamed(const Decision& row) const;
+
+ private:
+  const model::Model& model_;
+  const FileMatches& files_;
+  IdsByFile ids_then_, ids_now_;
+  FileMap map_;
+};
+
+}  // namespace strake::report

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""decisions_test.py STRAKE: decisions about clashes, in a file that one edits and gives to the next run."""
+import csv
+import io
+import json
+import os
+import subprocess
+
+from scenario import Scenario, cube, main
+
+ROW = [(0, 0, 0), (80, 0, 0), (160, 0, 0), (240, 0, 0)]
+
+
+def cubes(places):
+    """An OBJ file of cubes c0, c1 and so on, 100 mm wide; in a row each is 20 mm in the next."""
+    return ''.join(cube(f'c{n}', n, at, 100) for n, at in enumerate(places))
+
+
+class Decisions(Scenario):
+    def setUp(self):
+        super().setUp()
+        self.write('row.obj', cubes(ROW))
+
+    def clash(self, *arguments, model='row.obj', exit_code=0):
+        done = self.run_strake('clash', model, '--unit', 'mm', *arguments)
+        self.assertEqual(done.returncode, exit_code, done.stderr)
+        return done
+
+    def decide(self, *statuses, name='decided.csv'):
+        """Writes the file of a run, with these statuses for its rows in their order."""
+        self.clash('--decisions', name, '--write-decisions')
+        path = self.folder / name
+        lines = path.read_bytes().decode().split('\r\n')
+        for number, status in enumerate(statuses, 1):
+            lines[number] = lines[number].replace(',new,,,', f',{status},Ann,2026-01-31,as agreed', 1)
+        path.write_bytes('\r\n'.join(lines).encode())
+        return self.rows(name)
+
+    def rows(self, name='decided.csv'):
+        return list(csv.DictReader(io.StringIO((self.folder / name).read_bytes().decode('utf-8-sig'))))
+
+    def told(self, *arguments, model='row.obj'):
+        return json.loads(self.clash('--decisions', 'decided.csv', '--json', *arguments, model=model).stdout)
+
+    def test_from_the_first_run_to_the_next(self):
+        rows = self.decide('approved', 'reviewed')
+        self.assertEqual([row['status'] for row in rows], ['approved', 'reviewed', 'new'])
+        self.assertEqual([(row['a_name'], row['b_name'], float(row['d_mm'])) for row in rows],
+                         [('c0', 'c1', -20), ('c1', 'c2', -20), ('c2', 'c3', -20)])
+        table = self.clash('--decisions', 'decided.csv').stdout
+        self.assertIn('2 hits, 0 contacts, 0 clearance violations, 1 approved\n'
+                      'decisions of decided.csv: 1 new, 0 active, 1 reviewed, 1 approved, 0 resolved\n', table)
+        self.assertRegex(table, r'(?m)^HIT +reviewed +-20[.]000 .* c1 +c2$')
+        self.assertNotRegex(table, r'(?m)^HIT .* c0 +c1$')
+        told = self.told()
+        self.assertEqual([r['decision'] for r in told['results']],
+                         [{'status': 'approved', 'by': 'Ann', 'date': '2026-01-31', 'comment': 'as agreed'},
+                          {'status': 'reviewed', 'by': 'Ann', 'date': '2026-01-31', 'comment': 'as agreed'},
+                          {'status': 'new'}])
+        plain = json.loads(self.clash('--json').stdout)
+        self.assertEqual(told['hash'], plain['hash'], 'decisions change no result')
+        self.assertEqual(told['tests'], plain['tests'])
+        before = (self.folder / 'decided.csv').read_bytes()
+        self.clash('--decisions', 'decided.csv', '--write-decisions')
+        self.assertEqual((self.folder / 'decided.csv').read_bytes(), before)
+
+    def test_approved_ones_stop_nothing_and_are_in_no_group(self):
+        self.decide('approved', 'approved', 'approved')
+        self.clash('--fail-on', 'hit', exit_code=1)
+        self.clash('--fail-on', 'hit', '--decisions', 'decided.csv')
+        text = self.clash('--decisions', 'decided.csv', '--group-by', 'element').stdout
+        self.assertTrue(text.startswith('0 hits, '), text)
+        self.decide('approved', 'approved', 'active', name='other.csv')
+        self.clash('--fail-on', 'hit', '--decisions', 'other.csv', exit_code=1)
+
+    def test_what_came_back_is_told(self):
+        self.decide('approved', 'resolved', 'approved')
+        self.write('row.obj', cubes([(1.5, 0, 0), *ROW[1:]]))
+        done = self.clash('--decisions', 'decided.csv', '--fail-on', 'hit', exit_code=1)
+        self.assertRegex(done.stdout, r'(?m)^HIT +deeper +-21[.]500 .* c0 +c1$')
+        self.assertRegex(done.stdout, r'(?m)^HIT +found again +-20[.]000 .* c1 +c2$')
+        self.assertIn('; approved, but deeper or nearer than they were: 1; resolved, but found again: 1\n', done.stdout)
+        self.assertIn('2 hits, ', done.stdout)
+        told = self.told('--deeper', '2mm')
+        self.assertEqual(told['decisions']['reopened'], {'deeper': 0, 'more_places': 0, 'found_again': 1})
+        self.assertEqual(told['decisions']['deeper_mm'], 2)
+
+    def test_what_is_mended_is_listed_and_keeps_its_row(self):
+        rows = self.decide('resolved', 'approved')
+        self.write('row.obj', cubes([(-50, 0, 0), *ROW[1:3], (245, 0, 0)]))
+        told = self.told()
+        self.assertEqual(told['decisions']['not_found'],
+                         [{'key': rows[0]['key'], 'status': 'resolved', 'by': 'Ann', 'date': '2026-01-31',
+                           'comment': 'as agreed'}])
+        self.assertIn('; no longer found: 1\n', self.clash('--decisions', 'decided.csv', '--write-decisions').stdout)
+        after = self.rows()
+        self.assertEqual(after[:2], rows[:2])
+        self.assertEqual(float(after[2]['d_mm']), -15, 'nobody had decided about it')
+
+    def test_a_class_limits_what_is_added_and_not_what_is_found(self):
+        self.clash('--class', 'contact', '--decisions', 'none.csv', '--write-decisions')
+        self.assertEqual(self.rows('none.csv'), [])
+        self.decide('approved')
+        text = self.clash('--class', 'contact', '--decisions', 'decided.csv').stdout
+        self.assertIn('2 hits (2 left out by class), 0 contacts, 0 clearance violations, 1 approved\n', text)
+        self.assertNotIn('no longer found', text)
+
+    def test_a_file_that_was_renamed(self):
+        rows = self.decide('approved', 'approved')
+        (self.folder / 'row.obj').rename(self.folder / 'row_revB.obj')
+        done = self.clash('--decisions', 'decided.csv', '--write-decisions', model='row_revB.obj')
+        self.assertIn('files are taken as renamed: row.obj -> row_revB.obj (4 of 4 ids in common)\n', done.stderr)
+        self.assertIn('1 hit, 0 contacts, 0 clearance violations, 2 approved\n', done.stdout)
+        after = self.rows()
+        self.assertEqual([row['status'] for row in after], [row['status'] for row in rows])
+        self.assertEqual({row[f'{side}_file'] for row in after for side in 'ab'}, {'row_revB.obj'})
+        done = self.clash('--decisions', 'decided.csv', model='row_revB.obj')
+        self.assertNotIn('renamed', done.stderr)
+        self.assertIn(', 2 approved\n', done.stdout)
+
+    def test_a_file_that_somebody_says_was_renamed(self):
+        rows = self.decide('approved')
+        self.write('own.csv', 'key;status\n' + rows[0]['key'] + ';Approved\n')
+        (self.folder / 'row.obj').rename(self.folder / 'n.obj')
+        run = ['--decisions', 'own.csv']
+        self.assertIn('no longer found: 1', self.clash(*run, model='n.obj').stdout)
+        self.assertIn(', 1 approved\n', self.clash(*run, '--match-files', 'row.obj=n.obj', model='n.obj').stdout)
+        done = self.clash(*run, '--match-files', 'row.obj=x.obj', model='n.obj', exit_code=2)
+        self.assertIn("--match-files: the ", done.stderr)
+
+    def test_the_forms_of_spreadsheets(self):
+        for form, separator in (('standard', ','), ('excel', ','), ('excel-comma', ';')):
+            with self.subTest(form):
+                run = ['--decisions', f'{form}.csv', '--write-decisions']
+                self.clash(*run, '--csv', form)
+                data = (self.folder / f'{form}.csv').read_bytes()
+                self.assertEqual(data.startswith(b'\xef\xbb\xbf'), form != 'standard')
+                self.assertIn(separator.join(('key', 'status', 'by', 'date')).encode(), data)
+                self.clash(*run)
+                self.assertEqual((self.folder / f'{form}.csv').read_bytes(), data)
+
+    def test_columns_of_others_stay(self):
+        rows = self.decide()
+        self.write('own.csv', f'Owner,key,status,note\n"A, B",{rows[0]["key"]},active,"say ""no"""\n\n')
+        self.clash('--decisions', 'own.csv', '--write-decisions')
+        text = (self.folder / 'own.csv').read_text()
+        self.assertTrue(text.startswith('Owner,key,status,note,by,date,comment,class,d_mm,'), text)
+        self.assertIn(f'\n"A, B",{rows[0]["key"]},active,"say ""no""",', text)
+        self.assertEqual([row['status'] for row in self.rows('own.csv') if row['key']], ['active', 'new', 'new'])
+
+    def test_a_link_and_a_mode_stay(self):
+        self.decide()
+        (self.folder / 'decided.csv').chmod(0o600)
+        (self.folder / 'link.csv').symlink_to('decided.csv')
+        self.write('row.obj', cubes([*ROW, (320, 0, 0)]))
+        self.assertIn('link.csv: 1 row added', self.clash('--decisions', 'link.csv', '--write-decisions').stderr)
+        self.assertTrue((self.folder / 'link.csv').is_symlink())
+        self.assertEqual(os.stat(self.folder / 'decided.csv').st_mode & 0o777, 0o600)
+        self.assertEqual(len(self.rows()), 4)
+
+    def test_a_file_that_somebody_saved_meanwhile_is_left_alone(self):
+        """The run has read the file when it opens its first output, a pipe, and waits at its second one until it is another."""
+        self.decide()
+        self.write('row.obj', cubes([*ROW, (320, 0, 0)]))
+        pipes = [self.folder / name for name in ('results.csv', 'pairs.csv')]
+        for pipe in pipes:
+            os.mkfifo(pipe)
+        path = self.folder / 'decided.csv'
+        saved = path.read_bytes().replace(b',new,', b',active,', 1)
+        before = self.files()
+        words = ['clash', 'row.obj', '--unit', 'mm', '--decisions', 'decided.csv', '--write-decisions',
+                 '-o', 'results.csv', '--log-pairs', 'pairs.csv']
+        with subprocess.Popen([self.STRAKE, *words], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True) as run:
+            pipes[0].read_bytes()
+            path.write_bytes(saved)
+            pipes[1].read_bytes()
+            _, told = run.communicate(timeout=100)
+        self.assertEqual(run.returncode, 3, told)
+        self.assertIn('decided.csv: was changed while the run went on, and is left as it is (run the test again)', told)
+        self.assertEqual(path.read_bytes(), saved)
+        self.assertEqual(self.files(), before)
+
+    def test_what_is_wrong_is_told_with_its_line(self):
+        key = '0' * 26
+        for text, told in ((f'key,status\n{key},done\n', "bad.csv, line 2: 'done' is no status"),
+                           (f'key,status,date\n{key},new,30.2.2026\n', "bad.csv, line 2: '30.2.2026' is no date"),
+                           (f'key,status\n{key},new\n{key},new\n', 'bad.csv, line 3: the key stands in line 2 already'),
+                           ('key,state\n', "bad.csv, line 1: has no column 'status'"), ('', 'bad.csv, line 1: is empty'),
+                           ('key,status\nabc,new\n', "bad.csv, line 2: 'abc' is no key")):
+            with self.subTest(told):
+                self.write('bad.csv', text)
+                done = self.clash('--decisions', 'bad.csv', '--write-decisions', exit_code=3)
+                self.assertIn(told, done.stderr)
+                self.assertEqual(done.stdout, '')
+                self.assertEqual((self.folder / 'bad.csv').read_text(), text)
+        done = self.clash('--decisions', 'missing.csv', exit_code=3)
+        self.assertIn('add --write-decisions, which makes it', done.stderr)
+
+    def test_what_does_not_go_together(self):
+        self.write('d.csv', 'key,status\n')
+        for arguments, told in ((['--write-decisions'], '--decisions'), (['--deeper', '1mm'], '--decisions'),
+                                (['--match-files', 'a=b'], '--decisions'),
+                                (['--decisions', 'd.csv', '-o', 'd.csv'], 'would be overwritten'),
+                                (['--decisions', 'd.csv', '--deeper', '-1mm'], '--deeper'),
+                                (['--decisions', 'd.txt', '--write-decisions'], '--decisions')):
+            with self.subTest(arguments=arguments):
+                self.assertIn(told, self.clash(*arguments, exit_code=2).stderr)
+        self.assertEqual((self.folder / 'd.csv').read_text(), 'key,status\n')
+        self.assertNotIn('d.txt', self.files())
+
+
+if __name__ == '__main__':
+    main()
