@@ -36,18 +36,20 @@ std::optional<std::string> date_of(std::string_view text) {
   const char between = text.find('.') == std::string_view::npos ? '-' : '.';
   const std::size_t first = text.find(between), last = text.rfind(between);
   if (first == std::string_view::npos || first == last) return std::nullopt;
-  std::array parts{digits(text.substr(0, first)), digits(text.substr(first + 1, last - first - 1)),
-                   digits(text.substr(last + 1))};
-  if (between == '.') std::swap(parts.front(), parts.back());
-  const auto& [year, month, day] = parts;
+  constexpr int kNone = -1;
+  int year = digits(text.substr(0, first)).value_or(kNone);
+  const int month = digits(text.substr(first + 1, last - first - 1)).value_or(kNone);
+  int day = digits(text.substr(last + 1)).value_or(kNone);
+  if (between == '.') std::swap(year, day);
   constexpr int kFirstYear = 1900, kLastYear = 9999;
-  if (!year || !month || !day || *year < kFirstYear || *year > kLastYear) return std::nullopt;
-  const std::chrono::year_month_day date(std::chrono::year(*year),
-                                         std::chrono::month(static_cast<unsigned>(*month)),
-                                         std::chrono::day(static_cast<unsigned>(*day)));
-  if (*month > 12 || *day > 31 || !date.ok()) return std::nullopt;
+  if (year < kFirstYear || year > kLastYear || month < 1 || month > 12 || day < 1 || day > 31)
+    return std::nullopt;
+  const std::chrono::year_month_day date(std::chrono::year(year),
+                                         std::chrono::month(static_cast<unsigned>(month)),
+                                         std::chrono::day(static_cast<unsigned>(day)));
+  if (!date.ok()) return std::nullopt;
   const auto two = [](int n) { return (n < 10 ? "-0" : "-") + std::to_string(n); };
-  return std::to_string(*year) + two(*month) + two(*day);
+  return std::to_string(year) + two(month) + two(day);
 }
 
 std::optional<DecisionStatus> status_of(std::string_view text) {

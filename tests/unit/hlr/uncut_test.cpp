@@ -160,7 +160,9 @@ TEST(Uncut, ObjectsAreLeftWithAllTheirBodies) {
   const hlr::Drawing drawing = draw(scene, seen_along_x(), {false, true});
   EXPECT_EQ(drawing.counters.uncut_objects, 1U);
   for (const EdgePiece& p : drawing.pieces)
-    if (is_of(p, 1)) EXPECT_NE(p.state, State::clipped);
+    if (is_of(p, 1)) {
+      EXPECT_NE(p.state, State::clipped);
+    }
 }
 
 TEST(Uncut, LimitsCutItAsEver) {
@@ -185,7 +187,9 @@ TEST(Uncut, HasALineWhereItStandsOutOfACutWithoutAHole) {
   EXPECT_NEAR(on_the_cut, 2 * 100, 1e-3);
   // Beyond the plane there is no block to meet.
   for (const EdgePiece& p : drawing.pieces)
-    if (p.kind == EdgeKind::intersection) EXPECT_LE(std::max(p.a.x, p.b.x), 50 * kMm + 1);
+    if (p.kind == EdgeKind::intersection) {
+      EXPECT_LE(std::max(p.a.x, p.b.x), 50 * kMm + 1);
+    }
   EXPECT_EQ(length_mm(draw(block_and_bolt(), view, {false, true},
                            {.intersections = hlr::Intersections::off}),
                       [](const EdgePiece& p) { return p.kind == EdgeKind::intersection; }),

@@ -114,10 +114,13 @@ TEST(Occupancy, NeverCallsABoxFreeThatALineTouches) {
     occupied.finish();
     const double x = draw.between(1, 88), y = draw.between(1, 73);
     const PaperBox box{x, y, x + draw.between(0.1, 10), y + draw.between(0.1, 5)};
-    if (clipped(line, widened(box, kClearanceMm))) EXPECT_FALSE(occupied.is_free(box)) << round;
+    if (clipped(line, widened(box, kClearanceMm))) {
+      EXPECT_FALSE(occupied.is_free(box)) << round;
+    }
     // Nor is what lies far from the line taken.
-    if (!clipped(line, widened(box, kClearanceMm + 2.5)))
+    if (!clipped(line, widened(box, kClearanceMm + 2.5))) {
       EXPECT_TRUE(occupied.is_free(box)) << round;
+    }
   }
 }
 
@@ -232,8 +235,9 @@ TEST(Labels, OfAnyCrowdCoverNothingAndAreTheSameAgain) {
     EXPECT_LT(f.without, places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
       ASSERT_EQ(places[i].has_value(), again[i].has_value());
-      if (places[i]) EXPECT_EQ(places[i]->at, again[i]->at);
-      if (places[i]) EXPECT_TRUE(paper.room.takes(places[i]->box));
+      if (!places[i]) continue;
+      EXPECT_EQ(places[i]->at, again[i]->at);
+      EXPECT_TRUE(paper.room.takes(places[i]->box));
     }
   }
 }
