@@ -31,8 +31,9 @@ Box3l box_of(const Segment& line) {
   return box;
 }
 
+/// Returns whether an edge lies inside a face, or is none. The rim of a sheet does not.
 bool is_within_face(const geometry::Part& part, std::span<const std::uint32_t> triangles) {
-  if (part.faces.empty() || triangles.empty()) return triangles.empty();
+  if (part.faces.empty() || triangles.size() < 2) return triangles.empty();
   const std::uint32_t face = part.faces[triangles[0]];
   return face != geometry::kNoIndex &&
          std::ranges::all_of(triangles, [&](std::uint32_t t) { return part.faces[t] == face; });

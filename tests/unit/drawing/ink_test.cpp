@@ -159,7 +159,7 @@ TEST(Ink, PensAreALineGroupOfTheStandard) {
   };
   EXPECT_DOUBLE_EQ(pens_on(841, 594, 10).edge, 0.7);  // A1
   EXPECT_DOUBLE_EQ(pens_on(594, 420, 10).edge, 0.5);  // A2
-  EXPECT_DOUBLE_EQ(pens_on(297, 420, 10).edge, 0.5);
+  EXPECT_DOUBLE_EQ(pens_on(420, 297, 10).edge, 0.5);
   for (const double width : {1189.0, 594.0})
     for (const double step : {10.0, 1.0, 0.8, 0.6, 0.1}) {
       const Pens pens = pens_on(width, width * 0.7, step);

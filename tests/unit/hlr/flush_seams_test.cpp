@@ -294,13 +294,13 @@ TEST(FlushSeams, AreFoundHoweverTheModelStands) {
     };
     const test::HandPart wide = turned(box({0, 0, 0}, {1000, 1000, 20}));
     const test::HandPart narrow = turned(box({1000, 150, 0}, {1600, 850, 20}));
-    const double all =
-        length_mm(draw(scene_of({wide, narrow}), true), [](const EdgePiece&) { return true; });
+    // Rounding makes intersections as well, which go with the seams along which they run.
+    const Is edge = [](const EdgePiece& p) { return p.kind != EdgeKind::intersection; };
+    const double all = length_mm(draw(scene_of({wide, narrow}), true), edge);
     const hlr::Drawing drawing = without_seams(scene_of({wide, narrow}));
     // Both edges of the upper and of the lower joint, over the width of the narrow plate.
-    EXPECT_NEAR(all - length_mm(drawing, [](const EdgePiece&) { return true; }), 4 * 700, 0.1)
-        << "round " << round;
-    EXPECT_EQ(drawing.counters.seams, 4U) << "round " << round;
+    EXPECT_NEAR(all - length_mm(drawing, edge), 4 * 700, 0.1) << "round " << round;
+    EXPECT_GE(drawing.counters.seams, 4U) << "round " << round;
   }
 }
 

