@@ -67,6 +67,7 @@ void OccluderBuilder::add_wide(std::uint32_t t, OccluderPolygons& out) {
   }
   OccluderPolygon& p = start(i[0], out);
   p.wide = static_cast<std::int32_t>(out.wide_normals.size());
+  p.back = facing < 0;
   p.edge_on = seen_.find_edge_on && may_be_edge_on(seen_.part, t, seen_.viewer.direction);
   out.wide_normals.push_back(n);
   add_corners(p, i, out);
@@ -90,6 +91,7 @@ void OccluderBuilder::add_found(std::uint32_t t, OccluderPolygons& out) {
   OccluderPolygon& p = start(loops_.found()[0], out);
   p.normal = seen_.towards_viewer(t);
   p.edge_on = seen_.planes[t].edge_on;
+  p.back = seen_.planes[t].facing < 0;
   add_corners(p, loops_.found(), out);
 }
 

@@ -27,6 +27,7 @@ struct OccluderPolygon {
   ViewBox box;
   geometry::Vec3i at;                    ///< a corner
   bool edge_on = false;                  ///< edge-on but for rounding: see may_be_edge_on()
+  bool back = false;                     ///< its triangles are wound clockwise to the viewer
   std::array<std::int64_t, 3> normal{};  ///< points to the viewer's side; unused where wide >= 0
   std::int32_t wide = -1;                ///< index into OccluderPolygons::wide_normals
   std::uint32_t first_corner = 0, corners = 0;

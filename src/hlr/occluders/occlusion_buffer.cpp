@@ -10,7 +10,8 @@
 namespace strake::hlr {
 namespace {
 
-constexpr float kNothing = -std::numeric_limits<float>::infinity();
+constexpr float kEndless = std::numeric_limits<float>::infinity();
+constexpr float kNothing = -kEndless;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostAcross = 4096;
 constexpr std::size_t kBandRows = 64;
@@ -29,9 +30,11 @@ double as_double(std::int64_t x) { return static_cast<double>(x); }
 /// A polygon of a body, or the outline of a convex part of it, whose box holds a tile or more.
 struct Large {
   const OccluderPolygon* polygon = nullptr;
-  const OccluderPart* convex = nullptr;  ///< the part, where the polygon is its outline
   std::uint32_t body = 0;
-  double v0 = 0, v1 = 0;
+  std::uint32_t convex = kNoPart;  ///< the part of the shape, where the polygon is its outline
+  float v0 = 0, v1 = 0;            ///< rounded outwards; there are millions of these
+
+  static constexpr std::uint32_t kNoPart = 0xffffffffU;
 };
 
 /// How the depth of a plane changes on paper, and how far behind it a point must lie.
@@ -117,15 +120,23 @@ class OcclusionBuffer::Painter {
     if (placed.shape == nullptr || !placed.opaque || placed.cut || placed.repeated ||
         !large(placed.shape->box))
       return;
-    const auto add = [&](const OccluderPolygon& polygon, const OccluderPart* convex) {
-      out.push_back({&polygon, convex, body, as_double(polygon.box.lo.v + placed.at.v),
-                     as_double(polygon.box.hi.v + placed.at.v)});
+    const auto add = [&](const OccluderPolygon& polygon, std::uint32_t convex) {
+      const auto lo = static_cast<float>(polygon.box.lo.v + placed.at.v);
+      const auto hi = static_cast<float>(polygon.box.hi.v + placed.at.v);
+      out.push_back(
+          {&polygon, body, convex, std::nextafter(lo, -kEndless), std::nextafter(hi, kEndless)});
     };
-    for (const OccluderPolygon& polygon : placed.shape->polygons)
-      if (large(polygon.box) && !polygon.edge_on) add(polygon, nullptr);
-    for (const OccluderPart& part : placed.shape->parts)
-      if (part.has_outline && part.last - part.first > 1 && large(part.outline.box))
-        add(part.outline, &part);
+    const ProjectedShape& shape = *placed.shape;
+    for (std::uint32_t p = 0; p < shape.parts.size(); ++p) {
+      const OccluderPart& part = shape.parts[p];
+      const bool outline = part.has_outline && part.last - part.first > 1 && large(part.box);
+      if (outline) add(part.outline, p);
+      // What the back of a convex part covers its outline covers as well.
+      for (std::uint32_t i = part.first; i < part.last; ++i)
+        if (const OccluderPolygon& polygon = shape.polygons[i];
+            large(polygon.box) && !polygon.edge_on && !(outline && polygon.back))
+          add(polygon, Large::kNoPart);
+    }
   }
 
   void paint(std::span<const Large> all, std::size_t first_row, std::size_t last_row) const {
@@ -172,12 +183,13 @@ class OcclusionBuffer::Painter {
   /// Returns the plane of a polygon; of an outline, the level of the part's farthest corner.
   [[nodiscard]] DepthPlane plane_of(const Large& large) const {
     const BodyInstance& placed = placed_[large.body];
-    if (large.convex == nullptr)
+    if (large.convex == Large::kNoPart)
       return {projection_(large.polygon->at.as<std::int64_t>()) + placed.at,
               planes_.of(placed.shape->normal(*large.polygon))};
+    const OccluderPart& part = placed.shape->parts[large.convex];
     ViewPoint at = placed.at;
-    at.w += large.convex->farthest;
-    return {at, {.behind = planes_.contact() * large.convex->deep_per_contact}};
+    at.w += part.farthest;
+    return {at, {.behind = planes_.contact() * part.deep_per_contact}};
   }
 
   /// Returns the open interval of a polygon at height v, shortened by the bound of rounding.
