@@ -466,15 +466,19 @@ class Drawer {
   void run_edges(const EdgeRange& item, std::vector<EdgePiece>& out) {
     const auto& edges = visibility_.placed[item.body].shape->edges;
     const bool hidden = gatherer_.hides_item();
+    bool spared = false;
     const std::size_t first = out.size();
     for (std::uint32_t i = item.first; i < item.last; ++i) {
-      if (hidden && !edges[i].edge.projecting && !edges[i].edge.cut_away)
+      const FeatureEdge& edge = edges[i].edge;
+      const bool spares_own = visibility_.job.spares_own(edge.kind);
+      spared = spared || spares_own;
+      if (hidden && !spares_own && !edge.projecting && !edge.cut_away)
         skip_covered();
       else
         draw(EdgeQuery(visibility_, item.body, edges[i]), item.number + (i - item.first), out);
     }
     // They need no memory until leave_out_hidden_objects() would remove them.
-    if (hidden && item.whole && gatherer_.work.left_out > 0)
+    if (hidden && !spared && item.whole && gatherer_.work.left_out > 0)
       out.erase(out.begin() + static_cast<std::ptrdiff_t>(first), out.end());
   }
 

@@ -31,8 +31,9 @@ class OccluderGatherer {
   /// Announces that the next queries are for the edges of an item, which must outlive them.
   void start(const EdgeRange& item);
 
-  /// Returns whether the occlusion buffer hides every edge of the item that is no point on paper
-  /// and not cut away. It decides nothing where it matters who hides what.
+  /// Returns whether the occlusion buffer hides every edge of the item that is no point on paper,
+  /// not cut away and not seen through its own object. It decides nothing where it matters who
+  /// hides what.
   [[nodiscard]] bool hides_item() const;
 
   /// Returns whether the intervals that intervals() returned last leave nothing to be seen. False

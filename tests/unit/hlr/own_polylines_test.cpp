@@ -78,6 +78,24 @@ TEST(OwnPolylines, ByDefaultAreSeenThroughTheirObject) {
     EXPECT_EQ(states(box_of({}), at_height(z), {}), States{State::visible}) << z;
 }
 
+TEST(OwnPolylines, ByDefaultAreSeenWhereHiddenLinesAreLeftOut) {
+  // The occlusion buffer holds the faces of their object as well. The body has no other edges.
+  const hlr::View from_above{.direction = {0, 0, 1}, .limits = {}};
+  for (const hlr::View& view : {from_above, iso()})
+    for (const std::int32_t z : {kSide / 4, kMiddle, kSide - 100}) {
+      test::SceneBuilder scene;
+      scene.object({{.parts = {box_of({})}, .origin = {}},
+                    {.parts = {wires({at_height(z)})}, .origin = {}}});
+      const auto pieces = polyline_pieces(scene, view, {.hidden = false});
+      ASSERT_EQ(pieces.size(), 1U) << z;
+      EXPECT_EQ(pieces[0].state, State::visible) << z;
+      EXPECT_TRUE(
+          polyline_pieces(scene, view, {.own_polylines = OwnPolylines::hidden, .hidden = false})
+              .empty())
+          << z;
+    }
+}
+
 TEST(OwnPolylines, AreHiddenInsideBehindAndOnTheBackIfAskedFor) {
   for (const hlr::View& view : {iso(), from_an_eye()})
     for (const std::int32_t z : {-kSide / 4, 0, kMiddle})
