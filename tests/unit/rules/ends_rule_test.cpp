@@ -211,7 +211,9 @@ TEST(RulesEnds, FaultsNamePlaceCauseAndMend) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"ends_within = '2m'", "'ends_within' of [[connected]] 'x' is more than a metre"},
       {"ends_within = 5", "a length with its unit in quotes"},
-      {"ends_within = '-5mm'", "is negative"},
+      {"ends_within = '-5mm'", "'ends_within' of [[connected]] 'x' is negative"},
+      {"ends_within = '-5mm'", "from 0 to 1m, as \"5mm\""},
+      {"ends_within = '2km'", "from 0 to 1m, as \"5mm\""},
       {"ends_within = '5mm'\nhead = 'HREF'", "'ends_within' and 'head' in one [[connected]]"},
       {"ends_within = '5mm'\nby = 'node'", "write two tables, each with a name"},
       {"", "or ends_within = \"5mm\""},
