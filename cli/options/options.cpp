@@ -104,8 +104,8 @@ void add_input_options(CLI::App& command, InputOptions& options) {
   command
       .add_flag(
           "--strict", options.strict,
-          "Exit code 4 when anything was skipped or, in clash, a set is empty or a pair was not "
-          "compared")
+          "Exit code 4 when anything was skipped or, in clash, a set is empty, a pair was not "
+          "compared, or a clearance lacks its attribute or a length there")
       ->group("Input");
 }
 

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,7 +13,6 @@
 #include "core/text_encoding.hpp"
 #include "core/units.hpp"
 #include "model/attributes.hpp"
-#include "rules/rule_context.hpp"
 
 namespace strake::rules {
 namespace {
@@ -85,6 +87,43 @@ Error twice(std::string_view text, const char* what) {
 /// Whether it is a length that a clearance may have.
 bool is_clearance(const std::optional<double>& mm) { return mm && *mm >= 0 && *mm <= kLongestMm; }
 
+/// Values of an attribute that are no lengths.
+class OddValues {
+ public:
+  void add(std::string_view value, const model::Object& object) {
+    if (first_ == nullptr) first_ = &object;
+    if (std::exchange(last_, &object) != &object) ++objects_;
+    ++uses_[value];
+  }
+
+  void report(const std::string& attribute, Diagnostics& diagnostics) const {
+    if (first_ == nullptr) return;
+    diagnostics.add(
+        Severity::warning, kNotALength,
+        "the attribute " + in_quotes(attribute) + " of " + std::to_string(objects_) +
+            (objects_ == 1 ? " object" : " objects") +
+            " is no length from 0 to 1km and adds nothing to the clearance: " + values(),
+        first_->id);
+  }
+
+ private:
+  /// Returns the values with the most uses, and how many more there are.
+  [[nodiscard]] std::string values() const {
+    constexpr std::size_t kMost = 5;
+    std::vector<std::pair<std::string_view, std::uint64_t>> all(uses_.begin(), uses_.end());
+    std::ranges::stable_sort(all, std::ranges::greater{}, [](const auto& v) { return v.second; });
+    std::string out;
+    for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
+      out += (i == 0 ? "" : ", ") + in_quotes(all[i].first) + " (" + std::to_string(all[i].second) +
+             ")";
+    return all.size() > kMost ? out + " and " + std::to_string(all.size() - kMost) + " more" : out;
+  }
+
+  std::map<std::string_view, std::uint64_t> uses_;
+  const model::Object *first_ = nullptr, *last_ = nullptr;
+  std::uint64_t objects_ = 0;
+};
+
 }  // namespace
 
 Result<WrittenClearance> parse_clearance(std::string_view text) {
@@ -114,6 +153,7 @@ std::shared_ptr<const clash::ObjectClearances> object_clearances(const model::Mo
   clearances->attribute = attribute;
   clearances->mm.assign(model.objects.size(), 0);
   bool some = false;
+  OddValues odd;
   for (std::size_t o = 0; o < model.objects.size(); ++o)
     for (const std::string_view value : model::values_of(model, model.objects[o], attribute)) {
       const std::optional<double> mm = model::length_of_value_mm(value);
@@ -121,13 +161,11 @@ std::shared_ptr<const clash::ObjectClearances> object_clearances(const model::Mo
       if (is_clearance(mm))
         clearances->mm[o] = std::max(clearances->mm[o], *mm);
       else
-        diagnostics.add(Severity::warning, "clearance-not-a-length",
-                        "the attribute " + in_quotes(attribute) + " is " + in_quotes(value) +
-                            ", no length from 0 to 1km; it adds nothing to the clearance",
-                        model.objects[o].id);
+        odd.add(value, model.objects[o]);
     }
+  odd.report(attribute, diagnostics);
   if (!some)
-    diagnostics.add(Severity::warning, kMatchesNothing,
+    diagnostics.add(Severity::warning, kNoSuchAttribute,
                     "no object has the attribute " + in_quotes(attribute) +
                         ", so it adds nothing to any clearance",
                     where);

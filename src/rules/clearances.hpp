@@ -14,6 +14,10 @@
 /// of their insulation.
 namespace strake::rules {
 
+// The codes of warnings about clearances that get less than they ask for.
+inline constexpr std::string_view kNotALength = "clearance-not-a-length",
+                                  kNoSuchAttribute = "clearance-attribute-missing";
+
 /// A clearance as written: "25mm", "@INSU", "@INSU + 25mm", "25mm + @'Insulation thickness'".
 struct WrittenClearance {
   double mm = 0;
@@ -24,9 +28,9 @@ struct WrittenClearance {
 [[nodiscard]] Result<WrittenClearance> parse_clearance(std::string_view text);
 
 /// Returns what each object adds: the longest of the lengths that it states as the attribute or
-/// inherits, 0 where it states none. Each value that is no length from 0 to a kilometre is a
-/// warning ("clearance-not-a-length"), and adds nothing; that no object adds anything is one at
-/// `where` ("rule-matches-nothing").
+/// inherits, 0 where it states none. Values that are no length from 0 to a kilometre add nothing
+/// and are one warning of code kNotALength, at the first object that has one; that no object has
+/// the attribute is one of code kNoSuchAttribute at `where`.
 [[nodiscard]] std::shared_ptr<const clash::ObjectClearances> object_clearances(
     const model::Model& model, const std::string& attribute, const std::string& where,
     Diagnostics& diagnostics);

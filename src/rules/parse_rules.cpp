@@ -329,10 +329,13 @@ class RulesParser {
   std::optional<double> ends_within(TableReader& table) {
     const Value* const value = table.value("ends_within");
     if (value == nullptr) return std::nullopt;
-    const double within = table.tolerance_mm("ends_within").value_or(0);
-    if (within > kFarthestEndsMm)
-      reading_.fault(value->at, "'ends_within' of " + table.what() + " is more than a metre",
-                     "write how far apart the ends of a joint are at most, as \"5mm\"");
+    const double within = table.length_mm(*value, "ends_within").value_or(0);
+    if (within < 0 || within > kFarthestEndsMm)
+      reading_.fault(value->at,
+                     "'ends_within' of " + table.what() + " is " +
+                         (within < 0 ? "negative" : "more than a metre"),
+                     "write how far apart the ends of a joint are at most, from 0 to 1m, as "
+                     "\"5mm\"");
     for (const std::string_view key :
          {"attributes", "head", "tail", "by", "inherited", "groups", "separator"})
       if (table.value(key) != nullptr)

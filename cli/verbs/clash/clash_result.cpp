@@ -16,6 +16,7 @@
 
 #include "cli/options/options.hpp"
 #include "cli/output/console.hpp"
+#include "rules/clearances.hpp"
 #include "strake/core/diagnostics.hpp"
 
 namespace strake::cli {
@@ -218,10 +219,34 @@ std::vector<std::string> empty_disciplines(const clash::Findings& findings) {
   return empty;
 }
 
+/// Returns in words why clearances from an attribute are less than they ask for.
+std::vector<std::string> lowered_clearances(const clash::Findings& findings) {
+  std::vector<std::string> lowered;
+  for (const Diagnostic& told : findings.all_diagnostics().kept())
+    if (told.code == rules::kNotALength || told.code == rules::kNoSuchAttribute)
+      lowered.push_back(told.message);
+  return lowered;
+}
+
 /// Returns the only name, or of several the first and how many there are.
 std::string first_of(const std::vector<std::string>& names) {
   return names.size() == 1 ? names.front()
                            : fmt::format("{}, first of {}", names.front(), names.size());
+}
+
+/// Whether --strict stops at what was compared; prints why where standard output does not show it.
+bool stops_strict(const clash::Findings& findings, const std::vector<std::string>& empty_tests,
+                  Console& console) {
+  bool stops = findings.all_diagnostics().skipped() > 0;
+  const auto stop_at = [&](const char* what, const std::vector<std::string>& reasons) {
+    if (reasons.empty()) return;
+    stops = true;
+    console.warn(fmt::format("--strict: {}: {}", what, first_of(reasons)));
+  };
+  stop_at("nothing was compared", empty_tests);
+  stop_at("not everything was compared", empty_disciplines(findings));
+  stop_at("not every clearance is as large as it was asked for", lowered_clearances(findings));
+  return stops;
 }
 
 }  // namespace
@@ -258,15 +283,7 @@ ExitCode clash_exit_code(const clash::Findings& findings, const FailingPairs& fa
       console.warn(fmt::format("--fail-on {}: nothing was compared: {}", fail_on, first_of(tests)));
     if (fails || !tests.empty() || !rest.empty()) return ExitCode::check_failed;
   }
-  if (input.strict) {
-    if (!tests.empty())
-      console.warn(fmt::format("--strict: nothing was compared: {}", first_of(tests)));
-    const std::vector<std::string> disciplines = empty_disciplines(findings);
-    if (!disciplines.empty())
-      console.warn(fmt::format("--strict: not everything was compared: {}", first_of(disciplines)));
-    if (!tests.empty() || !disciplines.empty() || findings.all_diagnostics().skipped() > 0)
-      return ExitCode::partial;
-  }
+  if (input.strict && stops_strict(findings, tests, console)) return ExitCode::partial;
   return strict_exit_code(input, loaded);
 }
 

@@ -63,7 +63,8 @@ struct FailingPairs {
 /// The code is `check_failed` where a result is, or may be as far as its brackets tell, of the
 /// class of --fail-on or a worse one, where a pair was not compared, where a file ends early and
 /// where a test compared nothing, as a set of it is empty. Else it is `partial` where --strict is
-/// given and something was skipped, or a set or a discipline that a matrix checks is empty.
+/// given and something was skipped, a set or a discipline that a matrix checks is empty, or a
+/// clearance got less than its attribute asks for.
 [[nodiscard]] ExitCode clash_exit_code(const clash::Findings& findings, const FailingPairs& failing,
                                        const std::string& fail_on, const InputOptions& input,
                                        const Loaded& loaded, Console& console);

@@ -7,14 +7,14 @@
 
 namespace strake::clash {
 
-/// Which of its results a test reports. The others are counted (Report::not_reported). What is not
-/// certain is reported: a result flagged kUncertain whatever its relation, and a hit whose common
-/// volume may be as large as asked for, or is not known.
+/// Which of its results a test reports, allowed or not. The others are counted
+/// (Report::not_reported). What is not certain is reported: a result flagged kUncertain whatever
+/// its relation, and a hit whose common volume may be as large as asked for, or is not known.
 struct Reporting {
   /// A pair is reported where it, or any two parts of it, stand so to each other; empty: however
   /// they do.
   RelationSet relations = {};
-  double min_volume_mm3 = 0;  ///< hits with less in common are not reported; 0: all are
+  double min_volume_mm3 = 0;  ///< hits with less in common, allowed or not, are not reported
 
   [[nodiscard]] bool leaves_out() const { return !relations.empty() || min_volume_mm3 > 0; }
 };

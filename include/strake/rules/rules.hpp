@@ -57,7 +57,8 @@ struct Plan {
   std::vector<PlannedTest> tests;  ///< the enabled tests, in the order of the file
   /// The codes are "rule-matches-nothing" (a rule or a set, by name), "rule-shadowed" (it picks
   /// objects, but earlier ones leave it none), "in-several-disciplines", "in-no-discipline",
-  /// "unit-not-a-number", "obstruction-not-known", "clearance-not-a-length".
+  /// "unit-not-a-number", "obstruction-not-known", "clearance-not-a-length",
+  /// "clearance-attribute-missing".
   Diagnostics diagnostics;
   /// The rules that exempt or allow, and match objects; idle_rules() tells which of them do
   /// nothing.

@@ -37,7 +37,7 @@ class Reported {
     if (!has_relation(pair)) return Fate::by_relation;
     const CommonVolume* const common = results_.found[pair.first_region].common;
     if (!(reporting_.min_volume_mm3 > 0) || common == nullptr) return Fate::reported;
-    if (pair.cls != Class::hit || pair.allowed >= 0) return Fate::reported;
+    if (pair.cls != Class::hit) return Fate::reported;  // an allowed hit goes by its volume as well
     if (common->is_less_than(reporting_.min_volume_mm3)) return Fate::by_volume;
     return common->may_be_less_than(reporting_.min_volume_mm3) ? Fate::volume_open : Fate::reported;
   }

@@ -184,7 +184,8 @@ class MeshEnds {
 
   void add(const Circle& circle, const Vec3d& outward, std::vector<MeshEnd>& ends) const {
     const Vec3d& c = circle.centre;
-    ends.push_back({{std::llround(c.x), std::llround(c.y), std::llround(c.z)}, outward});
+    const geometry::Vec3l at{std::llround(c.x), std::llround(c.y), std::llround(c.z)};
+    ends.push_back({at, outward, reach_behind(part_, at, outward)});
   }
 
   /// Adds a face if it is plane and all its outlines are circles about one centre.
@@ -230,6 +231,13 @@ class MeshEnds {
 };
 
 }  // namespace
+
+double reach_behind(const Part& part, const geometry::Vec3l& at, const Vec3d& normal) {
+  double reach = 0;
+  for (const auto& vertex : part.vertices)
+    reach = std::max(reach, dot((at - vertex.as<std::int64_t>()).as<double>(), normal));
+  return reach;
+}
 
 std::vector<MeshEnd> ends_of(const Part& part, double off) { return MeshEnds(part, off).run(); }
 

@@ -11,7 +11,12 @@ namespace strake::model {
 struct MeshEnd {
   geometry::Vec3l centre;
   geometry::Vec3d outward;  ///< a unit vector
+  double reach = 0;         ///< reach_behind() of its part
 };
+
+/// Returns how far a part extends behind a plane, along its unit normal; 0 if nothing is behind it.
+[[nodiscard]] double reach_behind(const geometry::Part& part, const geometry::Vec3l& at,
+                                  const geometry::Vec3d& normal);
 
 /// Returns the ends of a faceted pipe, as far as a mesh tells them: of a solid, its plane faces
 /// that a circle bounds, with concentric circles in them as the cap of a tube has; of an open

@@ -7,6 +7,7 @@
 
 #include "core/number.hpp"
 #include "core/text_encoding.hpp"
+#include "report/text/columns.hpp"
 #include "report/text/formatting.hpp"
 #include "strake/report/clash_diff.hpp"
 
@@ -75,21 +76,42 @@ class Origin {
   bool tests_ = false, files_ = false;
 };
 
+/// How the rows of a block fit the terminal.
+struct RowLayout {
+  std::size_t names = 0;  ///< columns for each of the two
+  bool beside = true;     ///< whether what became of the result stands behind them, else below
+};
+
+/// Returns the layout of rows of which the text behind the names is at most so wide.
+RowLayout layout_of(std::size_t widest, std::size_t width) {
+  constexpr std::size_t kLeast = 8, kChange = 34, kGaps = 6;
+  const auto names = [&](std::size_t taken) {
+    return std::max(kLeast, (width - std::min(width, taken)) / 2);
+  };
+  if (kGaps + 2 * kLeast + widest > width) return {names(kGaps - 2), false};
+  return {names(kGaps + std::max(kChange, widest)), true};
+}
+
 std::string block(std::string_view title, const ClashDiff& diff, const std::vector<DiffEntry>& list,
                   const TableOptions& options, std::string_view of = {}) {
   if (list.empty()) return {};
-  constexpr std::size_t kLeast = 8, kChange = 34;
-  const std::size_t room = options.width > kChange + 6 ? (options.width - kChange - 6) / 2 : kLeast;
-  const std::size_t names = std::max(kLeast, room);
   std::string out = std::string(title) + " (" + std::to_string(list.size()) + ")\n";
   const std::size_t shown = std::min(options.rows, list.size());
   const Origin origin(diff);
+  std::vector<std::string> said;
+  std::size_t widest = 0;
+  for (std::size_t i = 0; i < shown; ++i) {
+    said.push_back(change(diff, list[i]) + origin.text(list[i]));
+    widest = std::max(widest, columns_in(said.back()));
+  }
+  const RowLayout layout = layout_of(widest, options.width);
   for (std::size_t i = 0; i < shown; ++i) {
     const ClashDocument& run = diff.run_of(list[i]);
     const DocumentResult& r = list[i].either();
-    out += "  " + fit_to_columns(label(run.a(r)), names) + "  " +
-           fit_to_columns(label(run.b(r)), names) + "  " + change(diff, list[i]) +
-           origin.text(list[i]) + "\n";
+    const std::string names = "  " + fit_to_columns(label(run.a(r)), layout.names) + "  " +
+                              fit_to_columns(label(run.b(r)), layout.names);
+    out += layout.beside ? names + "  " : ended(names) + "      ";
+    out += said[i] + "\n";
     const bool same_reason = i > 0 && list[i].why == list[i - 1].why;
     if (!list[i].why.empty() && !same_reason)
       out += "      " + std::string(of) + printable(list[i].why) + "\n";

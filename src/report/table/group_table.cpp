@@ -92,13 +92,15 @@ void move_places(std::vector<GroupRow>& rows) {
   }
 }
 
-/// Cuts names that are wider than the terminal; returns whether they stand behind the numbers. Else
-/// they stand below them, and the places with them where even the numbers are too wide.
-bool fit_names(std::vector<GroupRow>& rows, std::vector<std::string>& names, bool place,
-               std::size_t width) {
+/// Cuts names that are wider than the terminal; returns whether they, and the heading above them,
+/// stand behind the numbers. Else they stand below them, and the places with them where even the
+/// numbers are too wide.
+bool fit_names(std::vector<GroupRow>& rows, std::vector<std::string>& names,
+               std::string_view heading, bool place, std::size_t width) {
   const std::size_t taken = aligned(rows).front().size();
   const std::size_t room = width - std::min(width, taken);
-  if (room >= std::min(widest_of(names), kLeastBeside)) {
+  const std::size_t wanted = std::max(widest_of(names), columns_in(heading));
+  if (room >= std::min(wanted, kLeastBeside)) {
     names = cut_apart(names, room_behind(taken, width));
     return true;
   }
@@ -121,14 +123,16 @@ std::string group_table(const clash::Grouping& grouping, const TableOptions& opt
   for (const clash::Group& group : groups) rows.push_back(row_of(group, place));
   std::string lead;
   std::vector<std::string> names = names_of(groups, lead);
-  const bool beside = fit_names(rows, names, place, options.width);
-  names.insert(names.begin(), std::string(name(grouping.rules.by)));
+  const std::string_view heading = name(grouping.rules.by);
+  const bool beside = fit_names(rows, names, heading, place, options.width);
+  names.emplace(names.begin(), heading);
   const std::vector<std::string> lines = aligned(rows);
   std::string out;
   if (!lead.empty()) out = std::string(kLeadMark) + " stands for " + printable(lead) + "\n";
   for (std::size_t r = 0; r < rows.size(); ++r) {
-    const std::string below = std::string(kGroupIndent, ' ') + rows[r].place + names[r];
-    out += beside ? ended(lines[r] + names[r]) : ended(lines[r]) + ended(below);
+    const std::string below = rows[r].place + names[r];
+    out += ended(beside ? lines[r] + names[r] : lines[r]);
+    if (!beside && !below.empty()) out += ended(std::string(kGroupIndent, ' ') + below);
   }
   if (shown < all) {
     const std::size_t more = all - shown;

@@ -70,10 +70,24 @@ class Clearance(Ruled):
         self.assertEqual(self.pairs('odd.gltf', '--clearance', '@INSU'), {'b-c'})
         lines = [line for line in self.told.splitlines() if 'clearance-not-a-length' in line]
         self.assertEqual(len(lines), 1, self.told)
-        self.assertIn("first of 2", lines[0])
-        self.assertIn("the attribute 'INSU' is 'as of spec 7', no length from 0 to 1km", lines[0])
+        self.assertIn("the attribute 'INSU' of 2 objects is no length from 0 to 1km and adds nothing to the clearance: "
+                      "'as of spec 7' (2)", lines[0])
         self.report('odd.gltf', '--clearance', '@LAGGING')
         self.assertIn("--clearance: no object has the attribute 'LAGGING'", self.told)
+
+    def test_strict_stops_where_a_clearance_lacks_a_length(self):
+        self.write('odd.gltf', gltf(('ODD', {}, None, [('a', {'INSU': '50,0'}, 0, []), ('b', {'INSU': '50'}, .14, [])])))
+        self.write('r.toml', '[[test]]\nname = "t"\nclearance = "@INSUL"\n')
+        why = 'not every clearance is as large as it was asked for: '
+        for arguments, said in (['--clearance', '@INSU'], "the attribute 'INSU' of 1 object is no length"), \
+                (['--clearance', '@INSUL'], "no object has the attribute 'INSUL'"), \
+                (['--rules', 'r.toml'], "no object has the attribute 'INSUL'"):
+            with self.subTest(arguments=arguments):
+                done = self.run_strake('clash', 'odd.gltf', *arguments, '--quiet', '--strict')
+                self.assertEqual(done.returncode, 4, done.stderr)
+                self.assertIn(f'--strict: {why}{said}', done.stderr)
+                self.assertEqual(self.run_strake('clash', 'odd.gltf', *arguments).returncode, 0)
+        self.assertEqual(self.run_strake('clash', 'rack.gltf', '--clearance', '@INSU', '--strict').returncode, 0)
 
     def test_what_makes_no_sense_is_refused(self):
         for clearance, why in (('@', 'names no attribute'), ('@A + @B', 'two attributes'), ('@INSU + 5', 'no unit'),

@@ -2,6 +2,7 @@
 // Where bodies end, and which ends meet.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -144,6 +145,29 @@ TEST(Ends, OfOtherMeshesAreNotKnown) {
   EXPECT_TRUE(ends_of_one(half).empty());
 }
 
+/// How far the bodies reach behind their ends, ascending, to 5 µm of the tessellation.
+void expect_reaches(const std::vector<ObjectEnd>& got, std::vector<double> expected_mm) {
+  std::vector<double> reaches;
+  for (const ObjectEnd& end : got) reaches.push_back(end.reach / 1000);
+  std::ranges::sort(reaches);
+  ASSERT_EQ(reaches.size(), expected_mm.size());
+  for (std::size_t i = 0; i < reaches.size(); ++i) EXPECT_NEAR(reaches[i], expected_mm[i], .005);
+}
+
+TEST(Ends, KnowHowFarTheirBodyReaches) {
+  const Placement turned{{{Vec3d{1, 0, 0}, Vec3d{0, 0, -1}, Vec3d{0, 1, 0}}}, {1000, 2000, 3000}};
+  expect_reaches(ends_of_one(geometry::CylinderPrimitive{50, 1000}, turned), {1000, 1000});
+  expect_reaches(ends_of_one(test::cylinder_mesh(50, 1000, 3, 12), turned), {1000, 1000});
+  expect_reaches(ends_of_one(geometry::EllipticalDishPrimitive{50, 25}), {25});
+  expect_reaches(ends_of_one(geometry::BoxPrimitive{100, 2000, 200}), {2000, 2000});
+  expect_reaches(ends_of_one(tube(50, 50, 1000, 12, false)), {1000, 1000});
+}
+
+TEST(Ends, AFlatDiscHasNone) {
+  EXPECT_TRUE(ends_of_one(geometry::CylinderPrimitive{50, 0}).empty());
+  EXPECT_EQ(ends_of_one(geometry::CylinderPrimitive{50, 1}).size(), 2U);
+}
+
 TEST(Ends, OnlyOfWhatIsAskedForAndOfPhysicalBodies) {
   ClashModel m;
   m.object("a").body(geometry::CylinderPrimitive{50, 1000});
@@ -177,24 +201,75 @@ TEST(EndJoints, ExactlyWithinTheLength) {
   EXPECT_EQ(joints(0, 5000, {std::sin(more), 0, -std::cos(more)}), Joints{});
 }
 
+/// Whether two ends on one axis, the second that far behind the first, join their objects.
+bool join_at(double behind, double reach, double other_reach) {
+  const auto z = static_cast<std::int64_t>(-1000 * behind);
+  return !joints_of({{{0, 0, 0}, {0, 0, 1}, 1, 1000 * reach},
+                     {{0, 0, z}, {0, 0, -1}, 2, 1000 * other_reach}},
+                    1000000, {})
+              .value()
+              .empty();
+}
+
+TEST(EndJoints, TheBodiesLieOnOppositeSides) {
+  EXPECT_TRUE(join_at(-800, 10, 10)) << "a gap";
+  EXPECT_TRUE(join_at(10, 1000, 1000));
+  EXPECT_TRUE(join_at(10, 20, 1000)) << "in the middle of a coupling";
+  EXPECT_TRUE(join_at(10, 1000, 20));
+  EXPECT_FALSE(join_at(10.1, 20, 1000));
+  EXPECT_FALSE(join_at(10.1, 1000, 20));
+  EXPECT_FALSE(join_at(20, 20, 20)) << "a copy";
+  EXPECT_FALSE(join_at(17, 20, 20)) << "a copy moved along";
+}
+
+/// Two bodies of an object, end to end at z = 0, beside another object whose two meet there too.
+TEST(EndJoints, ASeamOfBothObjectsIsNone) {
+  const auto joins = [](double below, double above) {
+    const double sleeve = 1000;
+    return !joints_of({{{0, 0, 0}, {0, 0, 1}, 1, 5000},
+                       {{0, 0, 0}, {0, 0, -1}, 1, below},
+                       {{0, 0, 0}, {0, 0, 1}, 2, above},
+                       {{0, 0, 0}, {0, 0, -1}, 2, sleeve}},
+                      1000, {})
+                .value()
+                .empty();
+  };
+  EXPECT_FALSE(joins(1000, 5000)) << "a valve and its copy";
+  EXPECT_TRUE(joins(100, 5000)) << "the first has a gasket alone behind its end";
+  EXPECT_TRUE(joins(100, 100)) << "both have one";
+}
+
 TEST(EndJoints, AreThoseOfAllPairsForAnyTeam) {
   std::mt19937 random(29);
   std::vector<ObjectEnd> all;
   const auto coordinate = [&] { return static_cast<std::int64_t>(random() % 40001) - 20000; };
-  for (std::uint32_t i = 0; i < 600; ++i)
-    all.push_back({{coordinate(), coordinate(), coordinate()},
-                   {0, 0, random() % 2 == 0 ? 1.0 : -1.0},
-                   static_cast<std::uint32_t>(random() % 200)});
+  for (std::uint32_t i = 0; i < 600; ++i) {
+    ObjectEnd& end = all.emplace_back();
+    end.at = {coordinate(), coordinate(), coordinate()};
+    end.outward = {0, 0, random() % 2 == 0 ? 1.0 : -1.0};
+    end.object = i % 200;
+    end.reach = 1000.0 * static_cast<double>(1 + random() % 9);
+  }
+  const auto meet = [](const ObjectEnd& x, const ObjectEnd& y, std::int64_t within) {
+    const geometry::Vec3l apart = y.at - x.at;
+    const double behind = -static_cast<double>(apart.z) * x.outward.z;
+    return dot(apart, apart) <= within * within && dot(x.outward, y.outward) < 0 &&
+           2 * behind <= std::min(x.reach, y.reach) + 4;
+  };
+  const auto own = [&](const ObjectEnd& x, std::int64_t within) {
+    double reach = -10;
+    for (const ObjectEnd& y : all)
+      if (y.object == x.object && meet(x, y, within)) reach = std::max(reach, y.reach);
+    return reach;
+  };
   parallel::Team team(3);
   for (const std::int64_t within : {std::int64_t{1}, std::int64_t{997}, std::int64_t{4000}}) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> expected;
     for (const ObjectEnd& x : all)
-      for (const ObjectEnd& y : all) {
-        const geometry::Vec3l apart = y.at - x.at;
-        if (x.object < y.object && dot(apart, apart) <= within * within &&
-            dot(x.outward, y.outward) < 0)
+      for (const ObjectEnd& y : all)
+        if (x.object < y.object && meet(x, y, within) &&
+            (own(x, within) + 4 < y.reach || own(y, within) + 4 < x.reach))
           expected.insert({x.object, y.object});
-      }
     const Joints sorted(expected.begin(), expected.end());
     EXPECT_EQ(joints_of(all, within, {}).value(), sorted);
     EXPECT_EQ(joints_of(all, within, {.team = &team}).value(), sorted);

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "report/text/columns.hpp"
 #include "strake/clash/policy.hpp"
 #include "support/clash_model.hpp"
 
@@ -451,6 +452,31 @@ TEST(ClashDiff, TableTellsTheTestWhereThereAreSeveral) {
                                              {});
   EXPECT_NE(table.find("HIT -10.000, test 'pipes'\n"), std::string::npos) << table;
   EXPECT_NE(table.find("HIT -10.000, test 'steel'\n"), std::string::npos) << table;
+}
+
+/// The name of the test that a result is from counts as well as the names of its objects.
+TEST(ClashDiffTable, RowsFitTheTerminal) {
+  Folder folder;
+  const ClashModel m = row();
+  ClashModel apart;
+  apart.box("a", {0, 0, 0}, {1, 1, 1}).box("b", {90, 0, 0}, {91, 1, 1});
+  apart.box("c", {180, 0, 0}, {181, 1, 1}).box("d", {310, 0, 0}, {311, 1, 1});
+  clash::Findings two = run(m), none = run(apart);
+  for (clash::Findings* const findings : {&two, &none}) {
+    findings->tests.push_back(findings->tests[0]);
+    findings->tests[0].name = "pipes";
+    findings->tests[1].name = "hits of more than a cubic centimetre";
+  }
+  const ClashDiff diff = compare(document(folder, "x.json", none, apart.model),
+                                 document(folder, "y.json", two, m.model));
+  for (std::size_t width = 64; width <= 120; ++width) {
+    const std::string table = clash_diff_table(diff, {.width = width});
+    EXPECT_NE(table.find("cubic centimetre'\n"), std::string::npos) << table;
+    for (std::size_t from = 0; from < table.size(); from = table.find('\n', from) + 1)
+      EXPECT_LE(columns_in(table.substr(from, table.find('\n', from) - from)), width) << table;
+  }
+  EXPECT_NE(clash_diff_table(diff, {.width = 64}).find("\n      HIT -10.000, test 'pipes'\n"),
+            std::string::npos);
 }
 
 TEST(ClashDocument, NamesThatAreNoUtf8AreFoundAgain) {

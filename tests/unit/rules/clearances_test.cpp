@@ -136,21 +136,36 @@ TEST(Clearances, WhatIsNoLengthIsCountedAndNamedAndAddsNothing) {
       "clearance = '@INSU + 1mm'");
   EXPECT_EQ(outcome.near, (Near{"a-b", "a-b"}));
   EXPECT_EQ(warned(outcome.diagnostics, "clearance-not-a-length"),
-            "b: the attribute 'INSU' is 'thick', no length from 0 to 1km; it adds nothing to the "
-            "clearance\n")
+            "b: the attribute 'INSU' of 1 object is no length from 0 to 1km and adds nothing to "
+            "the clearance: 'thick' (1)\n")
       << "once, though two tests ask for it";
   for (const char* const odd : {"-5mm", "70bar", "2km", "1,5mm"})
-    EXPECT_EQ(Racks(odd, odd, odd)
-                  .run("[defaults]\nclearance = '@INSU'")
-                  .diagnostics.count("clearance-not-a-length"),
-              3U)
-        << odd;
+    EXPECT_EQ(warned(Racks(odd, odd, odd).run("[defaults]\nclearance = '@INSU'").diagnostics,
+                     "clearance-not-a-length"),
+              "a: the attribute 'INSU' of 3 objects is no length from 0 to 1km and adds nothing to "
+              "the clearance: '" +
+                  std::string(odd) + "' (3)\n");
   outcome = racks.run(
       "[defaults]\nclearance = '@LAGGING'\n[[test]]\nname = 't'\n[[test]]\n"
       "name = 'u'\nclearance = '25mm'");
   expect_lines(
-      warned(outcome.diagnostics, "rule-matches-nothing"),
+      warned(outcome.diagnostics, "clearance-attribute-missing"),
       {"r.toml, line 2: 'clearance' of [defaults]: no object has the attribute 'LAGGING'"});
+}
+
+TEST(Clearances, OfManyValuesThatAreNoLengthTheMostUsedAreNamed) {
+  model::Model model;
+  for (const char* const value : {"A", "B", "C", "D", "E", "F", "G", "G", "5"}) {
+    model::Object& object = model.objects.emplace_back();
+    object.id = std::string("of ") + value;
+    object.attributes = {{"INSU", value}};
+  }
+  Diagnostics diagnostics;
+  static_cast<void>(object_clearances(model, "INSU", "here", diagnostics));
+  EXPECT_EQ(
+      warned(diagnostics, "clearance-not-a-length"),
+      "of A: the attribute 'INSU' of 8 objects is no length from 0 to 1km and adds nothing to "
+      "the clearance: 'G' (2), 'A' (1), 'B' (1), 'C' (1), 'D' (1) and 2 more\n");
 }
 
 }  // namespace

@@ -111,6 +111,68 @@ TEST(RulesEnds, PipesSideBySideAndCopiesStayClashes) {
   EXPECT_EQ(with_ends(m), (Told{"a-a2 HIT", "a-b HIT", "a2-b HIT"}));
 }
 
+/// A round body along z, by its radius, from a height to another.
+ClashModel& round(ClashModel& m, const std::string& id, double radius, double from, double to,
+                  double x = 0) {
+  return m.object(id).body(CylinderPrimitive{radius, to - from}, {{}, {x, 0, (from + to) / 2}});
+}
+
+/// A copy, the one in the other or side by side, shorter than the length: the top of the one is
+/// opposed to the bottom of the other, one body away.
+TEST(RulesEnds, ShortBodiesInOnePlaceStayClashes) {
+  struct Case {
+    double radius, from, to, other_radius, other_from, other_to, x;
+    const char* within;
+  };
+  const std::vector<Case> cases{
+      {80, 0, 3, 80, 0, 3, 0, "5mm"},      // a gasket twice
+      {80, 0, 3, 60, .5, 2.5, 0, "5mm"},   // a disc in a disc
+      {30, 0, 5, 20, .5, 4.5, 0, "5mm"},   // a nipple in a sleeve
+      {30, 0, 15, 30, 0, 15, 10, "20mm"},  // spools side by side
+      {80, 0, 20, 80, 3, 23, 0, "25mm"},   // flanges, the one moved along
+      {80, 0, 20, 80, 0, 20, 3, "25mm"},   // and aside
+      {50, 0, 500, 50, 0, 500, 0, "1m"},
+  };
+  for (const Case& c : cases) {
+    ClashModel m;
+    round(m, "a", c.radius, c.from, c.to);
+    round(m, "b", c.other_radius, c.other_from, c.other_to, c.x);
+    EXPECT_EQ(with_ends(m, c.within), (Told{"a-b HIT"})) << c.to << ' ' << c.other_to;
+  }
+}
+
+TEST(RulesEnds, AMirroredCopyInOnePlaceStaysAClash) {
+  ClashModel m;
+  m.object("a").body(test::cylinder_mesh(50, 500, 2, 16));
+  m.object("b").again({{{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, -1}}}, {0, 0, 500}});
+  EXPECT_EQ(with_ends(m, "1m"), (Told{"a-b HIT"}));
+}
+
+/// A valve of two bodies end to end, and its copy: their seams coincide.
+TEST(RulesEnds, ACopyOfAnObjectOfSeveralBodiesStaysAClash) {
+  ClashModel m;
+  for (const char* const id : {"a", "b"}) {
+    round(m, id, 80, 0, 20);
+    m.body(SnoutPrimitive{50, 25, 100}, {{}, {0, 0, 70}});
+    m.body(CylinderPrimitive{60, 0}, {{}, {0, 0, 20}});
+  }
+  round(m, "pipe", 25, 119, 500);
+  EXPECT_EQ(with_ends(m), (Told{"a-b HIT"}));
+}
+
+/// A gasket that is part of each of two ducts, and a coupling that both are put into halfway.
+TEST(RulesEnds, RingsAndCouplingsAtAJointLeaveItOne) {
+  ClashModel rings;
+  round(rings, "a", 50, 0, 500).body(CylinderPrimitive{52, 3}, {{}, {0, 0, 501.5}});
+  round(rings, "b", 50, 500, 1000).body(CylinderPrimitive{52, 3}, {{}, {0, 0, 498.5}});
+  EXPECT_EQ(without(rings), (Told{"a-b HIT"}));
+  EXPECT_EQ(with_ends(rings), Told{});
+  ClashModel coupled;
+  round(round(coupled, "a", 50, 0, 500), "b", 50, 500, 1000);
+  round(coupled, "coupling", 55, 496, 504);
+  EXPECT_EQ(with_ends(coupled), Told{});
+}
+
 TEST(RulesEnds, FacetedPipesJoinByTheirCaps) {
   ClashModel m;
   m.object("a").body(test::cylinder_mesh(50, 1000, 2, 16));
@@ -149,7 +211,9 @@ TEST(RulesEnds, FaultsNamePlaceCauseAndMend) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"ends_within = '2m'", "'ends_within' of [[connected]] 'x' is more than a metre"},
       {"ends_within = 5", "a length with its unit in quotes"},
-      {"ends_within = '-5mm'", "is negative"},
+      {"ends_within = '-5mm'", "'ends_within' of [[connected]] 'x' is negative"},
+      {"ends_within = '-5mm'", "from 0 to 1m, as \"5mm\""},
+      {"ends_within = '2km'", "from 0 to 1m, as \"5mm\""},
       {"ends_within = '5mm'\nhead = 'HREF'", "'ends_within' and 'head' in one [[connected]]"},
       {"ends_within = '5mm'\nby = 'node'", "write two tables, each with a name"},
       {"", "or ends_within = \"5mm\""},

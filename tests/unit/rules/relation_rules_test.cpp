@@ -193,6 +193,20 @@ TEST(RulesVolume, ATestCountsSmallerHits) {
   EXPECT_EQ(run("1.001l").told.at(0), (Told{"floor-post CONTACT"})) << "contacts are no hits";
 }
 
+/// What a test reports does not change with what a rule allows of it.
+TEST(RulesRelation, WhatIsAllowedIsNotReportedEither) {
+  const std::string allowed =
+      "\n[[allowed]]\nname = 'x'\na = 'bar'\nb = 'wall'\nmax_depth = 'any'\n";
+  for (const std::string key : {"min_volume = '2.001cm3'", "relations = ['inside', 'duplicate']"}) {
+    const auto outcome = run_rules(scene().model, "[[test]]\nname = 't'\n" + key + allowed);
+    const clash::Report& report = outcome.reports.at(0);
+    const auto& told = outcome.told.at(0);
+    EXPECT_EQ(std::ranges::find(told, "wall-bar HIT by x"), told.end()) << key;
+    EXPECT_EQ(report.count_allowed, 0U) << key;
+    EXPECT_EQ(report.not_reported.by_volume.allowed + report.not_reported.by_relation.allowed, 1U);
+  }
+}
+
 /// A cylinder of 10 mm radius through a plate 10 mm thick: 3.14 cm3, to within its sag.
 TEST(RulesVolume, ABracketThatStraddlesTheLimitAllowsNothingAndIsFlagged) {
   ClashModel m;
