@@ -222,7 +222,8 @@ std::vector<std::string> empty_disciplines(const clash::Findings& findings) {
 /// Returns in words why clearances from an attribute are less than they ask for.
 std::vector<std::string> lowered_clearances(const clash::Findings& findings) {
   std::vector<std::string> lowered;
-  for (const Diagnostic& told : findings.all_diagnostics().kept())
+  const Diagnostics diagnostics = findings.all_diagnostics();
+  for (const Diagnostic& told : diagnostics.kept())
     if (told.code == rules::kNotALength || told.code == rules::kNoSuchAttribute)
       lowered.push_back(told.message);
   return lowered;
