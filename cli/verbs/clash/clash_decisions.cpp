@@ -36,6 +36,10 @@ void print_lines(Console& console, std::string_view text) {
   }
 }
 
+std::string rows_text(std::uint64_t rows) {
+  return rows == 1 ? std::string("1 row") : fmt::format("{} rows", rows);
+}
+
 }  // namespace
 
 void add_decision_options(CLI::App& command, DecisionInput& options) {
@@ -101,6 +105,11 @@ Status write_decisions(Session& session, const DecisionInput& input, const Decis
                        const report::ClashContents& contents) {
   if (!input.write) return {};
   const report::UpdatedDecisions updated = report::update_decisions(contents);
+  if (updated.without_row > 0)
+    session.console().note(fmt::format(
+        "{}: {} no row: their keys stand there for another place", input.file,
+        updated.without_row == 1 ? std::string("1 result has")
+                                 : fmt::format("{} results have", updated.without_row)));
   if (request.exists && updated.text == request.file.text) return {};
   const Status status = session.write(input.file, [&](Session::Sink sink) -> Status {
     if (!is_unchanged(request))
@@ -109,11 +118,12 @@ Status write_decisions(Session& session, const DecisionInput& input, const Decis
     sink(updated.text);
     return {};
   });
-  if (status)
-    session.console().note(fmt::format(
-        "{}: {} added", input.file,
-        updated.added == 1 ? std::string("1 row") : fmt::format("{} rows", updated.added)));
-  return status;
+  if (!status) return status;
+  session.console().note(fmt::format("{}: {} added", input.file, rows_text(updated.added)));
+  if (updated.taken_out > 0)
+    session.console().note(fmt::format("{}: {} without a decision replaced by decided ones",
+                                       input.file, rows_text(updated.taken_out)));
+  return {};
 }
 
 }  // namespace strake::cli

@@ -38,7 +38,7 @@ inline constexpr std::array kDecisionStatuses{DecisionStatus::undecided, Decisio
 
 /// One of the two objects that a row names; both are empty where the file has no such columns.
 struct DecisionObject {
-  std::string file, id;
+  std::string file, id, name;
 };
 
 /// A row of the file.
@@ -128,7 +128,9 @@ class DecidedResults {
 /// DecisionRules::match_files: its results have the decisions about their former keys.
 ///
 /// Where the id of an object is only a position in its file, a key may be another clash's: the
-/// decision is taken only where the place and d that the file states are those of the result.
+/// decision is found by place, where the file names the two objects and their files, or by key
+/// where the place that the file states is that of the result. Rows that nobody has written into
+/// are found by key.
 ///
 /// Errors: usage, as of match_files() and parse_file_pairs().
 [[nodiscard]] Result<DecidedResults> decide(const clash::Findings& findings,
@@ -138,7 +140,9 @@ class DecidedResults {
 /// What a decision file becomes by a run.
 struct UpdatedDecisions {
   std::string text;
-  std::uint64_t added = 0;  ///< rows of results that had none
+  std::uint64_t added = 0;        ///< rows of results that had none
+  std::uint64_t taken_out = 0;    ///< rows that nobody has written into, replaced by decisions
+  std::uint64_t without_row = 0;  ///< results whose key stands there for another place
 };
 
 /// Adds a row of the status `new` for each result that has none and that no rule allows. All rows
@@ -146,7 +150,8 @@ struct UpdatedDecisions {
 ///
 /// 1. rows without a decision (`new`) have what the result measures now, and decided ones get what
 ///    they lack of it: it is what a decision is about;
-/// 2. rows of a file that was renamed have the key and the labels of today.
+/// 2. rows of a file that was renamed, or of an object whose id is only a position, have the key
+///    and the names of today; a row of that key that nobody has written into is taken out.
 ///
 /// `contents.decided` must be there; contents.csv is the form of a file that is not there yet.
 [[nodiscard]] UpdatedDecisions update_decisions(const ClashContents& contents);

@@ -118,8 +118,10 @@ class DecisionReader {
     if (const Status status = decided(record, decision); !status) return status.error();
     if (const Status status = measured(record, decision); !status) return status.error();
     decision.test = named(record, Column::test);
-    decision.a = {named(record, Column::a_file), named(record, Column::a_id)};
-    decision.b = {named(record, Column::b_file), named(record, Column::b_id)};
+    decision.a = {named(record, Column::a_file), named(record, Column::a_id),
+                  named(record, Column::a_name)};
+    decision.b = {named(record, Column::b_file), named(record, Column::b_id),
+                  named(record, Column::b_name)};
     return decision;
   }
 

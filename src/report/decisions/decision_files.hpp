@@ -41,6 +41,18 @@ class DecidedKeys {
   [[nodiscard]] Hash128 key(std::string_view test, const clash::Pair& pair) const;
   /// Whether the label of one of the two was that of another file when decisions were made.
   [[nodiscard]] bool has_label_of_another(const clash::Pair& pair) const;
+  /// Returns the label that the file of an object of a row has today; one that no file has where it
+  /// has no counterpart.
+  [[nodiscard]] std::string label_today(const DecisionObject& object) const {
+    return map_.label_in_other(Run::before, object.file, object.id);
+  }
+  /// Return one text for a file then, and for the files that it is today.
+  [[nodiscard]] std::string group_then(std::string_view label) const {
+    return map_.group_of(Run::before, label);
+  }
+  [[nodiscard]] std::string group_now(std::string_view label) const {
+    return map_.group_of(Run::after, label);
+  }
   /// Returns a row with the key and the labels of today, if they are others than it states, and if
   /// it names what its key is made of.
   [[nodiscard]] std::optional<Decision> renamed(const Decision& row) const;
