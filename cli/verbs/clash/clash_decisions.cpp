@@ -13,6 +13,7 @@
 
 #include "cli/options/options.hpp"
 #include "core/output_format.hpp"
+#include "core/text_encoding.hpp"
 
 namespace strake::cli {
 
@@ -97,6 +98,9 @@ Result<std::optional<report::DecidedResults>> decide(Session& session, const Dec
   Result<report::DecidedResults> decided =
       report::decide(findings, model, request->file, {request->deeper_mm, input.match_files});
   if (!decided) return decided.error();
+  for (const std::string& pair : decided->renamed_before)
+    session.console().note(
+        fmt::format("--match-files {}: {} has the new name already", printable(pair), input.file));
   print_lines(session.console(), report::file_matches_text(decided->files));
   return std::optional(std::move(*decided));
 }

@@ -107,7 +107,9 @@ class DecidedResults {
  public:
   const DecisionFile* file = nullptr;
   double deeper_mm = 0;
-  FileMatches files;                              ///< which file had which name when decided
+  FileMatches files;  ///< which file had which name when decided
+  /// DecisionRules::match_files that change nothing: the file has the new name and not the old one.
+  std::vector<std::string> renamed_before;
   std::vector<std::vector<DecidedResult>> tests;  ///< of each test by (a, b)
   std::vector<const Decision*> not_found;         ///< decisions about no result, as in the file
   /// Results of each status that no rule allows; those without a decision are new.

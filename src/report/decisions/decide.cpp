@@ -53,12 +53,13 @@ std::uint64_t DecidedResults::count(Reopened reopened) const {
 
 Result<DecidedResults> decide(const clash::Findings& findings, const model::Model& model,
                               const DecisionFile& file, const DecisionRules& rules) {
-  Result<FileMatches> files = match_decided_files(findings, model, file, rules.match_files);
+  Result<DecidedFiles> files = match_decided_files(findings, model, file, rules.match_files);
   if (!files) return files.error();
   DecidedResults decided;
   decided.file = &file;
   decided.deeper_mm = rules.deeper_mm;
-  decided.files = std::move(*files);
+  decided.files = std::move(files->matches);
+  decided.renamed_before = std::move(files->in_force);
   MatchedRows rows = match_rows(findings, model, file, DecidedKeys(decided.files, model, file));
   std::vector<const Decision*> found = std::move(rows.replaced);
   for (std::size_t t = 0; t < findings.tests.size(); ++t) {

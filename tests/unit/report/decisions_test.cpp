@@ -499,5 +499,32 @@ TEST(UpdatedDecisions, AreMendedAfterANightInWhichNobodyKnewOfTheNewName) {
   EXPECT_TRUE(next.results.not_found.empty());
 }
 
+TEST(Decisions, TakeTheSameCommandTheNextNight) {
+  const std::vector<std::string> pairs{"t.obj=n.obj"};
+  std::string text = Decided(three_boxes(), "").updated();
+  text.replace(text.find(",new,"), 5, ",approved,");
+  const Decided first(renamed("n.obj"), text, {.match_files = pairs});
+  EXPECT_TRUE(first.results.renamed_before.empty());
+  const Decided second(renamed("n.obj"), first.updated(), {.match_files = pairs});
+  EXPECT_EQ(second.results.renamed_before, pairs);
+  EXPECT_EQ(new_and_approved(second), (NewAndApproved{1, 1}));
+}
+
+TEST(Decisions, FollowAFileOfWhichTheyNameAFewObjects) {
+  ClashModel m;
+  for (int i = 0; i < 12; ++i)
+    m.box("b" + std::to_string(i), {80.0 * i, 0, 0}, {80.0 * i + 100, 100, 100});
+  const std::string text = Decided(m, "").updated();
+  // Two rows, of three objects; the second row says no more than its key.
+  std::string few = text.substr(0, text.find('\n', text.find('\n', text.find('\n') + 1) + 1) + 1);
+  const std::string last = key_of(m, 10, 11);
+  few = with(few, 1, ",new,", ",approved,") + last + ",approved\r\n";
+  m.model.files[0].label = "n.obj";
+  const Decided d(m, few);
+  ASSERT_EQ(d.results.files.matches.size(), 1U);
+  EXPECT_EQ(d.results.files.matches[0].relation, FileRelation::renamed);
+  EXPECT_EQ(new_and_approved(d)[1], 2U);
+}
+
 }  // namespace
 }  // namespace strake::report
