@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "clash/results/unlisted_contacts.hpp"
 #include "cli/options/options.hpp"
 #include "core/output_format.hpp"
 #include "core/text_encoding.hpp"
@@ -35,6 +38,20 @@ void print_lines(Console& console, std::string_view text) {
     console.note(std::string(text.substr(0, end)));
     text.remove_prefix(end + 1);
   }
+}
+
+/// Takes the contacts that are only counted out of findings, without those that have a row.
+Status count_contacts(Session& session, const report::DecidedResults& decided,
+                      clash::Findings& findings) {
+  for (std::size_t t = 0; t < findings.tests.size(); ++t) {
+    clash::Report& test = findings.tests[t];
+    test.options.engine.contacts = clash::Contacts::count;
+    const Status status = clash::leave_out_contacts(
+        session.context(), test,
+        [&](const clash::Pair& pair) { return decided.of(t, pair) != nullptr; });
+    if (!status) return status;
+  }
+  return {};
 }
 
 std::string rows_text(std::uint64_t rows) {
@@ -91,13 +108,27 @@ Result<std::optional<DecisionRequest>> decision_request(const DecisionInput& inp
 
 Result<std::optional<report::DecidedResults>> decide(Session& session, const DecisionInput& input,
                                                      const std::optional<DecisionRequest>& request,
-                                                     const clash::Findings& findings,
-                                                     const model::Model& model) {
+                                                     clash::Findings& findings,
+                                                     const model::Model& model,
+                                                     bool counts_contacts) {
   if (!request) return std::optional<report::DecidedResults>();
   const auto timer = session.step("look up decisions");
-  Result<report::DecidedResults> decided =
-      report::decide(findings, model, request->file, {request->deeper_mm, input.match_files});
+  const report::DecisionRules rules{request->deeper_mm, input.match_files};
+  Result<report::DecidedResults> decided = report::decide(findings, model, request->file, rules);
   if (!decided) return decided.error();
+  if (counts_contacts) {
+    if (const Status status = count_contacts(session, *decided, findings); !status)
+      return status.error();
+    decided = report::decide(findings, model, request->file, rules);
+    if (!decided) return decided.error();
+  }
+  if (const std::uint64_t count = decided->count_regions_unknown(); count > 0)
+    session.console().note(fmt::format(
+        "{}: {} at places that this run does not count: whether the two meet at more places now is "
+        "not known (--regions 0 and --narrow-phase sphere-subdivision count none)",
+        input.file,
+        count == 1 ? std::string("1 clash is approved")
+                   : fmt::format("{} clashes are approved", count)));
   for (const std::string& pair : decided->renamed_before)
     session.console().note(
         fmt::format("--match-files {}: {} has the new name already", printable(pair), input.file));

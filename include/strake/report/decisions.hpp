@@ -47,7 +47,9 @@ struct Decision {
   DecisionStatus status = DecisionStatus::undecided;
   std::string by, date, comment;  ///< the date as 2026-01-31; each may be empty
   // The clash when it was decided about, as far as the file says.
+  std::optional<clash::Class> cls;
   std::optional<double> d_mm;
+  double d_rounding_mm = 0;  ///< by so much d_mm may have been rounded
   std::optional<geometry::Vec3d> point_mm;
   std::uint32_t regions = 0;  ///< 0: not said
   std::string test;
@@ -63,22 +65,25 @@ struct DecisionFile {
 
 /// Reads decisions: CSV of UTF-8 with a line of headings, separated by commas, semicolons or tabs,
 /// with or without a byte order mark. It needs the columns `key` and `status`; `by`, `date`,
-/// `comment`, and `d_mm`, `x_mm`, `y_mm`, `z_mm`, `regions`, `test`, `a_file`, `a_id`, `b_file` and
-/// `b_id` as results have them, are read where they are there, all others are not.
+/// `comment`, and `class`, `d_mm`, `x_mm`, `y_mm`, `z_mm`, `regions`, `test`, `a_file`, `a_id`,
+/// `a_name`, `b_file`, `b_id` and `b_name` as results have them, are read where they are there, all
+/// others are not. Where a cell of `d_mm` is blank, `class` and `regions` of the row say nothing.
 /// Errors (input), each with file and line: a column that is missing or there twice, a key that is
-/// none or there twice, an unknown status, a date that is none, a number that is none.
+/// none or there twice, an unknown status, a date, a number or a
+/// class that is none.
 [[nodiscard]] Result<DecisionFile> parse_decisions(std::string text, std::string name);
 [[nodiscard]] Result<DecisionFile> read_decisions(const std::filesystem::path& file);
 
 /// Why a decision does not settle its clash any more.
 enum class Reopened : std::uint8_t {
   no,
+  severer,       ///< approved, and of a severer class than it was
   deeper,        ///< approved, and deeper or nearer than it was
   more_regions,  ///< approved, and the two meet at more places than they did
   found_again,   ///< resolved, and still there
 };
 
-/// Returns "deeper", "more places" or "found again"; an empty text for `no`.
+/// Returns "severer", "deeper", "more places" or "found again"; an empty text for `no`.
 [[nodiscard]] std::string_view name(Reopened reopened);
 
 /// A result with the decision about it.
@@ -87,6 +92,7 @@ struct DecidedResult {
   clash::Class cls = clash::Class::no_hit;
   bool allowed = false;  ///< a rule allows it
   Reopened reopened = Reopened::no;
+  bool regions_unknown = false;  ///< the row states regions, which the run did not count
   const Decision* decision = nullptr;
 
   /// Whether nobody needs to look at it: approved, and no worse than it was then.
@@ -96,7 +102,8 @@ struct DecidedResult {
 };
 
 struct DecisionRules {
-  /// An approved clash comes back where its d is less than it was by more than this.
+  /// An approved clash comes back where its d is less than it was by more than this, and than the
+  /// file may have rounded it.
   double deeper_mm = 1;
   /// Files that have another name now, as OLD=NEW.
   std::span<const std::string> match_files = {};
@@ -123,6 +130,8 @@ class DecidedResults {
   }
   /// Returns how many results that no rule allows came back for this reason.
   [[nodiscard]] std::uint64_t count(Reopened reopened) const;
+  /// Returns how many of them may meet at more places than they did, as these were not counted.
+  [[nodiscard]] std::uint64_t count_regions_unknown() const;
 };
 
 /// Looks up the decision about each result, by its key. A file that has another name than when its

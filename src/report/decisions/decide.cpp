@@ -14,7 +14,8 @@ namespace {
 Reopened reopened(const clash::Pair& pair, const Decision& row, double deeper_mm) {
   if (row.status == DecisionStatus::resolved) return Reopened::found_again;
   if (row.status != DecisionStatus::approved) return Reopened::no;
-  if (row.d_mm && pair.d_mm < *row.d_mm - deeper_mm) return Reopened::deeper;
+  if (row.cls && pair.cls > *row.cls) return Reopened::severer;
+  if (row.d_mm && pair.d_mm < *row.d_mm - row.d_rounding_mm - deeper_mm) return Reopened::deeper;
   return row.regions > 0 && pair.regions > row.regions ? Reopened::more_regions : Reopened::no;
 }
 
@@ -26,6 +27,8 @@ std::string_view name(Reopened reopened) {
   switch (reopened) {
     case Reopened::no:
       return "";
+    case Reopened::severer:
+      return "severer";
     case Reopened::deeper:
       return "deeper";
     case Reopened::more_regions:
@@ -51,6 +54,14 @@ std::uint64_t DecidedResults::count(Reopened reopened) const {
   return count;
 }
 
+std::uint64_t DecidedResults::count_regions_unknown() const {
+  std::uint64_t count = 0;
+  for (const std::vector<DecidedResult>& test : tests)
+    for (const DecidedResult& r : test)
+      if (r.is_settled() && r.regions_unknown) ++count;
+  return count;
+}
+
 Result<DecidedResults> decide(const clash::Findings& findings, const model::Model& model,
                               const DecisionFile& file, const DecisionRules& rules) {
   Result<DecidedFiles> files = match_decided_files(findings, model, file, rules.match_files);
@@ -73,8 +84,8 @@ Result<DecidedResults> decide(const clash::Findings& findings, const model::Mode
                                                                  : row->status)];
       if (row == nullptr) continue;
       found.push_back(row);
-      of_test.push_back(
-          {pair.a, pair.b, pair.cls, allowed, reopened(pair, *row, rules.deeper_mm), row});
+      of_test.push_back({pair.a, pair.b, pair.cls, allowed, reopened(pair, *row, rules.deeper_mm),
+                         row->regions > 0 && pair.regions == 0, row});
     }
     std::ranges::sort(of_test, {}, objects_of);
   }

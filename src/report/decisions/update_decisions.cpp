@@ -154,6 +154,7 @@ class DecisionUpdate {
 
  private:
   void add_columns() {
+    states_depths_ = columns_.has(Column::d);
     CsvRecord& head = table_.records.front();
     for (std::size_t c = 0; c < kDecisionColumns.size(); ++c) {
       const auto column = static_cast<Column>(c);
@@ -220,8 +221,10 @@ class DecisionUpdate {
   }
 
   void write_measures(CsvRecord& record, const Decision& row, const FoundResult& result) const {
+    // Whoever empties the depth decides about the clash as it is now, and not about two in one.
+    const bool renews = row.status == DecisionStatus::undecided || (states_depths_ && !row.d_mm);
     for (const Column column : kMeasuredColumns)
-      if (row.status == DecisionStatus::undecided || writer_.lacks_all(record, std::array{column}))
+      if (renews || writer_.lacks_all(record, std::array{column}))
         writer_.write(record, column, result);
   }
 
@@ -261,6 +264,7 @@ class DecisionUpdate {
   DecidedKeys keys_;
   std::map<const Decision*, FoundResult> results_;
   std::vector<FoundResult> undecided_;
+  bool states_depths_ = false;  ///< the file had the column before
   RowKeys row_keys_;
   UpdatedDecisions updated_;
 };

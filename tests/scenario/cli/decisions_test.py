@@ -83,7 +83,7 @@ class Decisions(Scenario):
         self.assertIn('; approved, but deeper or nearer than they were: 1; resolved, but found again: 1\n', done.stdout)
         self.assertIn('2 hits, ', done.stdout)
         told = self.told('--deeper', '2mm')
-        self.assertEqual(told['decisions']['reopened'], {'deeper': 0, 'more_places': 0, 'found_again': 1})
+        self.assertEqual(told['decisions']['reopened'], {'severer': 0, 'deeper': 0, 'more_places': 0, 'found_again': 1})
         self.assertEqual(told['decisions']['deeper_mm'], 2)
 
     def test_what_is_mended_is_listed_and_keeps_its_row(self):
