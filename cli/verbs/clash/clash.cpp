@@ -433,9 +433,11 @@ void add_rules(CLI::App& command, ClashOptions& options) {
                 "Check lines and polylines too, as bodies without thickness (default: they are "
                 "drawn, but never clash)")
       ->group("Rules");
-  add_choice(command, "--contacts", options.contacts, {"list", "count"},
-             "List contacts that lie side by side as other results, or only count them; a contact "
-             "that may be something else is listed all the same (default list)")
+  add_choice(
+      command, "--contacts", options.contacts, {"list", "count"},
+      "List contacts that lie side by side as other results, or only count them; a contact "
+      "that may be something else, or has a row in --decisions, is listed all the same (default "
+      "list)")
       ->group("Result");
   add_choice(
       command, "--fail-on", options.fail_on, {"hit", "contact", "clearance_violation"},

@@ -80,7 +80,7 @@ void add_decision_options(CLI::App& command, DecisionInput& options) {
   command
       .add_option("--deeper", options.deeper,
                   "An approved clash that is deeper or nearer than it was by more than this is "
-                  "listed again (default 1mm)")
+                  "listed again, as is one of a severer class (default 1mm)")
       ->type_name("LENGTH")
       ->group(kGroup)
       ->needs(file);
