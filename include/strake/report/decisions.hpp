@@ -160,7 +160,7 @@ struct UpdatedDecisions {
 /// and columns stay as they are, but that
 ///
 /// 1. rows without a decision (`new`) have what the result measures now, and decided ones get what
-///    they lack of it: it is what a decision is about;
+///    they lack of it: it is what a decision is about; all of it where the cell of `d_mm` is blank;
 /// 2. rows of a file that was renamed, or of an object whose id is only a position, have the key
 ///    and the names of today; a row of that key that nobody has written into is taken out.
 ///

@@ -200,21 +200,26 @@ class DecisionReader {
     row.d_mm = d;
     if (d) row.d_rounding_mm = rounding_of(with_point(record, Column::d));
     if (x && y && z) row.point_mm = geometry::Vec3d{*x, *y, *z};
-    if (const double places = regions.value_or(0); places != 0) {
-      const bool is_count = places >= 1 && places <= std::numeric_limits<std::uint32_t>::max() &&
-                            places == std::floor(places);
-      if (!is_count)
-        return fault(record,
-                     in_quotes_cut(text(record, Column::regions)) + " is no number of places",
-                     "write as many places as the result had, or nothing");
-      row.regions = static_cast<std::uint32_t>(places);
-    }
+    if (const Status status = counted(record, regions.value_or(0), row); !status)
+      return status.error();
     if (const Status status = classified(record, row); !status) return status.error();
     // Whoever empties the depth decides about the clash as it is now.
     if (columns_.has(Column::d) && !d) {
       row.regions = 0;
       row.cls.reset();
     }
+    return {};
+  }
+
+  /// Takes a number of places, of which 0 says as much as none.
+  Status counted(const CsvRecord& record, double places, Decision& row) const {
+    if (places == 0) return {};
+    const bool is_count = places >= 1 && places <= std::numeric_limits<std::uint32_t>::max() &&
+                          places == std::floor(places);
+    if (!is_count)
+      return fault(record, in_quotes_cut(text(record, Column::regions)) + " is no number of places",
+                   "write as many places as the result had, or nothing");
+    row.regions = static_cast<std::uint32_t>(places);
     return {};
   }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "clash/results/clash_key.hpp"
+#include "core/text_encoding.hpp"
 #include "report/clash/clash_files.hpp"
 #include "report/clash/place_clusters.hpp"
 
@@ -78,9 +79,9 @@ class RowMatcher {
   }
 
  private:
-  /// Calls do(test, pair, its row) for each result.
-  template <class Do>
-  void for_each(Do&& act) {
+  /// Calls act(test, pair, its row) for each result.
+  template <class Act>
+  void for_each(Act&& act) {
     for (std::size_t t = 0; t < findings_.tests.size(); ++t)
       for (std::size_t p = 0; p < findings_.tests[t].pairs.size(); ++p)
         act(findings_.tests[t], findings_.tests[t].pairs[p], matched_.tests[t][p]);
@@ -120,6 +121,7 @@ class RowMatcher {
 
   /// Finds the rows that a run added before it was known which decision is about their results.
   void tell_replaced() {
+    if (keys_.is_identity() && !has_positional_) return;
     for_each([&](const clash::Report& test, const clash::Pair& pair, const Decision*& row) {
       if (row == nullptr) return;
       const Decision* const own = find(keys_.key(test.name, pair));
@@ -164,7 +166,7 @@ class RowMatcher {
   [[nodiscard]] PlacedObject placed(model::ObjectId id) const {
     const model::Object& object = model_.object(id);
     return {object.positional_id, keys_.group_now(model_.files[object.file].label),
-            object.positional_id ? without_numbers(object.name) : object.id};
+            valid_utf8(object.positional_id ? without_numbers(object.name) : object.id)};
   }
 
   void place(const Decision& row, std::vector<PlacedItem>& all) const {
