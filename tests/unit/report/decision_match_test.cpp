@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "report/decisions/row_keys.hpp"
 #include "support/decided.hpp"
 
 namespace strake::report {
@@ -230,6 +231,44 @@ TEST(Decisions, FollowAFileOfWhichTheyNameAFewObjects) {
   ASSERT_EQ(d.results.files.matches.size(), 1U);
   EXPECT_EQ(d.results.files.matches[0].relation, FileRelation::renamed);
   EXPECT_EQ(new_and_approved(d)[1], 2U);
+}
+
+TEST(RowKeys, AreThoseThatRowsWantUnlessOneStays) {
+  std::vector<Decision> rows(4);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].key = {0, i};
+    rows[i].status = DecisionStatus::approved;
+  }
+  const auto keys_of =
+      [&](const std::vector<std::tuple<std::size_t, std::uint64_t, bool>>& wanted) {
+        std::vector<WantedKey> all;
+        for (const auto& [r, key, found] : wanted) all.push_back({&rows[r], {0, key}, found});
+        const RowKeys assigned = assign_keys(all);
+        std::vector<std::uint64_t> keys;
+        for (const auto& [row, key] : assigned.keys) keys.push_back(key.low);
+        EXPECT_EQ(assigned.held.size(), keys.size()) << "a key stands in a file once";
+        return keys;  // in the order of the rows, which lie one behind the other
+      };
+  using Keys = std::vector<std::uint64_t>;
+  EXPECT_EQ(keys_of({{0, 1, true}, {1, 0, true}}), (Keys{1, 0})) << "two change places";
+  EXPECT_EQ(keys_of({{0, 1, true}, {1, 2, true}, {2, 3, true}}), (Keys{1, 2, 3}));
+  EXPECT_EQ(keys_of({{0, 0, false}, {1, 0, true}, {2, 1, true}}), (Keys{0, 1, 2}))
+      << "who wants the key of one that stays has to stay";
+  EXPECT_EQ(keys_of({{0, 9, false}, {1, 9, true}}), (Keys{0, 9})) << "what is found goes first";
+  rows[3].status = DecisionStatus::undecided;
+  EXPECT_EQ(keys_of({{0, 3, true}, {3, 3, false}}), (Keys{3})) << "nobody has written into it";
+  rows[3].comment = "ask Ann";
+  EXPECT_EQ(keys_of({{0, 3, true}, {3, 3, false}}), (Keys{0, 3}));
+}
+
+TEST(Decisions, WithACommentAreNotTakenForAnotherPlace) {
+  const std::string text = decided_pipes();
+  const std::string noted = with(text, 3, ",new,,,,", ",new,,,ask Ann,");
+  const Decided d(pipes({1000, 1300, 1600}), noted);
+  EXPECT_EQ(d.results.not_found.size(), 3U);
+  EXPECT_EQ(d.updated(), noted);
+  const Decided moved(pipes({3000, 200, 500, 800}), noted);
+  EXPECT_TRUE(moved.results.not_found.empty());
 }
 
 }  // namespace
