@@ -355,9 +355,16 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
   return write_decisions(session, given.decisions, *request.decisions, contents);
 }
 
+/// Whether contacts are needed one by one, as there are decisions.
+bool lists_contacts(const ClashRequest& request) {
+  return request.decisions && !request.decisions->file.decisions.empty();
+}
+
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   Result<ClashRequest> request = request_of(given, session.json());
   if (!request) return request.error();
+  // A decision may be about a contact: which are only counted is known when they are looked up.
+  if (lists_contacts(*request)) request->test.options.engine.contacts = clash::Contacts::list;
   request->test.options.engine.log_pairs =
       !given.result.log_pairs.empty() || session.has_stats_option();
   if (const Status status = check(given.result); !status) return status.error();
@@ -371,7 +378,8 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   findings->diagnostics.append(check_columns(request->output.columns, *loaded->model));
   tell(session, *findings, *loaded->model);
   const Result<std::optional<report::DecidedResults>> looked_up =
-      decide(session, given.decisions, request->decisions, *findings, *loaded->model);
+      decide(session, given.decisions, request->decisions, *findings, *loaded->model,
+             given.contacts == "count" && lists_contacts(*request));
   if (!looked_up) return looked_up.error();
   const report::DecidedResults* const decided = *looked_up ? &**looked_up : nullptr;
   const FailingPairs failing = failing_pairs(*findings, given.fail_on, decided);
@@ -379,7 +387,8 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
     return status.error();
   const bool first_look = !request->rules && given.profile.empty() && given.result.group_by.empty();
   if (session.console().narrates() && !session.json() && first_look && request->output.classes.hit)
-    if (const std::string hint = concentration_hint(*findings, *loaded->model); !hint.empty())
+    if (const std::string hint = concentration_hint(*findings, *loaded->model, decided);
+        !hint.empty())
       session.console().note(hint);
   return clash_exit_code(*findings, failing, given.fail_on, given.input, *loaded,
                          session.console());
@@ -424,9 +433,11 @@ void add_rules(CLI::App& command, ClashOptions& options) {
                 "Check lines and polylines too, as bodies without thickness (default: they are "
                 "drawn, but never clash)")
       ->group("Rules");
-  add_choice(command, "--contacts", options.contacts, {"list", "count"},
-             "List contacts that lie side by side as other results, or only count them; a contact "
-             "that may be something else is listed all the same (default list)")
+  add_choice(
+      command, "--contacts", options.contacts, {"list", "count"},
+      "List contacts that lie side by side as other results, or only count them; a contact "
+      "that may be something else, or has a row in --decisions, is listed all the same (default "
+      "list)")
       ->group("Result");
   add_choice(
       command, "--fail-on", options.fail_on, {"hit", "contact", "clearance_violation"},

@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,8 +13,10 @@
 #include <system_error>
 #include <utility>
 
+#include "clash/results/unlisted_contacts.hpp"
 #include "cli/options/options.hpp"
 #include "core/output_format.hpp"
+#include "core/text_encoding.hpp"
 
 namespace strake::cli {
 
@@ -34,6 +38,24 @@ void print_lines(Console& console, std::string_view text) {
     console.note(std::string(text.substr(0, end)));
     text.remove_prefix(end + 1);
   }
+}
+
+/// Takes the contacts that are only counted out of findings, without those that have a row.
+Status count_contacts(Session& session, const report::DecidedResults& decided,
+                      clash::Findings& findings) {
+  for (std::size_t t = 0; t < findings.tests.size(); ++t) {
+    clash::Report& test = findings.tests[t];
+    test.options.engine.contacts = clash::Contacts::count;
+    const Status status = clash::leave_out_contacts(
+        session.context(), test,
+        [&](const clash::Pair& pair) { return decided.of(t, pair) != nullptr; });
+    if (!status) return status;
+  }
+  return {};
+}
+
+std::string rows_text(std::uint64_t rows) {
+  return rows == 1 ? std::string("1 row") : fmt::format("{} rows", rows);
 }
 
 }  // namespace
@@ -58,7 +80,7 @@ void add_decision_options(CLI::App& command, DecisionInput& options) {
   command
       .add_option("--deeper", options.deeper,
                   "An approved clash that is deeper or nearer than it was by more than this is "
-                  "listed again (default 1mm)")
+                  "listed again, as is one of a severer class (default 1mm)")
       ->type_name("LENGTH")
       ->group(kGroup)
       ->needs(file);
@@ -86,13 +108,30 @@ Result<std::optional<DecisionRequest>> decision_request(const DecisionInput& inp
 
 Result<std::optional<report::DecidedResults>> decide(Session& session, const DecisionInput& input,
                                                      const std::optional<DecisionRequest>& request,
-                                                     const clash::Findings& findings,
-                                                     const model::Model& model) {
+                                                     clash::Findings& findings,
+                                                     const model::Model& model,
+                                                     bool counts_contacts) {
   if (!request) return std::optional<report::DecidedResults>();
   const auto timer = session.step("look up decisions");
-  Result<report::DecidedResults> decided =
-      report::decide(findings, model, request->file, {request->deeper_mm, input.match_files});
+  const report::DecisionRules rules{request->deeper_mm, input.match_files};
+  Result<report::DecidedResults> decided = report::decide(findings, model, request->file, rules);
   if (!decided) return decided.error();
+  if (counts_contacts) {
+    if (const Status status = count_contacts(session, *decided, findings); !status)
+      return status.error();
+    decided = report::decide(findings, model, request->file, rules);
+    if (!decided) return decided.error();
+  }
+  if (const std::uint64_t count = decided->count_regions_unknown(); count > 0)
+    session.console().note(fmt::format(
+        "{}: {} at places that this run does not count: whether the two meet at more places now is "
+        "not known (--regions 0 and --narrow-phase sphere-subdivision count none)",
+        input.file,
+        count == 1 ? std::string("1 clash is approved")
+                   : fmt::format("{} clashes are approved", count)));
+  for (const std::string& pair : decided->renamed_before)
+    session.console().note(
+        fmt::format("--match-files {}: {} has the new name already", printable(pair), input.file));
   print_lines(session.console(), report::file_matches_text(decided->files));
   return std::optional(std::move(*decided));
 }
@@ -101,6 +140,11 @@ Status write_decisions(Session& session, const DecisionInput& input, const Decis
                        const report::ClashContents& contents) {
   if (!input.write) return {};
   const report::UpdatedDecisions updated = report::update_decisions(contents);
+  if (updated.without_row > 0)
+    session.console().note(fmt::format(
+        "{}: {} no row: their keys stand there for another place", input.file,
+        updated.without_row == 1 ? std::string("1 result has")
+                                 : fmt::format("{} results have", updated.without_row)));
   if (request.exists && updated.text == request.file.text) return {};
   const Status status = session.write(input.file, [&](Session::Sink sink) -> Status {
     if (!is_unchanged(request))
@@ -109,11 +153,12 @@ Status write_decisions(Session& session, const DecisionInput& input, const Decis
     sink(updated.text);
     return {};
   });
-  if (status)
-    session.console().note(fmt::format(
-        "{}: {} added", input.file,
-        updated.added == 1 ? std::string("1 row") : fmt::format("{} rows", updated.added)));
-  return status;
+  if (!status) return status;
+  session.console().note(fmt::format("{}: {} added", input.file, rows_text(updated.added)));
+  if (updated.taken_out > 0)
+    session.console().note(fmt::format("{}: {} without a decision replaced by decided ones",
+                                       input.file, rows_text(updated.taken_out)));
+  return {};
 }
 
 }  // namespace strake::cli

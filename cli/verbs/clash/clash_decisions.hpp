@@ -39,11 +39,12 @@ struct DecisionRequest {
 /// is not there unless it is to be written.
 [[nodiscard]] Result<std::optional<DecisionRequest>> decision_request(const DecisionInput& input);
 
-/// Looks up the decisions about findings, and tells which files are taken as renamed. The request
-/// must outlive the result.
+/// Looks up the decisions about findings, and tells which files are taken as renamed. With
+/// `counts_contacts`, contacts that have no row are taken out of the findings and only counted. The
+/// request must outlive the result.
 [[nodiscard]] Result<std::optional<report::DecidedResults>> decide(
     Session& session, const DecisionInput& input, const std::optional<DecisionRequest>& request,
-    const clash::Findings& findings, const model::Model& model);
+    clash::Findings& findings, const model::Model& model, bool counts_contacts);
 
 /// Writes the file of contents.decided back with the results that it lacks, if that is asked for.
 /// Errors: output, where somebody changed the file since it was read.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -35,14 +36,16 @@ struct HitsByWhole {
 };
 
 HitsByWhole hits_of(const clash::Findings& findings, const model::Model& model,
-                    const model::ObjectAssemblies& assemblies) {
+                    const model::ObjectAssemblies& assemblies,
+                    const report::DecidedResults* decided) {
   const auto whole_of = [&](model::ObjectId id) {
     return Whole{assemblies.of(id), model.object(id).file};
   };
   HitsByWhole hits;
-  for (const clash::Report& test : findings.tests)
-    for (const clash::Pair& pair : test.pairs) {
+  for (std::size_t t = 0; t < findings.tests.size(); ++t)
+    for (const clash::Pair& pair : findings.tests[t].pairs) {
       if (pair.cls != clash::Class::hit || pair.allowed >= 0) continue;
+      if (decided != nullptr && decided->is_settled(t, pair)) continue;
       ++hits.all;
       const Whole a = whole_of(pair.a), b = whole_of(pair.b);
       // Between two files, or within one, all hits lie: that is no news.
@@ -81,12 +84,14 @@ std::string hint_of_pair(const HitsByWhole& hits, const model::Model& model) {
 
 }  // namespace
 
-std::string concentration_hint(const clash::Findings& findings, const model::Model& model) {
+std::string concentration_hint(const clash::Findings& findings, const model::Model& model,
+                               const report::DecidedResults* decided) {
   std::uint64_t count = 0;
   for (const clash::Report& test : findings.tests) count += test.count_hit;
   if (count < kLeastHits) return {};
   const model::ObjectAssemblies assemblies(model);
-  const HitsByWhole hits = hits_of(findings, model, assemblies);
+  const HitsByWhole hits = hits_of(findings, model, assemblies, decided);
+  if (hits.all < kLeastHits) return {};
   const std::string within = hint_of_parts(hits, assemblies.typed());
   return within.empty() ? hint_of_pair(hits, model) : within;
 }

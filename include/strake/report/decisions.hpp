@@ -38,7 +38,7 @@ inline constexpr std::array kDecisionStatuses{DecisionStatus::undecided, Decisio
 
 /// One of the two objects that a row names; both are empty where the file has no such columns.
 struct DecisionObject {
-  std::string file, id;
+  std::string file, id, name;
 };
 
 /// A row of the file.
@@ -47,7 +47,9 @@ struct Decision {
   DecisionStatus status = DecisionStatus::undecided;
   std::string by, date, comment;  ///< the date as 2026-01-31; each may be empty
   // The clash when it was decided about, as far as the file says.
+  std::optional<clash::Class> cls;
   std::optional<double> d_mm;
+  double d_rounding_mm = 0;  ///< by so much d_mm may have been rounded
   std::optional<geometry::Vec3d> point_mm;
   std::uint32_t regions = 0;  ///< 0: not said
   std::string test;
@@ -63,22 +65,25 @@ struct DecisionFile {
 
 /// Reads decisions: CSV of UTF-8 with a line of headings, separated by commas, semicolons or tabs,
 /// with or without a byte order mark. It needs the columns `key` and `status`; `by`, `date`,
-/// `comment`, and `d_mm`, `x_mm`, `y_mm`, `z_mm`, `regions`, `test`, `a_file`, `a_id`, `b_file` and
-/// `b_id` as results have them, are read where they are there, all others are not.
+/// `comment`, and `class`, `d_mm`, `x_mm`, `y_mm`, `z_mm`, `regions`, `test`, `a_file`, `a_id`,
+/// `a_name`, `b_file`, `b_id` and `b_name` as results have them, are read where they are there, all
+/// others are not. Where a cell of `d_mm` is blank, `class` and `regions` of the row say nothing.
 /// Errors (input), each with file and line: a column that is missing or there twice, a key that is
-/// none or there twice, an unknown status, a date that is none, a number that is none.
+/// none or there twice, an unknown status, a date, a number or a
+/// class that is none.
 [[nodiscard]] Result<DecisionFile> parse_decisions(std::string text, std::string name);
 [[nodiscard]] Result<DecisionFile> read_decisions(const std::filesystem::path& file);
 
 /// Why a decision does not settle its clash any more.
 enum class Reopened : std::uint8_t {
   no,
+  severer,       ///< approved, and of a severer class than it was
   deeper,        ///< approved, and deeper or nearer than it was
   more_regions,  ///< approved, and the two meet at more places than they did
   found_again,   ///< resolved, and still there
 };
 
-/// Returns "deeper", "more places" or "found again"; an empty text for `no`.
+/// Returns "severer", "deeper", "more places" or "found again"; an empty text for `no`.
 [[nodiscard]] std::string_view name(Reopened reopened);
 
 /// A result with the decision about it.
@@ -87,6 +92,7 @@ struct DecidedResult {
   clash::Class cls = clash::Class::no_hit;
   bool allowed = false;  ///< a rule allows it
   Reopened reopened = Reopened::no;
+  bool regions_unknown = false;  ///< the row states regions, which the run did not count
   const Decision* decision = nullptr;
 
   /// Whether nobody needs to look at it: approved, and no worse than it was then.
@@ -96,7 +102,8 @@ struct DecidedResult {
 };
 
 struct DecisionRules {
-  /// An approved clash comes back where its d is less than it was by more than this.
+  /// An approved clash comes back where its d is less than it was by more than this, and than the
+  /// file may have rounded it.
   double deeper_mm = 1;
   /// Files that have another name now, as OLD=NEW.
   std::span<const std::string> match_files = {};
@@ -107,7 +114,9 @@ class DecidedResults {
  public:
   const DecisionFile* file = nullptr;
   double deeper_mm = 0;
-  FileMatches files;                              ///< which file had which name when decided
+  FileMatches files;  ///< which file had which name when decided
+  /// DecisionRules::match_files that change nothing: the file has the new name and not the old one.
+  std::vector<std::string> renamed_before;
   std::vector<std::vector<DecidedResult>> tests;  ///< of each test by (a, b)
   std::vector<const Decision*> not_found;         ///< decisions about no result, as in the file
   /// Results of each status that no rule allows; those without a decision are new.
@@ -121,6 +130,8 @@ class DecidedResults {
   }
   /// Returns how many results that no rule allows came back for this reason.
   [[nodiscard]] std::uint64_t count(Reopened reopened) const;
+  /// Returns how many of them may meet at more places than they did, as these were not counted.
+  [[nodiscard]] std::uint64_t count_regions_unknown() const;
 };
 
 /// Looks up the decision about each result, by its key. A file that has another name than when its
@@ -128,7 +139,9 @@ class DecidedResults {
 /// DecisionRules::match_files: its results have the decisions about their former keys.
 ///
 /// Where the id of an object is only a position in its file, a key may be another clash's: the
-/// decision is taken only where the place and d that the file states are those of the result.
+/// decision is found by place, where the file names the two objects and their files, or by key
+/// where the place that the file states is that of the result. Rows that nobody has written into
+/// are found by key.
 ///
 /// Errors: usage, as of match_files() and parse_file_pairs().
 [[nodiscard]] Result<DecidedResults> decide(const clash::Findings& findings,
@@ -138,15 +151,18 @@ class DecidedResults {
 /// What a decision file becomes by a run.
 struct UpdatedDecisions {
   std::string text;
-  std::uint64_t added = 0;  ///< rows of results that had none
+  std::uint64_t added = 0;        ///< rows of results that had none
+  std::uint64_t taken_out = 0;    ///< rows that nobody has written into, replaced by decisions
+  std::uint64_t without_row = 0;  ///< results whose key stands there for another place
 };
 
 /// Adds a row of the status `new` for each result that has none and that no rule allows. All rows
 /// and columns stay as they are, but that
 ///
 /// 1. rows without a decision (`new`) have what the result measures now, and decided ones get what
-///    they lack of it: it is what a decision is about;
-/// 2. rows of a file that was renamed have the key and the labels of today.
+///    they lack of it: it is what a decision is about; all of it where the cell of `d_mm` is blank;
+/// 2. rows of a file that was renamed, or of an object whose id is only a position, have the key
+///    and the names of today; a row of that key that nobody has written into is taken out.
 ///
 /// `contents.decided` must be there; contents.csv is the form of a file that is not there yet.
 [[nodiscard]] UpdatedDecisions update_decisions(const ClashContents& contents);

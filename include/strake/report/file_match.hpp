@@ -31,6 +31,9 @@ struct RunFiles {
   /// Whether a file of the run has an object of this id; absent: the ids above are all that there
   /// are.
   std::function<bool(std::string_view label, std::string_view id)> has;
+  /// Of the old run: it holds some of what the run had, as a file of decisions does. What the new
+  /// run has beyond it makes no file another.
+  bool is_excerpt = false;
 };
 
 /// Why two files are taken for one.
@@ -46,7 +49,8 @@ struct FileMatch {
   std::string before, after;
   FileRelation relation = FileRelation::same_label;
   /// How many ids are in both files, of those that the results name of either; of a split or merged
-  /// file, of those of the part. With `by_places`, how many places.
+  /// file, of those of the part. With `by_places`, how many places. Both are 0 where one of the
+  /// files has neither ids nor places.
   std::uint64_t common = 0, of = 0;
   bool by_places = false;  ///< one of the files has no lasting ids, or neither has
   friend bool operator==(const FileMatch&, const FileMatch&) = default;
@@ -80,7 +84,8 @@ struct FilePair {
 /// Pairs that are `asked` for come first, then files of equal labels. What is left goes by what is
 /// in it. Two files are one, renamed, where more than half of the lasting ids of either that the
 /// results name are in the other: at least three of them, twenty where both have places and share
-/// none, or fewer with more than half of the places in common; where one of them has no lasting
+/// none, or fewer with more than half of the places in common (where the old run is an excerpt, of
+/// what it has alone); where one of them has no lasting
 /// ids, places decide alone. Of several candidates one is taken only if the others have less than
 /// nine tenths of its ids in common, or, where ids do not tell, of its places; else none is, and
 /// all are ambiguous. A file of which more than half of the ids, as many at least, are in a file of

@@ -27,12 +27,18 @@ bool is_left_out(const Pair& pair) {
 }  // namespace
 
 Status leave_out_contacts(const parallel::Context& context, Report& report) {
+  return leave_out_contacts(context, report, [](const Pair&) { return false; });
+}
+
+Status leave_out_contacts(const parallel::Context& context, Report& report,
+                          parallel::FunctionRef<bool(const Pair&)> stays) {
+  const auto is_unlisted = [&](const Pair& pair) { return is_left_out(pair) && !stays(pair); };
   const auto unlisted = parallel::reduce(
       context, {.name = "count contacts", .n = report.pairs.size(), .grain = kGrain},
       UnlistedContacts{},
       [&](UnlistedContacts& counts, std::size_t i) {
         const Pair& pair = report.pairs[i];
-        if (is_left_out(pair)) ++(pair.allowed < 0 ? counts.contacts : counts.allowed);
+        if (is_unlisted(pair)) ++(pair.allowed < 0 ? counts.contacts : counts.allowed);
       },
       [](UnlistedContacts& into, const UnlistedContacts& counts) {
         into.contacts += counts.contacts;
@@ -42,7 +48,7 @@ Status leave_out_contacts(const parallel::Context& context, Report& report) {
   auto kept = parallel::collect<Pair>(
       context, {.name = "list without contacts", .n = report.pairs.size(), .grain = kGrain},
       [&](std::size_t i, std::vector<Pair>& out) {
-        if (!is_left_out(report.pairs[i])) out.push_back(report.pairs[i]);
+        if (!is_unlisted(report.pairs[i])) out.push_back(report.pairs[i]);
       });
   if (!kept) return kept.error();
   report.unlisted = *unlisted;

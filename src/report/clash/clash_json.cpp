@@ -124,8 +124,9 @@ void decisions(std::string& out, const DecidedResults& decided) {
     out += std::to_string(decided.counts[s]);
   }
   out += "}, \"reopened\": {";
-  for (const Reopened why : {Reopened::deeper, Reopened::more_regions, Reopened::found_again}) {
-    out += why == Reopened::deeper ? "" : ", ";
+  for (const Reopened why :
+       {Reopened::severer, Reopened::deeper, Reopened::more_regions, Reopened::found_again}) {
+    out += why == Reopened::severer ? "" : ", ";
     std::string key(name(why));
     std::ranges::replace(key, ' ', '_');
     append_key(out, key);

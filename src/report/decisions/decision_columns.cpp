@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/text_encoding.hpp"
+#include "report/text/csv.hpp"
 
 namespace strake::report {
 namespace {
@@ -19,11 +20,19 @@ std::string headings_of(const CsvRecord& head) {
   constexpr std::size_t kMostNamed = 8;
   std::string text;
   for (std::size_t c = 0; c < std::min(head.cells.size(), kMostNamed); ++c)
-    text += (c > 0 ? ", " : "") + in_quotes(cell_text(head.cells[c]));
+    text += (c > 0 ? ", " : "") + in_quotes_cut(cell_text(head.cells[c]));
   return head.cells.size() > kMostNamed ? text + " …" : text;
 }
 
 }  // namespace
+
+std::string in_quotes_cut(std::string_view text) {
+  constexpr std::size_t kMostBytes = 60;
+  std::string_view rest = text;
+  while (!rest.empty() && text.size() - rest.size() < kMostBytes) (void)take_character(rest);
+  const std::string_view shown = text.substr(0, text.size() - rest.size());
+  return rest.empty() ? in_quotes(text) : in_quotes(std::string(shown) + "…");
+}
 
 Result<DecisionColumns> DecisionColumns::read(const CsvTable& table, const std::string& name) {
   DecisionColumns columns;
@@ -44,6 +53,17 @@ Result<DecisionColumns> DecisionColumns::read(const CsvTable& table, const std::
                               "' but " + headings_of(head),
                           name);
   return columns;
+}
+
+std::string DecisionColumns::name(const CsvRecord& record, DecisionColumn column) const {
+  if (!has(column) || at(column) >= record.cells.size()) return {};
+  return std::string(without_apostrophe(untrimmed_cell_text(record.cells[at(column)])));
+}
+
+bool DecisionColumns::all_blank(const CsvRecord& record) const {
+  for (std::size_t c = 0; c < kDecisionColumns.size(); ++c)
+    if (!text(record, static_cast<DecisionColumn>(c)).empty()) return false;
+  return true;
 }
 
 }  // namespace strake::report

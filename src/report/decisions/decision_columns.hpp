@@ -38,6 +38,9 @@ inline constexpr std::array<std::string_view, 18> kDecisionColumns{
     "key",  "status",  "by",   "date",   "comment", "class",  "d_mm",   "x_mm", "y_mm",
     "z_mm", "regions", "test", "a_file", "a_id",    "a_name", "b_file", "b_id", "b_name"};
 
+/// Returns what somebody wrote in quotes, for a message; a long text is cut.
+[[nodiscard]] std::string in_quotes_cut(std::string_view text);
+
 /// Where each of these columns stands in a file.
 class DecisionColumns {
  public:
@@ -58,6 +61,10 @@ class DecisionColumns {
     return has(column) && at(column) < record.cells.size() ? cell_text(record.cells[at(column)])
                                                            : std::string();
   }
+  /// Returns a name in a record as it was before it was written: blanks at its ends are its own.
+  [[nodiscard]] std::string name(const CsvRecord& record, DecisionColumn column) const;
+  /// Whether a record says nothing in any column that the program knows.
+  [[nodiscard]] bool all_blank(const CsvRecord& record) const;
 
  private:
   static constexpr std::size_t kNowhere = static_cast<std::size_t>(-1);

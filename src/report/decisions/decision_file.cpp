@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -60,6 +61,18 @@ std::optional<DecisionStatus> status_of(std::string_view text) {
   return std::nullopt;
 }
 
+/// Returns how far a number may be from what it was before it was written: by half of its last
+/// decimal. A whole number is one, to what the program writes.
+double rounding_of(std::string_view number) {
+  constexpr double kWrittenMm = 1e-6, kNoise = 1e-9;
+  const std::size_t point = number.find('.'), exponent = number.find_first_of("eE");
+  double digit_mm = kWrittenMm;
+  if (point != std::string_view::npos && exponent == std::string_view::npos &&
+      point + 1 < number.size())
+    digit_mm = std::max(kWrittenMm, std::pow(10, -static_cast<double>(number.size() - point - 1)));
+  return digit_mm / 2 + kNoise;
+}
+
 /// Reads the rows of a file one by one.
 class DecisionReader {
  public:
@@ -70,9 +83,8 @@ class DecisionReader {
     std::vector<Decision> all;
     for (std::size_t r = 1; r < table_.records.size(); ++r) {
       const CsvRecord& record = table_.records[r];
-      const bool names_none =
-          text(record, Column::key).empty() && text(record, Column::status).empty();
-      if (is_blank(record) || names_none) continue;
+      if (columns_.all_blank(record) && !has_extra_cells(record)) continue;
+      if (is_exempted(record)) continue;
       Result<Decision> read = row(record);
       if (!read) return read.error();
       const auto [at, is_new] = lines_.try_emplace(read->key, read->line);
@@ -89,11 +101,17 @@ class DecisionReader {
     return columns_.text(record, column);
   }
 
-  /// Returns a name without the apostrophe that keeps a spreadsheet from taking it for a formula.
-  [[nodiscard]] std::string named(const CsvRecord& record, Column column) const {
-    std::string name = text(record, column);
-    if (name.starts_with('\'')) name.erase(0, 1);
-    return name;
+  /// Whether a row of a CSV of results is a pair that a rule exempts, which has no key.
+  [[nodiscard]] bool is_exempted(const CsvRecord& record) const {
+    return text(record, Column::key).empty() && text(record, Column::status).empty() &&
+           text(record, Column::cls) == "EXEMPTED";
+  }
+
+  [[nodiscard]] bool has_extra_cells(const CsvRecord& record) const {
+    const std::size_t headings = table_.records.front().cells.size();
+    for (std::size_t c = headings; c < record.cells.size(); ++c)
+      if (!cell_text(record.cells[c]).empty()) return true;
+    return false;
   }
 
   [[nodiscard]] Error fault(const CsvRecord& record, std::string message, std::string mend) const {
@@ -102,24 +120,28 @@ class DecisionReader {
   }
 
   Result<Decision> row(const CsvRecord& record) const {
-    const std::size_t headings = table_.records.front().cells.size();
-    for (std::size_t c = headings; c < record.cells.size(); ++c)
-      if (!cell_text(record.cells[c]).empty())
-        return fault(record, "the row has more cells than there are headings",
-                     "put a cell that has the separator in it between quotes");
+    if (has_extra_cells(record))
+      return fault(record, "the row has more cells than there are headings",
+                   "put a cell that has the separator in it between quotes");
     Decision decision;
     decision.line = record.line;
     const std::string key = lowered(text(record, Column::key));
+    if (key.empty())
+      return fault(
+          record, "the row has no key",
+          "write the 26 letters and digits that its result has as 'key', or empty the row");
     const auto parsed = clash::parse_key(key);
     if (!parsed)
-      return fault(record, in_quotes(key) + " is no key",
+      return fault(record, in_quotes_cut(key) + " is no key",
                    "a key is the 26 letters and digits that results have as 'key'");
     decision.key = *parsed;
     if (const Status status = decided(record, decision); !status) return status.error();
     if (const Status status = measured(record, decision); !status) return status.error();
-    decision.test = named(record, Column::test);
-    decision.a = {named(record, Column::a_file), named(record, Column::a_id)};
-    decision.b = {named(record, Column::b_file), named(record, Column::b_id)};
+    decision.test = columns_.name(record, Column::test);
+    decision.a = {columns_.name(record, Column::a_file), columns_.name(record, Column::a_id),
+                  columns_.name(record, Column::a_name)};
+    decision.b = {columns_.name(record, Column::b_file), columns_.name(record, Column::b_id),
+                  columns_.name(record, Column::b_name)};
     return decision;
   }
 
@@ -128,7 +150,7 @@ class DecisionReader {
     const std::string word = text(record, Column::status), date = text(record, Column::date);
     const auto status = status_of(word);
     if (!status)
-      return fault(record, in_quotes(word) + " is no status",
+      return fault(record, in_quotes_cut(word) + " is no status",
                    "write new, active, reviewed, approved or resolved");
     row.status = *status;
     row.by = text(record, Column::by);
@@ -136,19 +158,29 @@ class DecisionReader {
     if (date.empty()) return {};
     auto read = date_of(date);
     if (!read)
-      return fault(record, in_quotes(date) + " is no date", "write 2026-01-31, or 31.1.2026");
+      return fault(record, in_quotes_cut(date) + " is no date", "write 2026-01-31, or 31.1.2026");
     row.date = std::move(*read);
     return {};
   }
 
-  /// Reads a number, with a point or a comma; nothing where there is none.
-  Result<std::optional<double>> number(const CsvRecord& record, Column column) const {
+  /// Returns the text of a number, with a point for a decimal comma.
+  [[nodiscard]] std::string with_point(const CsvRecord& record, Column column) const {
     std::string written = text(record, column);
-    if (written.empty()) return std::optional<double>();
     std::ranges::replace(written, ',', '.');
+    return written;
+  }
+
+  /// Reads a number; nothing where there is none. Where commas part the cells, none is a decimal
+  /// point: it may part thousands as well.
+  Result<std::optional<double>> number(const CsvRecord& record, Column column) const {
+    const std::string written = with_point(record, column);
+    if (written.empty()) return std::optional<double>();
+    if (table_.separator == ',' && text(record, column).find(',') != std::string::npos)
+      return fault(record, in_quotes_cut(text(record, column)) + " has a comma",
+                   "write numbers as 1234.5, without commas, in a file separated by commas");
     const auto value = parse_number(written);
     if (!value)
-      return fault(record, in_quotes(text(record, column)) + " is no number",
+      return fault(record, in_quotes_cut(text(record, column)) + " is no number",
                    "write as many " +
                        std::string(column == Column::regions ? "places" : "millimetres") +
                        " as the result had, or nothing");
@@ -166,10 +198,40 @@ class DecisionReader {
     }
     const auto& [d, x, y, z, regions] = values;
     row.d_mm = d;
+    if (d) row.d_rounding_mm = rounding_of(with_point(record, Column::d));
     if (x && y && z) row.point_mm = geometry::Vec3d{*x, *y, *z};
-    if (regions && *regions >= 1 && *regions <= std::numeric_limits<std::uint32_t>::max())
-      row.regions = static_cast<std::uint32_t>(*regions);
+    if (const Status status = counted(record, regions.value_or(0), row); !status)
+      return status.error();
+    if (const Status status = classified(record, row); !status) return status.error();
+    // Whoever empties the depth decides about the clash as it is now.
+    if (columns_.has(Column::d) && !d) {
+      row.regions = 0;
+      row.cls.reset();
+    }
     return {};
+  }
+
+  /// Takes a number of places, of which 0 says as much as none.
+  Status counted(const CsvRecord& record, double places, Decision& row) const {
+    if (places == 0) return {};
+    const bool is_count = places >= 1 && places <= std::numeric_limits<std::uint32_t>::max() &&
+                          places == std::floor(places);
+    if (!is_count)
+      return fault(record, in_quotes_cut(text(record, Column::regions)) + " is no number of places",
+                   "write as many places as the result had, or nothing");
+    row.regions = static_cast<std::uint32_t>(places);
+    return {};
+  }
+
+  Status classified(const CsvRecord& record, Decision& row) const {
+    const std::string word = lowered(text(record, Column::cls));
+    if (word.empty()) return {};
+    for (const clash::Class cls :
+         {clash::Class::clearance_violation, clash::Class::contact, clash::Class::hit})
+      if (word == lowered(name(cls))) row.cls = cls;
+    if (row.cls) return {};
+    return fault(record, in_quotes_cut(text(record, Column::cls)) + " is no class",
+                 "write HIT, CONTACT or CLEARANCE_VIOLATION, or nothing");
   }
 
   const CsvTable& table_;

@@ -102,20 +102,47 @@ void add_asked(FileContentsByLabel& former, const FileContentsByLabel& today,
       if (at > 0 && today.contains(text.substr(at + 1))) former.try_emplace(text.substr(0, at));
 }
 
+/// Whether a run before this one wrote the name of today, OLD=NEW, into the file.
+bool is_in_force(const std::string& text, const FileContentsByLabel& former,
+                 const FileContentsByLabel& today) {
+  bool in_force = false;
+  for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1)) {
+    const std::string was = text.substr(0, at), is = text.substr(at + 1);
+    if (was.empty() || !today.contains(is)) continue;
+    if (former.contains(was)) return false;
+    in_force = in_force || former.contains(is);
+  }
+  return in_force;
+}
+
+bool names_all_files(const DecisionFile& decided) {
+  return std::ranges::none_of(decided.decisions, [](const Decision& row) {
+    return row.a.file.empty() || row.b.file.empty();
+  });
+}
+
 }  // namespace
 
-Result<FileMatches> match_decided_files(const clash::Findings& findings, const model::Model& model,
-                                        const DecisionFile& decided,
-                                        std::span<const std::string> asked) {
+Result<DecidedFiles> match_decided_files(const clash::Findings& findings, const model::Model& model,
+                                         const DecisionFile& decided,
+                                         std::span<const std::string> asked) {
   FileContentsByLabel former = contents_of(decided), today = contents_of(findings, model);
-  if (former.empty()) add_asked(former, today, asked);
-  const RunFiles before = files_of(std::move(former));
+  if (former.empty() || !names_all_files(decided)) add_asked(former, today, asked);
+  DecidedFiles files;
+  std::vector<std::string> open;
+  for (const std::string& text : asked)
+    (is_in_force(text, former, today) ? files.in_force : open).push_back(text);
+  RunFiles before = files_of(std::move(former));
+  before.is_excerpt = true;
   RunFiles after = files_of(std::move(today));
   const IdsByFile ids = ids_of(model);
   after.has = [&](std::string_view label, std::string_view id) { return has(ids, label, id); };
-  const Result<std::vector<FilePair>> pairs = parse_file_pairs(asked, before, after);
+  const Result<std::vector<FilePair>> pairs = parse_file_pairs(open, before, after);
   if (!pairs) return pairs.error();
-  return match_files(before, after, *pairs);
+  Result<FileMatches> matches = match_files(before, after, *pairs);
+  if (!matches) return matches.error();
+  files.matches = std::move(*matches);
+  return files;
 }
 
 DecidedKeys::DecidedKeys(const FileMatches& files, const model::Model& model,

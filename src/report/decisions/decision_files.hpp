@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "report/files/file_map.hpp"
 #include "strake/core/hash.hpp"
@@ -16,12 +17,17 @@
 
 namespace strake::report {
 
-/// Tells which file of a model had which name when decisions were made. Errors: usage, as of
-/// match_files() and parse_file_pairs().
-[[nodiscard]] Result<FileMatches> match_decided_files(const clash::Findings& findings,
-                                                      const model::Model& model,
-                                                      const DecisionFile& decided,
-                                                      std::span<const std::string> asked);
+/// Which file of a model had which name when decisions were made.
+struct DecidedFiles {
+  FileMatches matches;
+  std::vector<std::string> in_force;  ///< as DecidedResults::renamed_before
+};
+
+/// Tells it. Errors: usage, as of match_files() and parse_file_pairs().
+[[nodiscard]] Result<DecidedFiles> match_decided_files(const clash::Findings& findings,
+                                                       const model::Model& model,
+                                                       const DecisionFile& decided,
+                                                       std::span<const std::string> asked);
 
 /// Ids of objects by the labels of their files.
 using IdsByFile = std::map<std::string_view, std::set<std::string_view>>;
@@ -41,11 +47,29 @@ class DecidedKeys {
   [[nodiscard]] Hash128 key(std::string_view test, const clash::Pair& pair) const;
   /// Whether the label of one of the two was that of another file when decisions were made.
   [[nodiscard]] bool has_label_of_another(const clash::Pair& pair) const;
+  /// Returns the label that the file of an object of a row has today; one that no file has where it
+  /// has no counterpart.
+  [[nodiscard]] std::string label_today(const DecisionObject& object) const {
+    return has_new_name(object.file) ? object.file
+                                     : map_.label_in_other(Run::before, object.file, object.id);
+  }
+  /// Return one text for a file then, and for the files that it is today.
+  [[nodiscard]] std::string group_then(std::string_view label) const {
+    return has_new_name(label) ? group_now(label) : map_.group_of(Run::before, label);
+  }
+  [[nodiscard]] std::string group_now(std::string_view label) const {
+    return map_.group_of(Run::after, label);
+  }
   /// Returns a row with the key and the labels of today, if they are others than it states, and if
   /// it names what its key is made of.
   [[nodiscard]] std::optional<Decision> renamed(const Decision& row) const;
 
  private:
+  /// Whether rows have the name that a file has today, beside those that have its former one.
+  [[nodiscard]] bool has_new_name(std::string_view label) const {
+    return ids_now_.contains(label) && map_.group_of(Run::before, label).starts_with('\0');
+  }
+
   const model::Model& model_;
   const FileMatches& files_;
   IdsByFile ids_then_, ids_now_;

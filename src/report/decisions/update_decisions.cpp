@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <map>
-#include <set>
 #include <utility>
+#include <vector>
 
 #include "clash/results/clash_key.hpp"
 #include "report/decisions/decision_columns.hpp"
 #include "report/decisions/decision_files.hpp"
+#include "report/decisions/decision_match.hpp"
+#include "report/decisions/row_keys.hpp"
 #include "report/text/csv.hpp"
 #include "report/text/csv_table.hpp"
 #include "report/text/formatting.hpp"
@@ -143,20 +145,16 @@ class DecisionUpdate {
   UpdatedDecisions run() {
     add_columns();
     find_results();
-    std::map<std::size_t, const Decision*> by_line;
-    for (const Decision& row : decided_.file->decisions) {
-      by_line.emplace(row.line, &row);
-      taken_.insert(row.key);
-    }
-    for (CsvRecord& record : table_.records)
-      if (const auto row = by_line.find(record.line); row != by_line.end())
-        update(record, *row->second);
-    const std::uint64_t added = add_rows();
-    return {csv_text(table_), added};
+    row_keys_ = assign_keys(wanted_keys());
+    update_rows();
+    add_rows();
+    updated_.text = csv_text(table_);
+    return updated_;
   }
 
  private:
   void add_columns() {
+    states_depths_ = columns_.has(Column::d);
     CsvRecord& head = table_.records.front();
     for (std::size_t c = 0; c < kDecisionColumns.size(); ++c) {
       const auto column = static_cast<Column>(c);
@@ -179,12 +177,43 @@ class DecisionUpdate {
     }
   }
 
-  void update(CsvRecord& record, const Decision& row) {
+  [[nodiscard]] std::vector<WantedKey> wanted_keys() const {
+    std::vector<WantedKey> wanted;
+    for (const Decision& row : decided_.file->decisions) {
+      const auto result = results_.find(&row);
+      if (result != results_.end()) {
+        const auto& [test, pair] = result->second;
+        wanted.push_back({&row, keys_.key(test->name, *pair), true});
+      } else {
+        const auto today = keys_.renamed(row);
+        wanted.push_back({&row, today ? today->key : row.key, false});
+      }
+    }
+    return wanted;
+  }
+
+  void update_rows() {
+    std::map<std::size_t, const Decision*> by_line;
+    for (const Decision& row : decided_.file->decisions) by_line.emplace(row.line, &row);
+    const auto row_of = [&](const CsvRecord& record) {
+      const auto at = by_line.find(record.line);
+      return at == by_line.end() ? nullptr : at->second;
+    };
+    updated_.taken_out = std::erase_if(table_.records, [&](const CsvRecord& record) {
+      const Decision* const row = row_of(record);
+      return row != nullptr && !row_keys_.keys.contains(row);
+    });
+    for (CsvRecord& record : table_.records)
+      if (const Decision* const row = row_of(record)) update(record, *row);
+  }
+
+  void update(CsvRecord& record, const Decision& row) const {
     const auto result = results_.find(&row);
+    const Hash128& key = row_keys_.keys.at(&row);
     if (result != results_.end()) {
       write_measures(record, row, result->second);
-      write_names(record, row, result->second);
-    } else if (const auto today = keys_.renamed(row); today && taken_.insert(today->key).second) {
+      write_names(record, row, result->second, key != row.key);
+    } else if (const auto today = keys_.renamed(row); today && today->key == key) {
       writer_.write_text(record, Column::key, clash::key_text(today->key));
       writer_.write_text(record, Column::a_file, today->a.file);
       writer_.write_text(record, Column::b_file, today->b.file);
@@ -192,35 +221,38 @@ class DecisionUpdate {
   }
 
   void write_measures(CsvRecord& record, const Decision& row, const FoundResult& result) const {
+    // Whoever empties the depth decides about the clash as it is now, and not about two in one.
+    const bool renews = row.status == DecisionStatus::undecided || (states_depths_ && !row.d_mm);
     for (const Column column : kMeasuredColumns)
-      if (row.status == DecisionStatus::undecided || writer_.lacks_all(record, std::array{column}))
+      if (renews || writer_.lacks_all(record, std::array{column}))
         writer_.write(record, column, result);
   }
 
-  void write_names(CsvRecord& record, const Decision& row, const FoundResult& result) {
-    const Hash128 key = keys_.key(result.test->name, *result.pair);
-    // Another row may have the key of today already, which stands in a file once.
-    const bool is_renamed = key != row.key && taken_.insert(key).second;
+  void write_names(CsvRecord& record, const Decision& row, const FoundResult& result,
+                   bool is_renamed) const {
+    const bool is_another = is_positional(contents_.model, *result.pair) && is_bare(row) &&
+                            !is_same_place(*result.pair, row);
     if (is_renamed) writer_.write(record, Column::key, result);
-    if (is_renamed || writer_.lacks_all(record, kNameColumns))
+    if (is_renamed || is_another || writer_.lacks_all(record, kNameColumns))
       for (const Column column : kNameColumns) writer_.write(record, column, result);
   }
 
-  std::uint64_t add_rows() {
-    std::uint64_t added = 0;
+  void add_rows() {
     const std::string end =
         table_.records.front().end.empty() ? "\r\n" : table_.records.front().end;
     for (const FoundResult& result : undecided_) {
       // Where an id is only a position, the key may stand there for another clash.
-      if (!taken_.insert(keys_.key(result.test->name, *result.pair)).second) continue;
+      if (!row_keys_.held.insert(keys_.key(result.test->name, *result.pair)).second) {
+        ++updated_.without_row;
+        continue;
+      }
       if (table_.records.back().end.empty()) table_.records.back().end = end;
       CsvRecord record{0, std::vector<std::string>(table_.records.front().cells.size()), end};
       for (std::size_t c = 0; c < kDecisionColumns.size(); ++c)
         writer_.write(record, static_cast<Column>(c), result);
       table_.records.push_back(std::move(record));
-      ++added;
+      ++updated_.added;
     }
-    return added;
   }
 
   const ClashContents& contents_;
@@ -232,7 +264,9 @@ class DecisionUpdate {
   DecidedKeys keys_;
   std::map<const Decision*, FoundResult> results_;
   std::vector<FoundResult> undecided_;
-  std::set<Hash128> taken_;  ///< keys that the file has
+  bool states_depths_ = false;  ///< the file had the column before
+  RowKeys row_keys_;
+  UpdatedDecisions updated_;
 };
 
 }  // namespace

@@ -33,7 +33,10 @@ std::uint64_t count_common(const std::vector<Hash128>& x, const std::vector<Hash
 }
 
 bool places_agree(const FileLikeness& l) {
-  return is_most(l.common_places, l.places_before) && is_most(l.common_places, l.places_after);
+  // One place or two of an excerpt may be chance.
+  constexpr std::uint64_t kFewest = 3;
+  return is_most(l.common_places, l.places_before) &&
+         (is_most(l.common_places, l.places_after) || (l.is_excerpt && l.common_places >= kFewest));
 }
 
 }  // namespace
@@ -41,7 +44,7 @@ bool places_agree(const FileLikeness& l) {
 bool FileLikeness::is_one_file() const {
   if (by_places()) return places_agree(*this);
   const bool most_of_both = (ids_before == 0 || is_most(found_after, ids_before)) &&
-                            (ids_after == 0 || is_most(found_before, ids_after));
+                            (is_excerpt || ids_after == 0 || is_most(found_before, ids_after));
   const bool no_chance = common >= fewest_ids(places_before, places_after, common_places);
   return most_of_both && (no_chance || places_agree(*this));
 }
@@ -49,6 +52,7 @@ bool FileLikeness::is_one_file() const {
 FileLikeness likeness(const RunFiles& before, const FileContents& old_file, const RunFiles& after,
                       const FileContents& new_file) {
   FileLikeness l;
+  l.is_excerpt = before.is_excerpt;
   l.ids_before = old_file.ids.size();
   l.ids_after = new_file.ids.size();
   for (const std::string& id : old_file.ids)

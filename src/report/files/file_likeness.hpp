@@ -18,6 +18,7 @@ struct FileLikeness {
   std::uint64_t found_before = 0;               ///< ids_after that the old file has
   std::uint64_t common = 0, of = 0;             ///< of the ids that either result names
   std::uint64_t places_before = 0, places_after = 0, common_places = 0;
+  bool is_excerpt = false;  ///< the old run is: what it lacks says nothing
 
   /// Whether the two are one file, as far as they themselves tell.
   [[nodiscard]] bool is_one_file() const;
@@ -25,6 +26,10 @@ struct FileLikeness {
   /// that have names now say nothing of all others.
   [[nodiscard]] bool by_places() const {
     return common == 0 && (ids_before == 0 || ids_after == 0);
+  }
+  /// Whether there is something in both files to compare.
+  [[nodiscard]] bool is_known() const {
+    return ids_before + places_before > 0 && ids_after + places_after > 0;
   }
 };
 

@@ -134,8 +134,10 @@ class FileMatcher {
     if (relation != FileRelation::same_label) {
       const FileLikeness l = likeness(before_, before_.files[x], after_, after_.files[y]);
       match.by_places = l.by_places();
-      match.common = l.by_places() ? l.common_places : l.common;
-      match.of = l.by_places() ? l.places_before + l.places_after - l.common_places : l.of;
+      if (l.is_known()) {
+        match.common = l.by_places() ? l.common_places : l.common;
+        match.of = l.by_places() ? l.places_before + l.places_after - l.common_places : l.of;
+      }
     }
     result_.matches.push_back(std::move(match));
   }

@@ -50,6 +50,7 @@ std::string grouped(std::uint64_t number) {
 }
 
 std::string described(const FileMatch& m) {
+  if (m.of == 0) return printable(m.before) + " -> " + printable(m.after);
   std::string text = printable(m.before) + " -> " + printable(m.after) + " (" +
                      (m.relation == FileRelation::asked ? "as asked for, " : "") +
                      grouped(m.common) + " of " + grouped(m.of) +

@@ -360,9 +360,12 @@ std::string decisions_line(const DecidedResults& decided) {
   for (std::size_t s = 0; s < kDecisionStatuses.size(); ++s)
     line += (s == 0 ? " " : ", ") + std::to_string(decided.counts[s]) + " " +
             std::string(name(kDecisionStatuses[s]));
-  const std::uint64_t deeper = decided.count(Reopened::deeper),
+  const std::uint64_t severer = decided.count(Reopened::severer),
+                      deeper = decided.count(Reopened::deeper),
                       more = decided.count(Reopened::more_regions),
                       again = decided.count(Reopened::found_again);
+  if (severer > 0)
+    line += "; approved, but of a severer class than they were: " + std::to_string(severer);
   if (deeper > 0)
     line += "; approved, but deeper or nearer than they were: " + std::to_string(deeper);
   if (more > 0) line += "; approved, but at more places than they were: " + std::to_string(more);

@@ -55,6 +55,11 @@ void append_csv(std::string& out, std::string_view raw) {
   out += '"';
 }
 
+std::string_view without_apostrophe(std::string_view text) {
+  const bool is_ours = text.starts_with('\'') && looks_like_formula(text.substr(1));
+  return is_ours ? text.substr(1) : text;
+}
+
 CsvRow& CsvRow::text(std::string_view raw) {
   append_csv(cell(), raw);
   return *this;

@@ -15,6 +15,9 @@ namespace strake::report {
 /// foreign file may do anything.
 void append_csv(std::string& out, std::string_view raw);
 
+/// Returns a text without the apostrophe that append_csv() put before it, if it did.
+[[nodiscard]] std::string_view without_apostrophe(std::string_view text);
+
 /// Appends the cells of a line one by one, in the form that is asked for.
 class CsvRow {
  public:

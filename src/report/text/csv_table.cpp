@@ -143,13 +143,17 @@ std::string csv_text(const CsvTable& table) {
 }
 
 std::string cell_text(std::string_view cell) {
-  if (!cell.starts_with('"')) return std::string(trimmed(cell));
+  return std::string(trimmed(untrimmed_cell_text(cell)));
+}
+
+std::string untrimmed_cell_text(std::string_view cell) {
+  if (!cell.starts_with('"')) return std::string(cell);
   std::string text;
   for (std::size_t i = 1; i + 1 < cell.size(); ++i) {
     text += cell[i];
     if (cell[i] == '"') ++i;
   }
-  return std::string(trimmed(text));
+  return text;
 }
 
 bool is_blank(const CsvRecord& record) {

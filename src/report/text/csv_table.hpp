@@ -34,6 +34,9 @@ struct CsvTable {
 /// Returns what a cell says: without its quotes, and without blanks round it.
 [[nodiscard]] std::string cell_text(std::string_view cell);
 
+/// Returns all that a cell says: without its quotes alone.
+[[nodiscard]] std::string untrimmed_cell_text(std::string_view cell);
+
 /// Whether no cell of a record says anything, as spreadsheets leave lines behind.
 [[nodiscard]] bool is_blank(const CsvRecord& record);
 

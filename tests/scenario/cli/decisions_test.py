@@ -5,6 +5,7 @@ import csv
 import io
 import json
 import os
+import re
 import subprocess
 
 from scenario import Scenario, cube, main
@@ -83,7 +84,7 @@ class Decisions(Scenario):
         self.assertIn('; approved, but deeper or nearer than they were: 1; resolved, but found again: 1\n', done.stdout)
         self.assertIn('2 hits, ', done.stdout)
         told = self.told('--deeper', '2mm')
-        self.assertEqual(told['decisions']['reopened'], {'deeper': 0, 'more_places': 0, 'found_again': 1})
+        self.assertEqual(told['decisions']['reopened'], {'severer': 0, 'deeper': 0, 'more_places': 0, 'found_again': 1})
         self.assertEqual(told['decisions']['deeper_mm'], 2)
 
     def test_what_is_mended_is_listed_and_keeps_its_row(self):
@@ -128,6 +129,106 @@ class Decisions(Scenario):
         self.assertIn(', 1 approved\n', self.clash(*run, '--match-files', 'row.obj=n.obj', model='n.obj').stdout)
         done = self.clash(*run, '--match-files', 'row.obj=x.obj', model='n.obj', exit_code=2)
         self.assertIn("--match-files: the ", done.stderr)
+
+    def test_the_command_that_told_of_a_new_name_goes_on_the_next_night(self):
+        self.decide('approved')
+        self.write('n.obj', cubes([*ROW, (320, 0, 0)]))
+        run = ['--decisions', 'decided.csv', '--match-files', 'row.obj=n.obj', '--write-decisions']
+        for again in False, True:
+            done = self.clash(*run, model='n.obj')
+            self.assertIn(', 1 approved\n', done.stdout)
+            self.assertNotIn('no longer found', done.stdout)
+            self.assertEqual('--match-files row.obj=n.obj: decided.csv has the new name already' in done.stderr, again)
+        self.assertEqual(len(self.rows()), 4)
+
+    def test_a_file_without_files_and_the_night_before_anybody_knew(self):
+        rows = self.decide('approved')
+        self.write('own.csv', f'key,status\n{rows[0]["key"]},approved\n')
+        (self.folder / 'row.obj').rename(self.folder / 'n.obj')
+        run = ['--decisions', 'own.csv', '--write-decisions']
+        self.assertIn('no longer found: 1', self.clash(*run, model='n.obj').stdout)
+        done = self.clash(*run, '--match-files', 'row.obj=n.obj', model='n.obj')
+        self.assertIn('files are taken as renamed: row.obj -> n.obj\n', done.stderr, 'there is nothing to compare')
+        self.assertIn('1 row without a decision replaced', done.stderr)
+        done = self.clash(*run, model='n.obj')
+        self.assertIn(', 1 approved\n', done.stdout)
+        self.assertNotIn('no longer found', done.stdout)
+
+    def pipes(self, *places):
+        """Cubes of one name, so that their ids are positions in the file, in the face of a large one."""
+        self.write('pipes.obj', cube('beam', 0, (0, 0, 0), 5000) +
+                   ''.join(cube('pipe', n, (x, 4980, 2000), 100) for n, x in enumerate(places, 1)))
+
+    def test_objects_that_come_and_go_where_ids_are_positions(self):
+        run = ['--decisions', 'pipes.csv', '--write-decisions']
+        self.pipes(200, 500, 800)
+        self.clash(*run, model='pipes.obj')
+        path = self.folder / 'pipes.csv'
+        path.write_bytes(path.read_bytes().replace(b',new,', b',approved,'))
+        for places, approved, rows in (((3000, 200, 500, 800), 3, 4), ((3000, 200, 800), 2, 4),
+                                       ((200, 500, 800), 3, 3)):
+            with self.subTest(places):
+                self.pipes(*places)
+                for _ in range(2):
+                    done = self.clash(*run, model='pipes.obj')
+                    self.assertIn(f', {approved} approved\n', done.stdout)
+                    self.assertNotIn('have no row', done.stderr)
+                self.assertEqual(len(self.rows('pipes.csv')), rows)
+        self.pipes(1100, 1400)
+        self.assertIn('pipes.csv: 2 results have no row: their keys stand there for another place\n',
+                      self.clash(*run, model='pipes.obj').stderr)
+
+    def test_a_contact_that_becomes_a_hit(self):
+        self.write('row.obj', cubes([(0, 0, 0), (100, 0, 0)]))
+        self.clash('--decisions', 'decided.csv', '--write-decisions')
+        path = self.folder / 'decided.csv'
+        path.write_bytes(path.read_bytes().replace(b',new,', b',approved,'))
+        run = ['--decisions', 'decided.csv', '--fail-on', 'hit', '--deeper', '5mm']
+        self.write('row.obj', cubes([(0, 0, 0), (98, 0, 0)]))
+        done = self.clash(*run, exit_code=1)
+        self.assertRegex(done.stdout, r'(?m)^HIT +severer +-2[.]000 ')
+        self.assertIn('; approved, but of a severer class than they were: 1\n', done.stdout)
+        path.write_bytes(re.sub(rb',CONTACT,[^,]*,', b',CONTACT,,', path.read_bytes()))
+        self.clash(*run, '--write-decisions')
+        self.assertEqual(self.rows()[0]['class'], 'HIT', 'it is approved as it is now')
+        self.clash(*run)
+
+    def test_contacts_that_are_counted_and_have_a_row(self):
+        self.write('row.obj', cubes([(0, 0, 0), (100, 0, 0), (200, 0, 0), (300, 0, 0)]))
+        self.decide('approved', 'resolved')
+        path = self.folder / 'decided.csv'
+        path.write_bytes(b''.join(path.read_bytes().splitlines(keepends=True)[:3]))
+        run = ['--decisions', 'decided.csv', '--contacts', 'count']
+        done = self.clash(*run)
+        self.assertIn('; resolved, but found again: 1\n', done.stdout)
+        self.assertIn('(1 not listed)', done.stdout)
+        self.assertIn(', 1 approved\n', done.stdout)
+        self.assertEqual(len(self.told('--contacts', 'count')['results']), 2)
+        self.write('row.obj', cubes([(0, 0, 0), (100, 0, 0)]))
+        self.clash(*run, '--fail-on', 'contact')
+
+    def test_what_a_run_does_not_look_for_is_told(self):
+        self.decide('approved')
+        told = 'decided.csv: 1 clash is approved at places that this run does not count: '
+        self.assertNotIn(told, self.clash('--decisions', 'decided.csv').stderr)
+        for option in ('--regions', '0'), ('--narrow-phase', 'sphere-subdivision'):
+            self.assertIn(told, self.clash('--decisions', 'decided.csv', *option).stderr)
+
+    def test_the_hint_counts_what_is_not_approved(self):
+        files = []
+        for name, y in (('a', 0), ('b', 5000), ('c', 10000), ('d', 15000), ('e', 20000)):
+            files.append(self.write(f'{name}.obj', ''.join(cube(f'{name}{n}', n, (50 * n, y, 0), 100) for n in range(6))))
+        run = [*files, '--self', '--unit', 'mm', '--up-axis', 'z', '--decisions', 'all.csv', '--write-decisions']
+        self.assertIn('25 of 25 hits lie between parts of one assembly: ', self.run_strake('clash', *run).stderr)
+        path = self.folder / 'all.csv'
+        for approved, hint in ((1, '24 of 24 hits lie '), (5, '20 of 20 hits lie '), (6, None)):
+            path.write_bytes(path.read_bytes().replace(b',approved,', b',new,').replace(b',new,', b',approved,', approved))
+            done = self.run_strake('clash', *run)
+            self.assertIn(f', {approved} approved\n', done.stdout)
+            if hint:
+                self.assertIn(hint, done.stderr)
+            else:
+                self.assertNotIn('hits lie ', done.stderr)
 
     def test_the_forms_of_spreadsheets(self):
         for form, separator in (('standard', ','), ('excel', ','), ('excel-comma', ';')):

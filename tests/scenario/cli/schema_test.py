@@ -199,7 +199,7 @@ class Schemas(unittest.TestCase):
         told = self.follows(self.run_strake('clash', 'ship_revB.glb', *run[2:]), 'clash')
         self.assertEqual([told['decisions'][key] for key in ('file', 'not_found')],
                          ['decided.csv', [{'key': '0' * 26, 'status': 'active', 'by': 'Bob'}]])
-        self.assertEqual(told['decisions']['reopened'], {'deeper': 0, 'more_places': 0, 'found_again': 1})
+        self.assertEqual(told['decisions']['reopened'], {'severer': 0, 'deeper': 0, 'more_places': 0, 'found_again': 1})
         self.assertEqual([m['new'] for m in told['decisions']['files_matched']], ['ship_revB.glb'])
         decided = [result['decision'] for result in told['results'] if result['decision']['status'] != 'new']
         self.assertEqual({d['status'] for d in decided}, {'approved', 'resolved'})

@@ -10,174 +10,21 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
-#include <tuple>
-#include <utility>
-#include <vector>
 
-#include "clash/results/clash_key.hpp"
-#include "report/text/csv_table.hpp"
 #include "strake/clash/group.hpp"
 #include "strake/report/clash.hpp"
-#include "support/clash_model.hpp"
+#include "support/decided.hpp"
 
 namespace strake::report {
 namespace {
 
 using nlohmann::json;
 using test::ClashModel;
-
-/// Three boxes in a row, each 20 mm in the next.
-ClashModel three_boxes(double depth_mm = 20) {
-  ClashModel m;
-  m.box("a", {0, 0, 0}, {100, 100, 100});
-  m.box("b", {100 - depth_mm, 0, 0}, {200, 100, 100});
-  m.box("c", {180, 0, 0}, {300, 100, 100});
-  return m;
-}
-
-clash::Findings findings_of(const ClashModel& m) { return {{m.detect()}, {}}; }
-
-std::string key_of(const ClashModel& m, std::uint32_t a, std::uint32_t b) {
-  return clash::pair_key("", m.model, model::ObjectId{a}, model::ObjectId{b});
-}
-
-DecisionFile parsed(const std::string& text) {
-  Result<DecisionFile> file = parse_decisions(text, "d.csv");
-  EXPECT_TRUE(file) << file.error().text();
-  return std::move(file).value();
-}
-
-std::string error_of(const std::string& text) {
-  const Result<DecisionFile> file = parse_decisions(text, "d.csv");
-  return file ? "no error" : file.error().text();
-}
-
-/// A model, what was found in it and what was decided about it.
-struct Decided {
-  ClashModel m;
-  clash::Findings findings;
-  DecisionFile file;
-  DecidedResults results;
-
-  Decided(ClashModel model, const std::string& csv, const DecisionRules& rules = {})
-      : m(std::move(model)),
-        findings(findings_of(m)),
-        file(csv.empty() ? DecisionFile{"d.csv", {}, {}} : parsed(csv)),
-        results(decide(findings, m.model, file, rules).value()) {}
-  Decided(const Decided&) = delete;
-  Decided& operator=(const Decided&) = delete;
-
-  [[nodiscard]] ClashContents contents() const {
-    ClashContents all{findings, m.model};
-    all.decided = &results;
-    return all;
-  }
-  [[nodiscard]] std::string updated() const { return update_decisions(contents()).text; }
-  [[nodiscard]] std::string table() const { return clash_table(contents(), {}); }
-  [[nodiscard]] Reopened reopened(std::size_t pair) const {
-    const DecidedResult* const r = results.of(0, findings.tests[0].pairs[pair]);
-    return r == nullptr ? Reopened::no : r->reopened;
-  }
-};
-
-std::string row(const std::string& key, const std::string& rest) { return key + "," + rest + "\n"; }
-
-TEST(CsvTable, GivesBackWhatItReads) {
-  for (const std::string_view text : {"a,b\r\n1,\"x \"\"y\"\"\nz\"\r\n",
-                                      "\xEF\xBB\xBF"
-                                      "a;b;c\n\n;;\n1;2",
-                                      "a\tb\rc\td\r", "", "a"}) {
-    const Result<CsvTable> table = parse_csv_table(text, "t.csv");
-    ASSERT_TRUE(table) << text;
-    EXPECT_EQ(csv_text(*table), text);
-  }
-}
-
-TEST(CsvTable, ReadsWhateverIsLeftOfAFile) {
-  const std::string whole = "\xEF\xBB\xBFkey;status;\"x\"\"y\"\r\n1;\"2\n3\";4\r5;;\n";
-  std::size_t read = 0;
-  for (std::size_t length = 0; length <= whole.size(); ++length) {
-    const std::string text = whole.substr(0, length);
-    const Result<CsvTable> table = parse_csv_table(text, "t.csv");
-    if (!table) continue;
-    ++read;
-    EXPECT_EQ(csv_text(*table), text);
-    (void)parse_decisions(text, "t.csv");
-  }
-  EXPECT_GT(read, whole.size() / 2);
-}
-
-TEST(CsvTable, KnowsTheSeparatorAndTheLines) {
-  const CsvTable table = parse_csv_table("key;\"a,b,c\";x\n\"1\n2\";3;4\n5;6;7\n", "t.csv").value();
-  EXPECT_EQ(table.separator, ';');
-  ASSERT_EQ(table.records.size(), 3U);
-  EXPECT_EQ(table.records[1].line, 2U);
-  EXPECT_EQ(table.records[2].line, 4U) << "a cell has a line break";
-  EXPECT_EQ(cell_text(table.records[0].cells[1]), "a,b,c");
-  EXPECT_EQ(cell_text("\"say \"\"no\"\"\""), "say \"no\"");
-}
-
-TEST(CsvTable, RefusesWhatIsNoCsv) {
-  const auto error = [](std::string_view text) {
-    const Result<CsvTable> table = parse_csv_table(text, "t.csv");
-    return table ? "no error" : table.error().text();
-  };
-  EXPECT_EQ(
-      error("a,b\n1,\"2\n"),
-      "t.csv, line 2: a quote is not closed (end the cell with a quote; one within it is written "
-      "twice)");
-  EXPECT_EQ(
-      error("a,b\n1,2\n\"3\"4,5\n"),
-      "t.csv, line 3: there is text behind a quoted cell (write a quote within a cell twice)");
-  EXPECT_EQ(error("a\nM\xFCller\n"),
-            "t.csv, line 2: is not UTF-8 (save it in the spreadsheet as 'CSV UTF-8')");
-}
-
-TEST(Decisions, AreReadInAnyFormThatASpreadsheetWrites) {
-  const std::string key(26, '0');
-  for (const std::string& text :
-       {"key,status,by,date,comment,d_mm\r\n" + key + ",Approved,Ann,2026-01-31,\"a, b\",-5.5\r\n",
-        "\xEF\xBB\xBFKEY;Date;Status;Owner;By;Comment;d_mm\n" + key +
-            ";31.1.2026;APPROVED;x;Ann;a, b;-5,5\n;;;;;;\n",
-        "comment\tkey\tstatus\tby\tdate\td_mm\na, b\t" + key +
-            "\tapproved\tAnn\t31.01.2026\t-5.5"}) {
-    const DecisionFile file = parsed(text);
-    ASSERT_EQ(file.decisions.size(), 1U) << text;
-    const Decision& d = file.decisions[0];
-    EXPECT_EQ(d.status, DecisionStatus::approved);
-    EXPECT_EQ(d.by + "|" + d.date + "|" + d.comment, "Ann|2026-01-31|a, b");
-    EXPECT_EQ(d.d_mm, -5.5);
-    EXPECT_EQ(d.line, 2U);
-  }
-}
-
-TEST(Decisions, TellWhereAFileIsWrong) {
-  const std::string key(26, '0'), head = "key,status,date,d_mm\n";
-  EXPECT_TRUE(
-      error_of("key,state\n")
-          .starts_with(
-              "d.csv, line 1: has no column 'status' but 'key', 'state' (write the headings"));
-  EXPECT_TRUE(error_of("").starts_with("d.csv, line 1: is empty ("));
-  EXPECT_TRUE(
-      error_of("key,status,Key\n").starts_with("d.csv, line 1: has the column 'key' twice ("));
-  EXPECT_EQ(error_of(head + "x,new,,\n"),
-            "d.csv, line 2: 'x' is no key (a key is the 26 letters and digits that results have as "
-            "'key')");
-  EXPECT_EQ(error_of(head + ",approved,,\n").substr(0, 27), "d.csv, line 2: '' is no key");
-  EXPECT_EQ(
-      error_of(head + key + ",done,,\n"),
-      "d.csv, line 2: 'done' is no status (write new, active, reviewed, approved or resolved)");
-  for (const char* const date : {"2026-02-30", "1/2/2026", "yesterday", "31.13.2026", "2026-1"})
-    EXPECT_EQ(
-        error_of(head + key + ",new," + date + ",\n"),
-        "d.csv, line 2: '" + std::string(date) + "' is no date (write 2026-01-31, or 31.1.2026)");
-  EXPECT_EQ(error_of(head + key + ",new,,\n\n" + key + ",new,,\n"),
-            "d.csv, line 4: the key stands in line 2 already (keep one of the two rows)");
-  EXPECT_EQ(error_of(head + key + ",new,,deep\n").substr(0, 34),
-            "d.csv, line 2: 'deep' is no number");
-  EXPECT_EQ(error_of(head + key + ",new,,1,and more\n").substr(0, 67),
-            "d.csv, line 2: the row has more cells than there are headings (put ");
-}
+using test::Decided;
+using test::key_of;
+using test::parsed;
+using test::row;
+using test::three_boxes;
 
 TEST(Decisions, SettleWhatIsApproved) {
   const ClashModel m = three_boxes();
@@ -220,11 +67,36 @@ TEST(Decisions, ComeBackWhereAClashGotWorse) {
   EXPECT_EQ(after(50, "approved,,"), Reopened::no) << "the file does not say how deep it was";
   EXPECT_EQ(after(21.1, "reviewed,-20,1"), Reopened::no) << "it is listed anyway";
   EXPECT_EQ(after(20, "resolved,-20,1"), Reopened::found_again);
+  for (const char* const depth : {"-21.123456", "-21.1235", "-21.12"})
+    EXPECT_EQ(after(21.1234564, "approved," + std::string(depth) + ",1", {.deeper_mm = 0}),
+              Reopened::no)
+        << "a spreadsheet rounds";
+  EXPECT_EQ(after(21.13, "approved,-21.12,1", {.deeper_mm = 0}), Reopened::deeper);
+  EXPECT_EQ(after(20.1, "approved,-20,1", {.deeper_mm = 0}), Reopened::deeper);
   const Decided d(three_boxes(30), head + row(key, "approved,-20,1"));
   EXPECT_NE(d.table().find("HIT    deeper  -30.000"), std::string::npos) << d.table();
   EXPECT_NE(d.table().find("; approved, but deeper or nearer than they were: 1\n"),
             std::string::npos);
   EXPECT_NE(d.table().find("2 hits, "), std::string::npos);
+}
+
+TEST(Decisions, ComeBackWhereTheClassIsSeverer) {
+  const std::string key = key_of(three_boxes(), 0, 1), head = "key,status,class,d_mm\n";
+  const auto after = [&](const std::string& csv) {
+    return Decided(three_boxes(), head + row(key, csv)).reopened(0);
+  };
+  EXPECT_EQ(after("approved,CONTACT,-20"), Reopened::severer);
+  EXPECT_EQ(after("approved,clearance_violation,-20"), Reopened::severer);
+  EXPECT_EQ(after("approved,HIT,-20"), Reopened::no);
+  EXPECT_EQ(after("approved,,-20"), Reopened::no);
+  EXPECT_EQ(after("approved,CONTACT,"), Reopened::no) << "approved as it is now";
+  EXPECT_EQ(Decided(three_boxes(), "key,status,class\n" + row(key, "approved,CONTACT")).reopened(0),
+            Reopened::severer);
+  const Decided d(three_boxes(), head + row(key, "approved,CONTACT,-20"));
+  EXPECT_NE(d.table().find("HIT    severer  -20.000"), std::string::npos) << d.table();
+  EXPECT_NE(d.table().find("; approved, but of a severer class than they were: 1\n"),
+            std::string::npos)
+      << d.table();
 }
 
 TEST(Decisions, ComeBackWhereTheTwoMeetAtMorePlaces) {
@@ -236,26 +108,6 @@ TEST(Decisions, ComeBackWhereTheTwoMeetAtMorePlaces) {
   EXPECT_EQ(Decided(m, "key,status,regions\n" + row(key, "approved,2")).reopened(0), Reopened::no);
   EXPECT_EQ(Decided(m, "key,status,regions\n" + row(key, "approved,1")).reopened(0),
             Reopened::more_regions);
-}
-
-TEST(Decisions, AreThoseOfThePlaceWhereIdsArePositions) {
-  ClashModel m = three_boxes();
-  for (model::Object& object : m.model.objects) object.positional_id = true;
-  const std::string key = key_of(m, 0, 1), head = "key,status,d_mm,x_mm,y_mm,z_mm\n";
-  const clash::Pair pair = findings_of(m).tests[0].pairs[0];
-  const std::string x = std::to_string(pair.point_mm.x), y = std::to_string(pair.point_mm.y),
-                    z = std::to_string(pair.point_mm.z);
-  const Decided same(m, head + row(key, "approved,-20," + x + "," + y + "," + z));
-  EXPECT_TRUE(same.results.is_settled(0, pair));
-  for (const std::string& other :
-       {"approved,-20,1" + x + "," + y + "," + z, "approved,-21," + x + "," + y + "," + z,
-        std::string("approved,-20,,,")}) {
-    const Decided d(m, head + row(key, other));
-    EXPECT_EQ(d.results.of(0, pair), nullptr) << other;
-    EXPECT_EQ(d.results.not_found.size(), 1U);
-    EXPECT_EQ(parsed(d.updated()).decisions.size(), 2U)
-        << "the key is that of another clash: it is not written twice";
-  }
 }
 
 TEST(Decisions, AreInTheDocument) {
@@ -337,49 +189,40 @@ TEST(UpdatedDecisions, AreAboutWhatIsThereWhenOneDecides) {
   EXPECT_EQ(depth("approved,"), -25) << "from now on it is known";
 }
 
-/// The same model in a file of another name.
-ClashModel renamed(const std::string& label) {
-  ClashModel m = three_boxes();
-  m.model.files[0].label = label;
-  return m;
+TEST(UpdatedDecisions, AreAboutOneMeasurement) {
+  const ClashModel m = three_boxes();
+  const std::string head = "key,status,class,d_mm,regions,x_mm\n", key = key_of(m, 0, 1);
+  const auto updated = [&](const std::string& csv) {
+    return parsed(Decided(three_boxes(25), head + row(key, csv)).updated()).decisions[0];
+  };
+  const Decision renewed = updated("approved,CONTACT,,7,1");
+  EXPECT_EQ(renewed.d_mm, -25);
+  EXPECT_EQ(renewed.cls, clash::Class::hit);
+  EXPECT_EQ(renewed.regions, 1U);
+  EXPECT_NE(renewed.point_mm->x, 1);
+  const Decision kept = updated("approved,CONTACT,-20,7,1");
+  EXPECT_EQ(kept.cls, clash::Class::contact);
+  EXPECT_EQ(kept.regions, 7U);
+  EXPECT_EQ(kept.point_mm->x, 1);
+  const Decision without =
+      parsed(Decided(three_boxes(25), "key,status,regions\n" + row(key, "approved,7")).updated())
+          .decisions[0];
+  EXPECT_EQ(without.regions, 7U) << "a file that never had depths states regions of its own";
 }
 
-TEST(Decisions, FollowAFileThatWasRenamed) {
-  const Decided first(three_boxes(), "");
-  std::string text = first.updated();
-  text.replace(text.find(",new,"), 5, ",approved,");
-  const Decided second(renamed("t_revB.obj"), text);
-  EXPECT_EQ(second.results.counts, (std::array<std::uint64_t, 5>{1, 0, 0, 1, 0}));
-  EXPECT_TRUE(second.results.not_found.empty());
-  EXPECT_EQ(second.results.files.matches.at(0).before, "t.obj");
-  const std::string updated = second.updated();
-  EXPECT_EQ(updated.find("t.obj"), std::string::npos) << updated;
-  const Decided third(renamed("t_revB.obj"), updated);
-  EXPECT_EQ(third.results.counts, second.results.counts);
-  EXPECT_TRUE(third.results.files.by_label_alone());
-}
-
-TEST(Decisions, FollowAFileThatSomebodySaysWasRenamed) {
-  const std::string key = key_of(three_boxes(), 0, 1), csv = "key,status\n" + row(key, "approved");
-  EXPECT_EQ(Decided(renamed("n.obj"), csv).results.not_found.size(), 1U);
-  const std::vector<std::string> pairs{"t.obj=n.obj"};
-  const Decided d(renamed("n.obj"), csv, {.match_files = pairs});
-  EXPECT_EQ(d.results.counts[static_cast<std::size_t>(DecisionStatus::approved)], 1U);
-  EXPECT_EQ(parsed(d.updated()).decisions[0].key,
-            clash::parse_key(key_of(renamed("n.obj"), 0, 1)).value());
-}
-
-TEST(Decisions, OfTheNewNameGoBeforeThoseOfTheOldOne) {
-  const std::string was = key_of(three_boxes(), 0, 1), is = key_of(renamed("n.obj"), 0, 1);
-  const std::vector<std::string> pairs{"t.obj=n.obj"};
-  for (const auto& [old_status, new_status, taken] :
-       {std::tuple("approved", "new", DecisionStatus::approved),
-        std::tuple("approved", "active", DecisionStatus::active)}) {
-    const Decided d(renamed("n.obj"), "key,status\n" + row(was, old_status) + row(is, new_status),
-                    {.match_files = pairs});
-    EXPECT_EQ(d.results.counts[static_cast<std::size_t>(taken)], 1U) << new_status;
-    EXPECT_EQ(parsed(d.updated()).decisions.size(), 3U) << "no key stands there twice";
-  }
+TEST(Decisions, TellOfPlacesThatNobodyCounted) {
+  const ClashModel m = three_boxes();
+  const auto unknown = [&](std::uint64_t most_regions, const std::string& csv) {
+    clash::Options options;
+    options.engine.most_regions = most_regions;
+    const clash::Findings findings{{m.detect(options)}, {}};
+    const DecisionFile file = parsed("key,status,regions\n" + row(key_of(m, 0, 1), csv));
+    return decide(findings, m.model, file, {})->count_regions_unknown();
+  };
+  EXPECT_EQ(unknown(0, "approved,1"), 1U);
+  EXPECT_EQ(unknown(8, "approved,1"), 0U);
+  EXPECT_EQ(unknown(0, "approved,"), 0U);
+  EXPECT_EQ(unknown(0, "active,1"), 0U);
 }
 
 }  // namespace

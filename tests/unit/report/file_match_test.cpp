@@ -309,5 +309,21 @@ TEST(FileMap, LabelsAloneChangeNothing) {
   EXPECT_EQ(map.group_of(Run::after, "any"), "any");
 }
 
+TEST(FileMatch, AnExcerptIsAFileThatHasMostOfIt) {
+  RunFiles before{{file("old", ids(0, 5))}, {}, true};
+  const RunFiles after{{file("new", ids(0, 100)), file("other", ids(200, 300))}, {}};
+  FileMatches files = match_files(before, after).value();
+  ASSERT_EQ(files.matches.size(), 1U);
+  EXPECT_EQ(files.matches[0].after, "new");
+  EXPECT_EQ(files.matches[0].relation, FileRelation::renamed);
+  before.is_excerpt = false;
+  EXPECT_EQ(match_files(before, after)->matches.at(0).relation, FileRelation::merged);
+}
+
+TEST(FileMatch, NoNumbersAreToldWhereThereIsNothingToCompare) {
+  EXPECT_EQ(file_matches_text(matched({file("x", {})}, {file("y", {}, {1, 2})}, {{"x", "y"}})),
+            "files are taken as renamed: x -> y\n");
+}
+
 }  // namespace
 }  // namespace strake::report
