@@ -175,7 +175,9 @@ class Parser {
     check_artwork(table);
   }
 
-  void take_size(double width, double height) {
+  void take_size(double width_mm, double height_mm) {
+    const double width = drawing::rounded_paper(width_mm);
+    const double height = drawing::rounded_paper(height_mm);
     found_.width_mm = width;
     found_.height_mm = height;
     found_.size = shortest(width) + " x " + shortest(height);

@@ -240,6 +240,9 @@ TEST(Paper, SizesAsPeopleWriteThem) {
   EXPECT_EQ(size("A3, portrait"), std::pair(297.0, 420.0));
   EXPECT_EQ(size("900x420"), std::pair(900.0, 420.0));
   EXPECT_EQ(size("900mm x 42cm"), std::pair(900.0, 420.0));
+  // In whole micrometres, as everything on paper.
+  EXPECT_EQ(size("12inx12in"), std::pair(304.8, 304.8));
+  EXPECT_EQ(size("100.0005mm x 99.9996mm"), std::pair(100.0, 100.0));
   for (const char* wrong :
        {"", "A5", "a3", "A3,upright", "A3 portrait landscape", "900", "900x", "x420", "900x420x1",
         "50x420", "900x21m", "-900x420", "900degx420", "1,5mx420"}) {
@@ -269,6 +272,16 @@ TEST(Layout, ASectionIsNamedWhereNoTitleIsGiven) {
   const auto askew = parse_section("3,4,0>12500mm", {0, 0, 1});
   ASSERT_TRUE(askew);
   EXPECT_EQ(title({askew->section}, {3, 4, 0}), "SECTION 3,4,0 = 12.5 m");
+  // The title says the plane as it was written, whichever side is cut away.
+  const auto title_in = [&](const char* text) {
+    const auto parsed = parse_section(text, {0, 0, 1});
+    return parsed ? title({parsed->section}) : parsed.error().message;
+  };
+  EXPECT_EQ(title_in("1,2,0<4500mm"), "top, SECTION 1,2,0 = 4.5 m");
+  EXPECT_EQ(title_in("0,1,-2<4500mm"), "top, SECTION 0,1,-2 = 4.5 m");
+  EXPECT_EQ(title_in("1,2,0<-4500mm"), "top, SECTION 1,2,0 = -4.5 m");
+  EXPECT_EQ(title_in("-1,2,0>4500mm"), "top, SECTION 1,-2,0 = -4.5 m");
+  EXPECT_EQ(title_in("1,2,0<0mm"), "top, SECTION 1,2,0 = 0 m");
   hlr::Drawing cut = rectangle();
   cut.view.sections = {deck};
   LayoutOptions options;
