@@ -48,7 +48,7 @@ class Composer {
     for (const auto step : {&Composer::pick, &Composer::draw, &Composer::place, &Composer::ink})
       if (const Status status = (this->*step)(); !status) return status.error();
     check_places();
-    const double scale = main_scale(what_, places_);
+    const std::optional<double> scale = main_scale(what_, places_);
     for (std::size_t v = 0; v < what_.views.size(); ++v) caption(v, scale);
     grid();
     fill_frame(what_, scale, sheet_);
@@ -287,7 +287,7 @@ class Composer {
   }
 
   /// Writes the title below a view, underlined, and its scale where that is not the sheet's.
-  void caption(std::size_t v, double sheet_scale) {
+  void caption(std::size_t v, std::optional<double> sheet_scale) {
     PlacedView& view = sheet_.views[v];
     const PaperBox& box = places_[v].lines;
     const GridMargin rim = margin_of(what_.grid, what_.views[v]);

@@ -248,7 +248,7 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
   const std::uint64_t visible = of(drawing::LineState::visible);
   console.note(object_summary_line(drawing.account, model));
   console.note(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
-                           drawing.lines.size(), drawing.sheet.scale_text, drawing.sheet.width_mm,
+                           drawing.lines.size(), scale_words(drawing), drawing.sheet.width_mm,
                            drawing.sheet.height_mm));
   for (const std::string& line : left_alone_lines(drawing)) console.note(line);
   if (visible > 0) return;

@@ -28,8 +28,7 @@ void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const mod
       return view.drawing.count[static_cast<std::size_t>(state)];
     };
     console.note(fmt::format("view '{}': {} visible of {} lines at {}", view.name,
-                             of(drawing::LineState::visible), lines,
-                             view.drawing.sheet.scale_text));
+                             of(drawing::LineState::visible), lines, scale_words(view.drawing)));
     console.note(
         fmt::format("view '{}': {}", view.name, object_summary_line(view.drawing.account, model)));
     for (const std::string& line : left_alone_lines(view.drawing))

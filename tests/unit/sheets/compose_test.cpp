@@ -164,6 +164,21 @@ TEST(Sheet, AViewFromAnEyeIsTrueInThePlaneOfItsTarget) {
   EXPECT_EQ(view_of(d.sheet, "w").caption.texts.size(), 1U);
 }
 
+TEST(Sheet, PerspectivesAloneGiveTheSheetNoScale) {
+  const std::string eye =
+      "[[view]]\nname=\"v\"\neye=[\"2m\",\"-10m\",\"500mm\"]\ntarget=[\"2m\",0,\"500mm\"]\n"
+      "scale=\"1:50\"\nposition=[\"200mm\",\"100mm\"]\n";
+  const Drawn alone = drawn(eye);
+  EXPECT_EQ(alone.svg.find(">1:50</text>"), std::string::npos);
+  EXPECT_EQ(count_of(alone.svg, ">\xE2\x80\x93</text>"), 1U);
+  EXPECT_FALSE(told(alone.sheet, "field-not-filled", "scale"));
+  // A view that can be measured has its scale in the title block, whichever comes first.
+  const Drawn both = drawn(eye + "[[view]]\nname=\"w\"\ndirection=\"front\"\nscale=\"1:100\"\n" +
+                           "position=[\"330mm\",\"200mm\"]\n");
+  EXPECT_EQ(count_of(both.svg, ">1:100</text>"), 1U);
+  EXPECT_EQ(both.svg.find(">1:50</text>"), std::string::npos);
+}
+
 TEST(Sheet, WhatAViewDoesNotShowIsNotWorkedOut) {
   const std::string view = "[[view]]\nname=\"v\"\nscale=\"1:50\"\n";
   const Drawn without = drawn(with_frame(view));
