@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -45,6 +46,7 @@ class Composer {
   Result<Sheet> run() {
     sheet_.width_mm = what_.width_mm;
     sheet_.height_mm = what_.height_mm;
+    check_uncut();
     for (const auto step : {&Composer::pick, &Composer::draw, &Composer::place, &Composer::ink})
       if (const Status status = (this->*step)(); !status) return status.error();
     check_places();
@@ -61,6 +63,21 @@ class Composer {
   void warn(std::string code, std::string message, std::string where) {
     sheet_.diagnostics.add(
         {Severity::warning, std::move(code), std::move(message), std::move(where)});
+  }
+
+  /// Warns of what is to be left whole in views that no plane cuts.
+  void check_uncut() {
+    std::map<std::string, bool>
+        cut;  // by the place of the selection, which several views may share
+    for (const ViewSpec& view : what_.views)
+      for (const settings::Chooser& chooser : view.uncut)
+        cut[chooser.where] = cut[chooser.where] || !view.view.sections.empty();
+    for (const auto& [where, some] : cut)
+      if (!some)
+        warn("uncut-without-sections",
+             "no section cuts what is to be left whole; write sections = [\"z=4500mm\"], or leave "
+             "uncut out",
+             where);
   }
 
   /// Evaluates all selections on all objects, once.

@@ -72,6 +72,7 @@ class Parser {
     if (found_.views.size() > kMostViews)
       reading_.fault({1, 1}, "a sheet of more than 100 views", "make several sheets of it");
     check_positions();
+    for (ViewSpec& view : found_.views) views_.place_sections(view);
     name_sections();
     MarkReader marks(reading_, sets_, found_);
     for (const Value* value : top_.tables("tag")) marks.tag(*value);

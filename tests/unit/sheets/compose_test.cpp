@@ -220,6 +220,25 @@ TEST(Sheet, ATitleSaysItsSectionUnlessItIsGiven) {
   EXPECT_EQ(view_of(own.sheet, "v").title, "DECK");
 }
 
+TEST(Sheet, APlaneCutsAwayWhatIsNearerInEachView) {
+  // The defaults hold for views from both sides, and from an eye.
+  const auto sheet = [](const std::string& all, const std::string& front, const std::string& back) {
+    const auto view = [](const std::string& name, const std::string& from, const std::string& x,
+                         const std::string& sections) {
+      return "[[view]]\nname=\"" + name + "\"\n" + from + "\nscale=\"1:50\"\nposition=[\"" + x +
+             "\",\"60mm\"]\n" + sections;
+    };
+    return drawn(with_frame(all + view("f", "direction=\"front\"", "90mm", front) +
+                            view("b", "direction=\"back\"", "250mm", back) +
+                            view("e", "eye=[\"2m\",\"-9m\",\"1m\"]\ntarget=[\"2m\",0,\"1m\"]",
+                                 "350mm", front)))
+        .svg;
+  };
+  const std::string below = "sections=[\"y<300mm\"]\n", above = "sections=\"y>300mm\"\n";
+  EXPECT_EQ(sheet("[defaults]\nsections=[\"y = 300mm\"]\n", "", ""), sheet("", below, above));
+  EXPECT_NE(sheet("", below, above), sheet("", below, below));
+}
+
 TEST(Sheet, TheFirstHatchThatPicksAnObjectHolds) {
   const Drawn d = drawn(with_frame(
       "[[view]]\nname=\"v\"\ndirection=\"front\"\nscale=\"1:50\"\nsections=[\"y<300mm\"]\n"
@@ -263,6 +282,27 @@ TEST(Sheet, SectionsLeaveWhatAViewSaysWhole) {
   const Drawn all = drawn(with_frame("[defaults]\nuncut=\"top\"\n" + view + "uncut=[]\n"));
   EXPECT_GT(cut_lines(all, kTop), 0);
   EXPECT_EQ(count_of(all.svg, "objects-uncut"), 0U);
+}
+
+TEST(Sheet, UncutWithoutSectionsIsTold) {
+  const std::string cut =
+      "[[view]]\nname=\"v\"\ndirection=\"front\"\nsections=[\"y=300mm\"]\n"
+      "position=[\"100mm\",\"100mm\"]\n";
+  const std::string whole =
+      "[[view]]\nname=\"w\"\ndirection=\"front\"\nposition=[\"300mm\",\"100mm\"]\n";
+  const auto said = [](const std::string& text) {
+    std::vector<std::string> where;
+    for (const Diagnostic& d : drawn(with_frame(text)).sheet.diagnostics.kept())
+      if (d.code == "uncut-without-sections") where.push_back(d.where);
+    return where;
+  };
+  const auto told_of = said(cut + whole + "uncut=\"top\"\n");
+  ASSERT_EQ(told_of.size(), 1U);
+  EXPECT_NE(told_of[0].find("line 9: [[view]] 'w', uncut"), std::string::npos) << told_of[0];
+  EXPECT_TRUE(said(cut + "uncut=\"top\"\n" + whole).empty());
+  // What holds for all views is for those that have sections.
+  EXPECT_TRUE(said("[defaults]\nuncut=\"top\"\n" + cut + whole).empty());
+  EXPECT_EQ(said("[defaults]\nuncut=\"top\"\n" + whole).size(), 1U);
 }
 
 TEST(Sheet, FlushSeamsAreLeftOutWhereAViewSaysSo) {
