@@ -208,6 +208,8 @@ class Composer {
       options.title = spec.title;
       options.placement = placement(v);
       options.far_left_out = far_left_out_[v];
+      for (const settings::Chooser& chooser : spec.uncut)
+        options.uncut_selections.push_back(chooser.selection.text());
       auto laid_out = drawing::lay_out(drawings_[v], *scene_.model, options, context_);
       if (!laid_out) return laid_out.error();
       drawings_[v] = {};

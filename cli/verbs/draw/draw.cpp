@@ -342,6 +342,8 @@ Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& req
   auto uncut = pick_any(session, scene, request.uncut, "--uncut");
   if (!uncut) return uncut.error();
   options.uncut = std::move(*uncut);
+  for (const model::Selection& selection : request.uncut)
+    layout.uncut_selections.push_back(selection.text());
   if (request.sag_for_paper) {
     const Result<double> sag =
         drawing::sag_for_paper(scene, *drawn, request.view, layout, session.context());

@@ -301,10 +301,17 @@ class Draw(Scenario):
             self.assertEqual({state for _, state in kinds['BOLT-2']}, {'clipped'})
             self.assertIn('hatch', {kind for kind, _ in kinds['plate']})
             self.assertEqual(drawing['counts']['objects_uncut'], 1)
-            self.assertIs(drawing['settings']['uncut'], True)
+            self.assertEqual(drawing['settings']['uncut'], sorted(selection))
             self.assertIn('1 object is left whole by the sections', said)
             self.assertIn(' objects-uncut="1"', (self.folder / 'x.svg').read_text(encoding='utf-8'))
         self.assertIn('0 objects are left whole', cut('--uncut', 'BOLT-2')[2])
+        # Which ones are left whole is a setting that a comparison names; their order says nothing.
+        for name, selection in (('a', ('BOLT-1', 'plate')), ('b', ('plate', 'BOLT-1', 'plate')), ('c', ('BOLT-1',))):
+            cut(*[word for text in selection for word in ('--uncut', text)])
+            (self.folder / 'x.json').rename(self.folder / f'{name}.json')
+        self.assertNotIn('settings.uncut', self.run_strake('draw', 'diff', 'a.json', 'b.json').stdout)
+        self.assertIn('settings.uncut: was ["BOLT-1","plate"], is ["BOLT-1"]',
+                      self.run_strake('draw', 'diff', 'a.json', 'c.json').stdout)
         done = self.run_strake('draw', 'a.obj', '--uncut', 'BOLT*', '-o', 'x.svg')
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn('--section', done.stderr)

@@ -280,6 +280,7 @@ class Schemas(unittest.TestCase):
         chosen = self.follows(self.run_strake('draw', 'ship.glb', '--view', 'top', '--section', 'z=4500mm', '--uncut',
                                               '*', '--flush-seams', 'off', '--json'), 'view')
         self.assertGreater(chosen['counts']['objects_uncut'], 0)
+        self.assertEqual(chosen['settings']['uncut'], ['*'])
         self.assertEqual(chosen['settings']['flush_seams'], 'off')
 
 

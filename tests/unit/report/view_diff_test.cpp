@@ -114,6 +114,24 @@ TEST(ViewDiff, StageTurnsHiddenLinesIntoVisibleOnes) {
   EXPECT_EQ(diff.settings[0].setting, "settings.stage");
 }
 
+TEST(ViewDiff, OtherSelectionsThatSectionsLeaveWholeAreTold) {
+  const auto document = [](std::vector<std::string> selections) {
+    test::Drawn how;
+    how.options.uncut.resize(12);
+    how.layout.uncut_selections = std::move(selections);
+    return test::view_document(test::view_file(crowd(0), how));
+  };
+  const ViewDocument some = document({"b", "a", "b"});
+  EXPECT_TRUE(compared(some, document({"a", "b"})).settings.empty());
+  const ViewDiff diff = compared(some, document({"a"}));
+  ASSERT_EQ(diff.settings.size(), 1U);
+  EXPECT_EQ(diff.settings[0].setting, "settings.uncut");
+  EXPECT_EQ(diff.settings[0].before, R"(["a","b"])");
+  EXPECT_EQ(diff.settings[0].after, R"(["a"])");
+  // A program need not say what it chose by.
+  EXPECT_EQ(compared(some, document({})).settings[0].after, "true");
+}
+
 TEST(ViewDiff, AFileThatWasRenamedIsTheSameFile) {
   const ViewDocument before = test::view_document(test::view_file(crowd(0)));
   ViewDocument after = before;

@@ -276,6 +276,7 @@ TEST(Sheet, SectionsLeaveWhatAViewSaysWhole) {
   EXPECT_EQ(cut_lines(d, kTop), 0);
   EXPECT_GT(cut_lines(d, kBase), 0);
   EXPECT_EQ(d.sheet.views[0].drawing.counters.uncut_objects, 1U);
+  EXPECT_EQ(d.sheet.views[0].drawing.uncut_selections, (std::vector<std::string>{"nobody", "top"}));
   EXPECT_EQ(count_of(d.svg, " objects-uncut=\"1\""), 1U);
   EXPECT_TRUE(told(d.sheet, "selection-matches-nothing", "'nobody'"));
   // An empty list takes back what holds for all views.
