@@ -89,6 +89,7 @@ struct ViewPlace {
 
 /// Returns the scale for the title block: that of the arrangement, or of most views. Views in
 /// perspective have no say; empty: there are no others.
-[[nodiscard]] std::optional<double> main_scale(const SheetSpec& what, std::span<const ViewPlace> places);
+[[nodiscard]] std::optional<double> main_scale(const SheetSpec& what,
+                                               std::span<const ViewPlace> places);
 
 }  // namespace strake::sheets

@@ -225,7 +225,7 @@ class Draw(Scenario):
         # The scale holds in the plane of the target, and nothing says otherwise.
         done = self.run_strake(*where, '--eye', '500,-1000,500', '--target', '500,0,500', '--scale', '1:10', '-o', 'x.svg')
         self.assertIn('lines at 1:10 in the plane of the target on 420 x 297 mm', done.stderr)
-        self.assertIn('<title>iso</title>', (self.folder / 'x.svg').read_text(encoding='utf-8'))
+        self.assertIn('<title>perspective</title>', (self.folder / 'x.svg').read_text(encoding='utf-8'))
 
         # An oblique one, by both solvers, with and without culling.
         oblique = ('--eye', '-700.5,-1300,1900', '--target', '500,400,300', '--field-of-view', '70deg')

@@ -299,7 +299,7 @@ TEST(Sheet, UncutWithoutSectionsIsTold) {
   };
   const auto told_of = said(cut + whole + "uncut=\"top\"\n");
   ASSERT_EQ(told_of.size(), 1U);
-  EXPECT_NE(told_of[0].find("line 9: [[view]] 'w', uncut"), std::string::npos) << told_of[0];
+  EXPECT_NE(told_of[0].find("line 10: [[view]] 'w', uncut"), std::string::npos) << told_of[0];
   EXPECT_TRUE(said(cut + "uncut=\"top\"\n" + whole).empty());
   // What holds for all views is for those that have sections.
   EXPECT_TRUE(said("[defaults]\nuncut=\"top\"\n" + cut + whole).empty());
