@@ -67,8 +67,8 @@ class Composer {
 
   /// Warns of what is to be left whole in views that no plane cuts.
   void check_uncut() {
-    std::map<std::string, bool>
-        cut;  // by the place of the selection, which several views may share
+    // By the place of the selection, which several views may share.
+    std::map<std::string, bool> cut;
     for (const ViewSpec& view : what_.views)
       for (const settings::Chooser& chooser : view.uncut)
         cut[chooser.where] = cut[chooser.where] || !view.view.sections.empty();
