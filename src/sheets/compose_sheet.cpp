@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -45,10 +46,11 @@ class Composer {
   Result<Sheet> run() {
     sheet_.width_mm = what_.width_mm;
     sheet_.height_mm = what_.height_mm;
+    check_uncut();
     for (const auto step : {&Composer::pick, &Composer::draw, &Composer::place, &Composer::ink})
       if (const Status status = (this->*step)(); !status) return status.error();
     check_places();
-    const double scale = main_scale(what_, places_);
+    const std::optional<double> scale = main_scale(what_, places_);
     for (std::size_t v = 0; v < what_.views.size(); ++v) caption(v, scale);
     grid();
     fill_frame(what_, scale, sheet_);
@@ -61,6 +63,21 @@ class Composer {
   void warn(std::string code, std::string message, std::string where) {
     sheet_.diagnostics.add(
         {Severity::warning, std::move(code), std::move(message), std::move(where)});
+  }
+
+  /// Warns of what is to be left whole in views that no plane cuts.
+  void check_uncut() {
+    // By the place of the selection, which several views may share.
+    std::map<std::string, bool> cut;
+    for (const ViewSpec& view : what_.views)
+      for (const settings::Chooser& chooser : view.uncut)
+        cut[chooser.where] = cut[chooser.where] || !view.view.sections.empty();
+    for (const auto& [where, some] : cut)
+      if (!some)
+        warn("uncut-without-sections",
+             "no section cuts what is to be left whole; write sections = [\"z=4500mm\"], or leave "
+             "uncut out",
+             where);
   }
 
   /// Evaluates all selections on all objects, once.
@@ -191,6 +208,8 @@ class Composer {
       options.title = spec.title;
       options.placement = placement(v);
       options.far_left_out = far_left_out_[v];
+      for (const settings::Chooser& chooser : spec.uncut)
+        options.uncut_selections.push_back(chooser.selection.text());
       auto laid_out = drawing::lay_out(drawings_[v], *scene_.model, options, context_);
       if (!laid_out) return laid_out.error();
       drawings_[v] = {};
@@ -287,7 +306,7 @@ class Composer {
   }
 
   /// Writes the title below a view, underlined, and its scale where that is not the sheet's.
-  void caption(std::size_t v, double sheet_scale) {
+  void caption(std::size_t v, std::optional<double> sheet_scale) {
     PlacedView& view = sheet_.views[v];
     const PaperBox& box = places_[v].lines;
     const GridMargin rim = margin_of(what_.grid, what_.views[v]);

@@ -248,7 +248,7 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
   const std::uint64_t visible = of(drawing::LineState::visible);
   console.note(object_summary_line(drawing.account, model));
   console.note(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
-                           drawing.lines.size(), drawing.sheet.scale_text, drawing.sheet.width_mm,
+                           drawing.lines.size(), scale_words(drawing), drawing.sheet.width_mm,
                            drawing.sheet.height_mm));
   for (const std::string& line : left_alone_lines(drawing)) console.note(line);
   if (visible > 0) return;
@@ -342,6 +342,8 @@ Result<drawing::NeutralDrawing> compute(Session& session, const DrawRequest& req
   auto uncut = pick_any(session, scene, request.uncut, "--uncut");
   if (!uncut) return uncut.error();
   options.uncut = std::move(*uncut);
+  for (const model::Selection& selection : request.uncut)
+    layout.uncut_selections.push_back(selection.text());
   if (request.sag_for_paper) {
     const Result<double> sag =
         drawing::sag_for_paper(scene, *drawn, request.view, layout, session.context());

@@ -106,6 +106,7 @@ Verb add_draw_diff(CLI::App& draw, CommonOptions& common) {
 Lines are compared in the model, place by place: a line that is cut into other pieces is the same, and so is
 a drawing at another scale. A line of another kind, state or object at the same place has changed. Drawings
 that look from different sides are refused, and so is a file that does not have as many lines as it counts.
+Other settings that differ are told first, and objects that only one of the drawings left out (--limits auto).
 A model file that has another label than in the old drawing is found by the ids of its objects, or by the places
 of its lines; what was taken as renamed, split or merged is told first (--match-files for what cannot be told).
 

@@ -28,8 +28,7 @@ void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const mod
       return view.drawing.count[static_cast<std::size_t>(state)];
     };
     console.note(fmt::format("view '{}': {} visible of {} lines at {}", view.name,
-                             of(drawing::LineState::visible), lines,
-                             view.drawing.sheet.scale_text));
+                             of(drawing::LineState::visible), lines, scale_words(view.drawing)));
     console.note(
         fmt::format("view '{}': {}", view.name, object_summary_line(view.drawing.account, model)));
     for (const std::string& line : left_alone_lines(view.drawing))
@@ -42,11 +41,11 @@ void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const mod
   }
   print_diagnostics(
       console, sheet.diagnostics,
-      {"view-empty", "selection-matches-nothing", "field-not-filled", "field-not-in-template",
-       "field-too-long", "view-off-the-sheet", "view-off-the-frame", "view-on-title-block",
-       "views-overlap", "far-object", "far-object-left-out", "grid-line-nowhere",
-       "grid-label-no-room", "tag-not-seen", "tag-no-room", "tag-attribute-missing",
-       "tag-attribute-partly-missing"});
+      {"view-empty", "selection-matches-nothing", "uncut-without-sections", "field-not-filled",
+       "field-not-in-template", "field-too-long", "view-off-the-sheet", "view-off-the-frame",
+       "view-on-title-block", "views-overlap", "far-object", "far-object-left-out",
+       "grid-line-nowhere", "grid-label-no-room", "tag-not-seen", "tag-no-room",
+       "tag-attribute-missing", "tag-attribute-partly-missing"});
 }
 
 /// "SVG": the formats of sheets in a sentence.

@@ -33,6 +33,10 @@ std::string object_summary_line(const hlr::Account& account, const model::Model&
   return line;
 }
 
+std::string scale_words(const drawing::NeutralDrawing& drawing) {
+  return drawing.sheet.scale_text + (drawing.view.perspective ? " in the plane of the target" : "");
+}
+
 std::vector<std::string> left_alone_lines(const drawing::NeutralDrawing& drawing) {
   const auto counted = [](std::uint64_t n, const char* one, const char* many) {
     return n == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", n, many);

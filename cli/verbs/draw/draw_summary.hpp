@@ -16,6 +16,10 @@ namespace strake::cli {
 [[nodiscard]] std::string object_summary_line(const hlr::Account& account,
                                               const model::Model& model);
 
+/// Returns "1:50", of a view in perspective "1:50 in the plane of the target", where alone it
+/// holds.
+[[nodiscard]] std::string scale_words(const drawing::NeutralDrawing& drawing);
+
 /// Returns a sentence for each of what was asked to be left whole or out: "3 objects are left whole
 /// by the sections", "flush seams of 12 edges are left out".
 [[nodiscard]] std::vector<std::string> left_alone_lines(const drawing::NeutralDrawing& drawing);

@@ -115,6 +115,8 @@ struct LayoutOptions {
   /// Objects that were left out of the selection because they lie far from all others; the drawing
   /// names them.
   std::vector<model::ObjectId> far_left_out = {};
+  /// What the selections of hlr::Options::uncut are called; the drawing says so.
+  std::vector<std::string> uncut_selections = {};
 };
 
 /// A drawing without a format: SVG and JSON are both written from it.
@@ -132,6 +134,7 @@ struct NeutralDrawing {
   hlr::OwnPolylines own_polylines = hlr::OwnPolylines::visible;
   bool flush_seams = true;  ///< false: left out, see hlr::Options::flush_seams
   bool uncut = false;       ///< sections leave objects whole: see hlr::Options::uncut
+  std::vector<std::string> uncut_selections;  ///< as LayoutOptions has them, in order and each once
   double contact_distance_mm = 0;
   double sag_mm = 0;    ///< the sag asked for of curved primitives; 0: unknown
   double weld_mm = -1;  ///< seams were closed within it; negative: the precision of each body

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -53,7 +54,7 @@ struct LineCount {
 using LineCounts = std::array<LineCount, kLineChanges>;
 
 struct ViewSettingChange {
-  std::string setting, before, after;  ///< as in the documents; empty: absent
+  std::string setting, before, after;  ///< empty: absent
 };
 
 /// The differences of two documents; it refers to both.
@@ -67,11 +68,18 @@ struct ViewDiff {
   std::vector<const ViewObject*> objects;
   std::vector<std::uint32_t> of_before,
       of_after;  ///< by object of the document: its number in `objects`
+  /// Numbers in `objects` of what a drawing left out because it lies far from all others.
+  std::set<std::uint32_t> far_before, far_after;
+  /// Settings that differ, by name: those of the documents, and "far_objects": how many objects
+  /// each left out and which of them the other did not, as "2 (valve, pump)".
   std::vector<ViewSettingChange> settings;
   /// The intervals by piece and along it: first all of the older document that is gone, then all of
   /// the newer.
   std::vector<DiffInterval> intervals;
   LineCounts total;
+  /// Of the lines that are gone, those of objects that the newer drawing left out as far from all
+  /// others; of those that are new, those of objects that the older one left out.
+  LineCount gone_left_out, new_left_out;
   std::map<std::pair<hlr::EdgeKind, drawing::LineState>, LineCounts> by_class;
   std::map<std::uint32_t, LineCounts> by_object;  ///< objects of which not all is the same
 

@@ -39,7 +39,8 @@ struct ViewDocument {
   std::map<std::string, std::string> settings;
   double width_mm = 0, height_mm = 0, scale = 1;
   std::vector<ViewObject> objects;
-  std::vector<ViewPiece> pieces;  ///< as in the document
+  std::vector<ViewObject> far_objects;  ///< left out because they lie far from all others
+  std::vector<ViewPiece> pieces;        ///< as in the document
 };
 
 /// Reads a document. Errors: input for a file that cannot be read, is cut off, is no such document,

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -25,6 +26,14 @@
 namespace strake::drawing {
 
 namespace {
+
+/// Returns texts whose order says nothing so that equal ones are written alike.
+std::vector<std::string> in_order_once(std::vector<std::string> texts) {
+  std::ranges::sort(texts);
+  const auto rest = std::ranges::unique(texts);
+  texts.erase(rest.begin(), rest.end());
+  return texts;
+}
 
 void add_vector(Hasher& hasher, const geometry::Vec3l& v) { hasher.add(v.x).add(v.y).add(v.z); }
 
@@ -307,6 +316,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.own_polylines = drawing.options.own_polylines;
   out.flush_seams = drawing.options.flush_seams;
   out.uncut = !drawing.options.uncut.empty();
+  if (out.uncut) out.uncut_selections = in_order_once(options.uncut_selections);
   out.contact_distance_mm = drawing.contact_distance_mm;
   out.sag_mm = drawing.sag_mm;
   out.weld_mm = drawing.weld_mm;

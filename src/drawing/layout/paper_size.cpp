@@ -7,6 +7,7 @@
 
 #include "core/text_encoding.hpp"
 #include "core/units.hpp"
+#include "drawing/layout/view_plane.hpp"
 
 namespace strake::drawing {
 
@@ -29,13 +30,14 @@ Result<PaperSize> named_paper(std::string_view text, std::string_view name, std:
   return fault(quoted(way) + " of " + quoted(text) + " is neither landscape nor portrait");
 }
 
-/// Parses a side of the paper: millimetres where it has no unit.
+/// Parses a side of the paper: millimetres where it has no unit, in whole micrometres.
 Result<double> side_mm(std::string_view text, std::string_view side) {
   const Result<double> mm = parse_coordinate_mm(side);
   if (!mm) return fault(quoted(side) + " of " + quoted(text) + " is no length of paper");
-  if (!(*mm >= kLeastPaperMm && *mm <= kLargestPaperMm))
+  const double side_of_paper = rounded_paper(*mm);  // 12 inches are 304.8 mm, whatever doubles say
+  if (!(side_of_paper >= kLeastPaperMm && side_of_paper <= kLargestPaperMm))
     return fault(quoted(side) + " of " + quoted(text) + " is not between 100mm and 20m");
-  return *mm;
+  return side_of_paper;
 }
 
 }  // namespace

@@ -32,10 +32,16 @@ std::string length_text(double mm) {
   return text + (small ? " mm" : " m");
 }
 
-/// "z = 4.5 m"
+/// Returns whether the first component of a vector that is not 0 is negative.
+bool points_back(const Vec3l& v) {
+  return v.x < 0 || (v.x == 0 && (v.y < 0 || (v.y == 0 && v.z < 0)));
+}
+
+/// "z = 4.5 m"; of both normals of a plane the one that does not point back, whichever side is cut
+/// away.
 std::string plane_text(const hlr::Section& section) {
   constexpr std::array kAxes{'x', 'y', 'z'};
-  const Vec3l& n = section.normal;
+  const Vec3l n = points_back(section.normal) ? -section.normal : section.normal;
   const Vec3d point = geometry::to_mm(section.point);
   if (const int axis = axis_of(n); axis >= 0)
     return fmt::format("{} = {}", kAxes.at(static_cast<std::size_t>(axis)),
@@ -44,7 +50,7 @@ std::string plane_text(const hlr::Section& section) {
   const Vec3d normal = n.as<double>();
   const double distance = dot(normal, point) / std::sqrt(dot(normal, normal));
   return fmt::format("{},{},{} = {}", n.x, n.y, n.z,
-                     length_text(std::nearbyint(distance * 100) / 100));
+                     length_text(std::nearbyint(distance * 100) / 100 + 0.0));
 }
 
 }  // namespace

@@ -36,6 +36,19 @@ void write_perspective(BufferedWriter& out, const hlr::Perspective& perspective)
       << ",\"field_of_view_deg\":" << shortest(perspective.field_of_view_deg) << "}";
 }
 
+/// Writes which selections sections leave whole, or that they do where nobody says which.
+void write_uncut(BufferedWriter& out, const NeutralDrawing& drawing) {
+  if (!drawing.uncut) return;
+  out << ",\"uncut\":";
+  if (drawing.uncut_selections.empty()) out << "true";
+  const char* separator = "[";
+  for (const std::string& selection : drawing.uncut_selections) {
+    out << separator << json_quoted(selection);
+    separator = ",";
+  }
+  if (*separator == ',') out << "]";
+}
+
 void write_view(BufferedWriter& out, const NeutralDrawing& drawing) {
   out << "\"view\":{\"name\":" << json_quoted(drawing.view_name) << ",\"projection\":\""
       << (drawing.view.perspective ? "perspective" : "orthographic")
@@ -66,7 +79,7 @@ void write_view(BufferedWriter& out, const NeutralDrawing& drawing) {
   if (drawing.own_polylines != hlr::OwnPolylines::visible)
     out << ",\"own_polylines\":\"" << own_polylines_name(drawing.own_polylines) << "\"";
   if (!drawing.flush_seams) out << ",\"flush_seams\":\"off\"";
-  if (drawing.uncut) out << ",\"uncut\":true";
+  write_uncut(out, drawing);
   out << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm);
   if (drawing.sag_mm > 0) out << ",\"sag_mm\":" << shortest(drawing.sag_mm);
   if (drawing.weld_mm >= 0) out << ",\"weld_mm\":" << shortest(drawing.weld_mm);

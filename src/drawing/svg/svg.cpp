@@ -111,8 +111,10 @@ void write_head(BufferedWriter& out, const NeutralDrawing& drawing, const Ink& i
       << "<svg xmlns=\"http://www.w3.org/2000/svg\" "
          "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
       << fmt::format("width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n", width, height)
-      << "<title>" << xml_escaped(drawing.title) << " \xC2\xB7 " << sheet.scale_text
-      << "</title>\n<metadata>\n"
+      << "<title>" << xml_escaped(drawing.title);
+  // A view in perspective has no scale to measure by.
+  if (!drawing.view.perspective) out << " \xC2\xB7 " << sheet.scale_text;
+  out << "</title>\n<metadata>\n"
       << "<drawing xmlns=\"urn:strake:drawing:1\" view=\"" << xml_escaped(drawing.view_name)
       << "\" direction=\"" << vector_text(drawing.view.direction) << "\" up=\""
       << vector_text(drawing.view.up) << "\" stage=\"" << stage_name(drawing.stage) << "\" scale=\""

@@ -39,7 +39,8 @@ std::vector<ViewSettingChange> setting_changes(const ViewDocument& before,
   return changes;
 }
 
-/// Numbers the objects of both drawings, those of the older one by what they are in the newer.
+/// Numbers the objects of both drawings, and those that they left out as far from all others; those
+/// of the older one by what they are in the newer.
 void number_objects(ViewDiff& diff) {
   DrawnIds drawn_before, drawn_after;
   if (!diff.files.by_label_alone()) {
@@ -50,19 +51,46 @@ void number_objects(ViewDiff& diff) {
       diff.files, [&](auto file, auto id) { return drawn_before.has(file, id); },
       [&](auto file, auto id) { return drawn_after.has(file, id); });
   std::map<std::pair<std::string, std::string_view>, std::uint32_t> known;
-  const auto number = [&](const ViewObject& object, std::string file,
-                          std::vector<std::uint32_t>& of) {
+  const auto number = [&](const ViewObject& object, std::string file) {
     const auto next = static_cast<std::uint32_t>(known.size());
     const auto [at, is_new] = known.try_emplace({std::move(file), object.id}, next);
     if (is_new)
       diff.objects.push_back(&object);
     else if (!files.is_identity())
       diff.objects[at->second] = &object;
-    of.push_back(at->second);
+    return at->second;
   };
-  for (const ViewObject& o : diff.before->objects)
-    number(o, files.label_in_other(Run::before, o.file, o.id), diff.of_before);
-  for (const ViewObject& o : diff.after->objects) number(o, o.file, diff.of_after);
+  const auto number_before = [&](const ViewObject& o) {
+    return number(o, files.label_in_other(Run::before, o.file, o.id));
+  };
+  for (const ViewObject& o : diff.before->objects) diff.of_before.push_back(number_before(o));
+  for (const ViewObject& o : diff.before->far_objects) diff.far_before.insert(number_before(o));
+  for (const ViewObject& o : diff.after->objects) diff.of_after.push_back(number(o, o.file));
+  for (const ViewObject& o : diff.after->far_objects) diff.far_after.insert(number(o, o.file));
+}
+
+/// "2 (valve, pump)": how many objects a drawing left out, and which of them the other did not.
+std::string far_objects_text(const ViewDiff& diff, const std::set<std::uint32_t>& own,
+                             const std::set<std::uint32_t>& other) {
+  constexpr std::size_t kMostNamed = 3;
+  std::string names;
+  std::size_t alone = 0;
+  for (const std::uint32_t number : own) {
+    if (other.contains(number) || ++alone > kMostNamed) continue;
+    const ViewObject& object = *diff.objects[number];
+    names += (names.empty() ? "" : ", ") + (object.name.empty() ? object.id : object.name);
+  }
+  if (alone > kMostNamed) names += ", …";
+  return std::to_string(own.size()) + (names.empty() ? "" : " (" + names + ")");
+}
+
+/// Tells where the drawings left different objects out as far from all others, which no setting of
+/// theirs says.
+void tell_far_objects(ViewDiff& diff) {
+  if (diff.far_before == diff.far_after) return;
+  diff.settings.insert(diff.settings.begin(),
+                       {"far_objects", far_objects_text(diff, diff.far_before, diff.far_after),
+                        far_objects_text(diff, diff.far_after, diff.far_before)});
 }
 
 DiffLineClass class_of(const ViewPiece& piece, const std::vector<std::uint32_t>& numbers) {
@@ -120,6 +148,10 @@ void count(ViewDiff& diff) {
     add(diff.total.at(change), length);
     add(diff.by_class[{cls.kind, cls.state}].at(change), length);
     add(diff.by_object[cls.object].at(change), length);
+    if (s.change == LineChange::gone && diff.far_after.contains(cls.object))
+      add(diff.gone_left_out, length);
+    if (s.change == LineChange::added && diff.far_before.contains(cls.object))
+      add(diff.new_left_out, length);
   }
   std::erase_if(diff.by_object, [](const auto& of) {
     return std::all_of(of.second.begin() + 1, of.second.end(),
@@ -174,6 +206,7 @@ Result<ViewDiff> compare(const ViewDocument& before, const ViewDocument& after,
                        (change.after.empty() ? "absent" : change.after),
                    after.name, "compare drawings of one view"};
   number_objects(diff);
+  tell_far_objects(diff);
   const std::vector<ClassedPiece> pieces = classed(diff);
   if (pieces.size() >= 0xffffffffU)
     return Error{ErrorCode::input, "the drawings have too many lines to compare", after.name,

@@ -24,16 +24,30 @@ void file(std::string& out, std::string_view name, const ViewDocument& document)
   out += '}';
 }
 
+void count(std::string& out, const LineCount& count) {
+  out += "{\"lines\": " + std::to_string(count.lines) + ", \"length_mm\": ";
+  append_mm(out, count.length_mm);
+  out += '}';
+}
+
+/// Writes which lines are new and gone because their objects were left out as far from all others,
+/// where there are such.
+void left_out(std::string& out, const ViewDiff& diff) {
+  if (diff.gone_left_out.lines + diff.new_left_out.lines == 0) return;
+  out += ",\n\"left_out\": {\"new\": ";
+  count(out, diff.new_left_out);
+  out += ", \"gone\": ";
+  count(out, diff.gone_left_out);
+  out += '}';
+}
+
 void counts(std::string& out, const LineCounts& counts) {
   std::string_view between = "{";
   for (const LineChange change :
        {LineChange::added, LineChange::gone, LineChange::changed, LineChange::same}) {
-    const LineCount& count = counts.at(static_cast<std::size_t>(change));
     out += between;
     append_key(out, change_name(change));
-    out += "{\"lines\": " + std::to_string(count.lines) + ", \"length_mm\": ";
-    append_mm(out, count.length_mm);
-    out += '}';
+    count(out, counts.at(static_cast<std::size_t>(change)));
     between = ", ";
   }
   out += '}';
@@ -118,6 +132,7 @@ void write_view_diff_json(const ViewDiff& diff, Sink sink) {
   });
   out += ",\n\"counts\": ";
   counts(out, diff.total);
+  left_out(out, diff);
   out += ",\n";
   append_list(
       out, "classes", diff.by_class,

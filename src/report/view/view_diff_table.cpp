@@ -65,6 +65,18 @@ std::string objects_text(const ViewDiff& diff, std::size_t names, std::size_t ro
   return out + "\n";
 }
 
+/// Says which lines are gone and new because their objects were left out as far from all others.
+std::string left_out_text(const ViewDiff& diff) {
+  const auto said = [](std::string_view why, const LineCount& count) {
+    return count.lines == 0
+               ? std::string()
+               : fmt::format("{} their objects out as far from all others: {} ({:.3f} m)\n", why,
+                             count.lines, count.length_mm / 1000);
+  };
+  return said("gone because the newer drawing leaves", diff.gone_left_out) +
+         said("new because the older drawing left", diff.new_left_out);
+}
+
 }  // namespace
 
 std::string view_diff_table(const ViewDiff& diff, const TableOptions& options) {
@@ -88,7 +100,7 @@ std::string view_diff_table(const ViewDiff& diff, const TableOptions& options) {
                        count.length_mm / 1000);
     between = ", ";
   }
-  return out + "\n";
+  return out + "\n" + left_out_text(diff);
 }
 
 }  // namespace strake::report

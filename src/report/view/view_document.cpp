@@ -75,7 +75,9 @@ class ViewDocumentReader {
     else if (key == "hash")
       document_.hash = fields_.text("the document", "hash");
     else if (key == "objects")
-      objects();
+      objects("objects", document_.objects);
+    else if (key == "far_objects")
+      objects("far_objects", document_.far_objects);
     else if (key == lines_key_)
       lines();
     else if (key == "pieces" || key == "rows")
@@ -129,15 +131,15 @@ class ViewDocumentReader {
     });
   }
 
-  void objects() {
-    fields_.must_be(Kind::array, "the document", "objects", "list");
-    json_.items([this] {
-      const std::string where = "objects[" + std::to_string(document_.objects.size()) + "]";
+  void objects(const std::string& key, std::vector<ViewObject>& list) {
+    fields_.must_be(Kind::array, "the document", key, "list");
+    json_.items([&] {
+      const std::string where = key + "[" + std::to_string(list.size()) + "]";
       if (json_.kind() != Kind::object) throw DocumentFault{where, "is no object"};
       ViewObject object;
       std::array<bool, 3> there{};
-      json_.members([&](std::string_view key) {
-        const std::string name(key);
+      json_.members([&](std::string_view field) {
+        const std::string name(field);
         const auto take = [&](std::size_t i, std::string& into) {
           into = fields_.text(where, name);
           there.at(i) = true;
@@ -151,9 +153,10 @@ class ViewDocumentReader {
         else
           json_.skip();
       });
-      for (const auto& [i, key] : {std::pair(0, "id"), std::pair(1, "name"), std::pair(2, "file")})
-        if (!there.at(static_cast<std::size_t>(i))) throw missing_key(where, key);
-      document_.objects.push_back(std::move(object));
+      for (const auto& [i, field] :
+           {std::pair(0, "id"), std::pair(1, "name"), std::pair(2, "file")})
+        if (!there.at(static_cast<std::size_t>(i))) throw missing_key(where, field);
+      list.push_back(std::move(object));
     });
   }
 

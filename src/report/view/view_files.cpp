@@ -2,6 +2,7 @@
 #include "report/view/view_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 #include <string_view>
@@ -14,6 +15,8 @@
 
 namespace strake::report {
 namespace {
+
+constexpr std::array kLists{&ViewDocument::objects, &ViewDocument::far_objects};
 
 /// Returns the hash of where a piece lies, whichever end comes first.
 Hash128 place_of(const ViewPiece& piece) {
@@ -28,8 +31,9 @@ Hash128 place_of(const ViewPiece& piece) {
 
 std::vector<std::string> labels_of_drawing(const ViewDocument& drawing) {
   std::vector<std::string> labels;
-  for (const ViewObject& o : drawing.objects)
-    if (labels.empty() || labels.back() != o.file) labels.push_back(o.file);
+  for (const auto list : kLists)
+    for (const ViewObject& o : drawing.*list)
+      if (labels.empty() || labels.back() != o.file) labels.push_back(o.file);
   std::ranges::sort(labels);
   const auto rest = std::ranges::unique(labels);
   labels.erase(rest.begin(), rest.end());
@@ -41,7 +45,8 @@ RunFiles files_of_drawing(const ViewDocument& drawing, const std::vector<std::st
                           bool with_contents) {
   std::map<std::string_view, FileContents> contents;
   if (with_contents) {
-    for (const ViewObject& o : drawing.objects) contents[o.file].ids.push_back(o.id);
+    for (const auto list : kLists)
+      for (const ViewObject& o : drawing.*list) contents[o.file].ids.push_back(o.id);
     for (const ViewPiece& piece : drawing.pieces)
       contents[drawing.objects[piece.object].file].places.push_back(place_of(piece));
   }
@@ -58,7 +63,8 @@ RunFiles files_of_drawing(const ViewDocument& drawing, const std::vector<std::st
 }  // namespace
 
 void DrawnIds::add(const ViewDocument& drawing) {
-  for (const ViewObject& o : drawing.objects) ids_.emplace(o.file, o.id);
+  for (const auto list : kLists)
+    for (const ViewObject& o : drawing.*list) ids_.emplace(o.file, o.id);
 }
 
 Result<FileMatches> match_files(const ViewDocument& before, const ViewDocument& after,

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,8 @@ using drawing::rounded_paper;
 
 constexpr double kBinding = 20, kMargin = 10, kBand = 5, kInset = 4;
 constexpr double kBlockWidth = 180, kBlockHeight = 48;
-constexpr double kSmallest = 1.5;  ///< the smallest legible letters
+constexpr double kSmallest = 1.5;                      ///< the smallest legible letters
+constexpr std::string_view kNoScale = "\xE2\x80\x93";  ///< a dash: nothing can be measured
 
 PaperBox border_of(const SheetSpec& sheet) {
   return {kBinding, kMargin, sheet.width_mm - kMargin, sheet.height_mm - kMargin};
@@ -274,12 +276,12 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 /// The values of the fields of a sheet.
 class Fields {
  public:
-  Fields(const SheetSpec& what, double scale) : values_(what.fields) {
+  Fields(const SheetSpec& what, std::optional<double> scale) : values_(what.fields) {
     const auto own = [&](std::string name, std::string value) {
       if (find(name) != nullptr) return;
       values_.emplace_back(std::move(name), std::move(value));
     };
-    own("scale", drawing::scale_text(scale));
+    own("scale", scale ? drawing::scale_text(*scale) : std::string(kNoScale));
     own("size", what.size);
     const bool arranged = std::any_of(what.views.begin(), what.views.end(),
                                       [](const ViewSpec& v) { return v.slot != ViewSlot::none; });
@@ -326,7 +328,7 @@ class Fields {
 
 }  // namespace
 
-void fill_frame(const SheetSpec& what, double scale, Sheet& sheet) {
+void fill_frame(const SheetSpec& what, std::optional<double> scale, Sheet& sheet) {
   const Fields fields(what, scale);
   const auto text = [&](const std::string& name) { return fields.text(name); };
   sheet.title = text("title");

@@ -2,6 +2,7 @@
 // The frame of a sheet: the built-in border and title block, and the fields of either frame.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,8 @@ namespace strake::sheets {
                                std::vector<std::string>* narrow);
 
 /// Draws frame and title block of a sheet, built-in or from its template, with the fields of the
-/// file and the automatic ones: scale, size, projection. Reports fields without a value and values
-/// without a field.
-void fill_frame(const SheetSpec& what, double scale, Sheet& sheet);
+/// file and the automatic ones: scale (a dash where the sheet has none), size, projection. Reports
+/// fields without a value and values without a field.
+void fill_frame(const SheetSpec& what, std::optional<double> scale, Sheet& sheet);
 
 }  // namespace strake::sheets

@@ -514,15 +514,16 @@ std::vector<double> expected_scales(const SheetSpec& what,
   return scales;
 }
 
-double main_scale(const SheetSpec& what, std::span<const ViewPlace> places) {
+std::optional<double> main_scale(const SheetSpec& what, std::span<const ViewPlace> places) {
   std::map<double, std::size_t> views;
   for (std::size_t v = 0; v < places.size(); ++v) {
     if (what.views[v].slot != ViewSlot::none) return places[v].scale;
     if (!what.views[v].view.perspective) ++views[places[v].scale];
   }
-  double most = places.front().scale;
-  for (const ViewPlace& place : places)
-    if (views[place.scale] > views[most]) most = place.scale;
+  std::optional<double> most;
+  for (std::size_t v = 0; v < places.size(); ++v)
+    if (!what.views[v].view.perspective && (!most || views[places[v].scale] > views[*most]))
+      most = places[v].scale;
   return most;
 }
 

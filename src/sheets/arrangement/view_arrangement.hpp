@@ -2,6 +2,7 @@
 // Where views lie on a sheet: arranged projections, and views placed by their own words.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -86,7 +87,9 @@ struct ViewPlace {
                                                   std::span<const drawing::PlaneBox> extents,
                                                   const SheetArea& room);
 
-/// Returns the scale for the title block: that of the arrangement, or of most views.
-[[nodiscard]] double main_scale(const SheetSpec& what, std::span<const ViewPlace> places);
+/// Returns the scale for the title block: that of the arrangement, or of most views. Views in
+/// perspective have no say; empty: there are no others.
+[[nodiscard]] std::optional<double> main_scale(const SheetSpec& what,
+                                               std::span<const ViewPlace> places);
 
 }  // namespace strake::sheets

@@ -72,6 +72,7 @@ class Parser {
     if (found_.views.size() > kMostViews)
       reading_.fault({1, 1}, "a sheet of more than 100 views", "make several sheets of it");
     check_positions();
+    for (ViewSpec& view : found_.views) views_.place_sections(view);
     name_sections();
     MarkReader marks(reading_, sets_, found_);
     for (const Value* value : top_.tables("tag")) marks.tag(*value);
@@ -175,7 +176,9 @@ class Parser {
     check_artwork(table);
   }
 
-  void take_size(double width, double height) {
+  void take_size(double width_mm, double height_mm) {
+    const double width = drawing::rounded_paper(width_mm);
+    const double height = drawing::rounded_paper(height_mm);
     found_.width_mm = width;
     found_.height_mm = height;
     found_.size = shortest(width) + " x " + shortest(height);

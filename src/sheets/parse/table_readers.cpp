@@ -223,16 +223,17 @@ void ViewReader::hatch(const Value& value, const std::string& outer, ViewSpec& v
 void ViewReader::sections(TableReader& table, ViewSpec& view) {
   const Value* const value = table.value("sections");
   if (value == nullptr) return;
-  view.view.sections.clear();
+  view.sections.clear();
   const std::string mend =
-      "write sections = [\"z>4500mm\", \"x<0m\"], with the sign towards what is cut away";
+      "write sections = [\"z>4500mm\", \"x<0m\"], with the sign towards what is cut away, or "
+      "\"z=4500mm\" to cut away what is nearer to the viewer";
   const auto take = [&](const Value& one) {
     const auto* const text = std::get_if<std::string>(&one.held);
-    // No direction is given: the side nearer to the viewer may differ from view to view.
-    const auto parsed =
-        text != nullptr ? std::optional(drawing::parse_section(*text, Vec3l{})) : std::nullopt;
-    if (parsed && *parsed)
-      view.view.sections.push_back((*parsed)->section);
+    // Which side is nearer differs from view to view: place_sections() says so later.
+    std::string plane = text != nullptr ? *text : std::string();
+    std::ranges::replace(plane, '=', '>');
+    if (text != nullptr && drawing::parse_section(plane, Vec3l{}))
+      view.sections.push_back({*text, one.at});
     else
       reading_.fault(one.at, "'sections' of " + table.what() + " has what is no section plane",
                      mend);
@@ -240,6 +241,19 @@ void ViewReader::sections(TableReader& table, ViewSpec& view) {
   const auto* const list = std::get_if<Array>(&value->held);
   if (list == nullptr) return take(*value);
   for (const Value& one : *list) take(one);
+}
+
+void ViewReader::place_sections(ViewSpec& view) {
+  view.view.sections.clear();
+  const auto eye = view.view.perspective ? std::optional(view.view.perspective->eye) : std::nullopt;
+  for (const SectionSpec& section : view.sections) {
+    const auto parsed = drawing::parse_section(section.text, view.view.direction, eye);
+    if (parsed)
+      view.view.sections.push_back(parsed->section);
+    else
+      reading_.fault(section.at, "in the view '" + view.name + "' " + parsed.error().message,
+                     parsed.error().mend);
+  }
 }
 
 void ViewReader::content(TableReader& table, ViewSpec& view) {

@@ -31,13 +31,20 @@ struct HatchSpec {
   hlr::Hatch hatch;
 };
 
+/// A section plane as written; with "=" the view decides which side is cut away.
+struct SectionSpec {
+  std::string text;
+  settings::SourcePosition at;
+};
+
 struct ViewSpec {
   std::string name, title;
   bool own_title = false;  ///< the file says the title
   std::string where;       ///< "deck.toml, line 7: [[view]] 'plan'"
   ViewSlot slot = ViewSlot::none;
-  hlr::View view;
+  hlr::View view;  ///< its sections are those of `sections`, seen from where it looks
   hlr::Options options;
+  std::vector<SectionSpec> sections;
   std::vector<settings::Chooser> select;  ///< empty: all objects
   std::vector<HatchSpec> hatches;         ///< the first that picks an object holds for it
   std::vector<settings::Chooser> uncut;   ///< what sections leave whole

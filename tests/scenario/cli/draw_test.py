@@ -222,6 +222,11 @@ class Draw(Scenario):
                 lengths[piece['state']].add(round(abs(ax - bx) + abs(ay - by), 3))
         self.assertEqual(lengths, {'visible': {100.0}, 'hidden_by_self': {50.0}})
 
+        # The scale holds in the plane of the target, and nothing says otherwise.
+        done = self.run_strake(*where, '--eye', '500,-1000,500', '--target', '500,0,500', '--scale', '1:10', '-o', 'x.svg')
+        self.assertIn('lines at 1:10 in the plane of the target on 420 x 297 mm', done.stderr)
+        self.assertIn('<title>perspective</title>', (self.folder / 'x.svg').read_text(encoding='utf-8'))
+
         # An oblique one, by both solvers, with and without culling.
         oblique = ('--eye', '-700.5,-1300,1900', '--target', '500,400,300', '--field-of-view', '70deg')
         whole = view(*oblique)
@@ -296,10 +301,17 @@ class Draw(Scenario):
             self.assertEqual({state for _, state in kinds['BOLT-2']}, {'clipped'})
             self.assertIn('hatch', {kind for kind, _ in kinds['plate']})
             self.assertEqual(drawing['counts']['objects_uncut'], 1)
-            self.assertIs(drawing['settings']['uncut'], True)
+            self.assertEqual(drawing['settings']['uncut'], sorted(selection))
             self.assertIn('1 object is left whole by the sections', said)
             self.assertIn(' objects-uncut="1"', (self.folder / 'x.svg').read_text(encoding='utf-8'))
         self.assertIn('0 objects are left whole', cut('--uncut', 'BOLT-2')[2])
+        # Which ones are left whole is a setting that a comparison names; their order says nothing.
+        for name, selection in (('a', ('BOLT-1', 'plate')), ('b', ('plate', 'BOLT-1', 'plate')), ('c', ('BOLT-1',))):
+            cut(*[word for text in selection for word in ('--uncut', text)])
+            (self.folder / 'x.json').rename(self.folder / f'{name}.json')
+        self.assertNotIn('settings.uncut', self.run_strake('draw', 'diff', 'a.json', 'b.json').stdout)
+        self.assertIn('settings.uncut: was ["BOLT-1","plate"], is ["BOLT-1"]',
+                      self.run_strake('draw', 'diff', 'a.json', 'c.json').stdout)
         done = self.run_strake('draw', 'a.obj', '--uncut', 'BOLT*', '-o', 'x.svg')
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn('--section', done.stderr)
@@ -487,12 +499,21 @@ class Draw(Scenario):
                       "for it, without it 1:2 on 420 x 297 mm (--limits auto leaves it out)", told)
         self.assertEqual((drawing['sheet']['scale_text'], drawing['counts']['objects']), ('1:500', 6))
         self.assertNotIn('far_objects', drawing)
+        (self.folder / 'x.json').rename(self.folder / 'whole.json')
         told, drawing = drawn('--limits', 'auto')
         self.assertIn("note far-object-left-out: 'lost' (far.obj) lies 99.9 m from the rest and is left out", told)
         self.assertNotIn('warning', told)
         self.assertEqual((drawing['sheet']['scale_text'], drawing['counts']['objects']), ('1:2', 5))
         self.assertEqual([(far['name'], far['file']) for far in drawing['far_objects']], [('lost', 'far.obj')])
         self.assertRegex((self.folder / 'x.svg').read_text(encoding='utf-8'), '<far-object id="[^"]*" name="lost" file="far.obj"/>')
+        done = self.run_strake('draw', 'diff', 'whole.json', 'x.json', '--fail-on', 'visible')
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertTrue(done.stdout.startswith('far_objects: was 0, is 1 (lost)\n'), done.stdout)
+        diff = json.loads(self.run_strake('draw', 'diff', 'x.json', 'whole.json', '--json').stdout)
+        self.assertEqual(diff['settings'][0], {'setting': 'far_objects', 'before': '1 (lost)', 'after': '0'})
+        self.assertGreater(diff['left_out']['new']['lines'], 0)
+        self.assertEqual(diff['left_out'], {'new': diff['counts']['new'], 'gone': {'lines': 0, 'length_mm': 0}})
+        self.assertEqual((diff['counts']['gone']['lines'], diff['counts']['changed']['lines']), (0, 0))
         self.assertNotIn('far-object', drawn('--limits', '-1,-1,-1,800,200,200')[0])
         self.assertNotIn('far-object', drawn('--select', 'not lost', '--limits', 'auto')[0])
 

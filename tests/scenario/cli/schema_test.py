@@ -108,6 +108,12 @@ class Schemas(unittest.TestCase):
         self.assertTrue(any('other' in line for line in diff['lines']))
         self.assertTrue(any('was' in line for line in diff['lines']))
         self.follows(self.run_strake('draw', 'diff', 'old.json', 'old.json', '--json'), 'view-diff')
+        (self.folder / 'far.obj').write_text(''.join(cube(f'c{n}', n, (150 * n, 10**6 * (n == 5), 0), 100) for n in range(6)),
+                                             encoding='utf-8')
+        for name, limits in (('whole', []), ('auto', ['--limits', 'auto'])):
+            self.run_strake('draw', 'far.obj', '--view', 'top', *limits, '-o', f'{name}.json')
+        self.assertGreater(self.follows(self.run_strake('draw', 'diff', 'whole.json', 'auto.json', '--json'),
+                                        'view-diff')['left_out']['gone']['lines'], 0)
 
     def test_truth(self):
         truth = self.follows((self.folder / 'truth.json').read_text(encoding='utf-8'), 'truth')
@@ -280,6 +286,7 @@ class Schemas(unittest.TestCase):
         chosen = self.follows(self.run_strake('draw', 'ship.glb', '--view', 'top', '--section', 'z=4500mm', '--uncut',
                                               '*', '--flush-seams', 'off', '--json'), 'view')
         self.assertGreater(chosen['counts']['objects_uncut'], 0)
+        self.assertEqual(chosen['settings']['uncut'], ['*'])
         self.assertEqual(chosen['settings']['flush_seams'], 'off')
 
 

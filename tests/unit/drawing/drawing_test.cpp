@@ -16,7 +16,6 @@
 
 #include "drawing/layout/paper_size.hpp"
 #include "drawing/layout/view_plane.hpp"
-#include "drawing/layout/view_title.hpp"
 #include "drawing/svg/svg_path.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/drawing/write.hpp"
@@ -228,49 +227,9 @@ TEST(Layout, WhatDoesNotFitItsPaperIsAnError) {
   EXPECT_EQ(result.error().mend, "give larger paper, or no larger scale than 1:2");
 }
 
-TEST(Paper, SizesAsPeopleWriteThem) {
-  const auto size = [](std::string_view text) {
-    const auto paper = parse_paper(text);
-    return paper ? std::pair(paper->width_mm, paper->height_mm) : std::pair(0.0, 0.0);
-  };
-  EXPECT_EQ(size("A4"), std::pair(297.0, 210.0));
-  EXPECT_EQ(size(" A0 landscape "), std::pair(1189.0, 841.0));
-  EXPECT_EQ(size("A3,portrait"), std::pair(297.0, 420.0));
-  EXPECT_EQ(size("A3 portrait"), std::pair(297.0, 420.0));
-  EXPECT_EQ(size("A3, portrait"), std::pair(297.0, 420.0));
-  EXPECT_EQ(size("900x420"), std::pair(900.0, 420.0));
-  EXPECT_EQ(size("900mm x 42cm"), std::pair(900.0, 420.0));
-  for (const char* wrong :
-       {"", "A5", "a3", "A3,upright", "A3 portrait landscape", "900", "900x", "x420", "900x420x1",
-        "50x420", "900x21m", "-900x420", "900degx420", "1,5mx420"}) {
-    const auto paper = parse_paper(wrong);
-    ASSERT_FALSE(paper) << wrong;
-    EXPECT_EQ(paper.error().code, ErrorCode::usage);
-    EXPECT_NE(paper.error().mend.find("900mmx420mm"), std::string::npos) << wrong;
-  }
-}
-
 TEST(Layout, ASectionIsNamedWhereNoTitleIsGiven) {
-  const auto title = [](std::vector<hlr::Section> sections, Vec3l direction = {0, 0, 1}) {
-    hlr::View view;
-    view.direction = direction;
-    view.sections = std::move(sections);
-    return title_of("top", view);
-  };
-  const hlr::Section deck{{0, 0, 1}, {0, 0, 4'500 * kMm}};
-  EXPECT_EQ(title({}), "top");
-  EXPECT_EQ(title({deck}), "SECTION z = 4.5 m");
-  EXPECT_EQ(title({deck}, {0, 0, -1}), "SECTION z = 4.5 m");
-  EXPECT_EQ(title({deck}, {1, -1, 1}), "top, SECTION z = 4.5 m");
-  EXPECT_EQ(title({deck, {{-1, 0, 0}, {350'125, 0, 0}}}), "top, SECTION z = 4.5 m, x = 350.125 mm");
-  EXPECT_EQ(title({{{0, 0, -1}, {}}}), "SECTION z = 0 m");
-  EXPECT_EQ(title({{{0, 0, 1}, {0, 0, -100'000'000 * kMm}}}), "SECTION z = -100000 m");
-  // A plane across no axis, at a grid point beside its distance from the origin.
-  const auto askew = parse_section("3,4,0>12500mm", {0, 0, 1});
-  ASSERT_TRUE(askew);
-  EXPECT_EQ(title({askew->section}, {3, 4, 0}), "SECTION 3,4,0 = 12.5 m");
   hlr::Drawing cut = rectangle();
-  cut.view.sections = {deck};
+  cut.view.sections = {{{0, 0, 1}, {0, 0, 4'500 * kMm}}};
   LayoutOptions options;
   options.view_name = "top";
   EXPECT_EQ(laid_out(cut, options).title, "SECTION z = 4.5 m");

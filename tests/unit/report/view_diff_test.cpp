@@ -114,6 +114,83 @@ TEST(ViewDiff, StageTurnsHiddenLinesIntoVisibleOnes) {
   EXPECT_EQ(diff.settings[0].setting, "settings.stage");
 }
 
+TEST(ViewDiff, OtherSelectionsThatSectionsLeaveWholeAreTold) {
+  const auto document = [](std::vector<std::string> selections) {
+    test::Drawn how;
+    how.options.uncut.resize(12);
+    how.layout.uncut_selections = std::move(selections);
+    return test::view_document(test::view_file(crowd(0), how));
+  };
+  const ViewDocument some = document({"b", "a", "b"});
+  EXPECT_TRUE(compared(some, document({"a", "b"})).settings.empty());
+  const ViewDiff diff = compared(some, document({"a"}));
+  ASSERT_EQ(diff.settings.size(), 1U);
+  EXPECT_EQ(diff.settings[0].setting, "settings.uncut");
+  EXPECT_EQ(diff.settings[0].before, R"(["a","b"])");
+  EXPECT_EQ(diff.settings[0].after, R"(["a"])");
+  // A program need not say what it chose by.
+  EXPECT_EQ(compared(some, document({})).settings[0].after, "true");
+}
+
+/// A document without its last object, which it lists as far from all others.
+ViewDocument left_out(const ViewDocument& whole) {
+  ViewDocument rest = whole;
+  rest.far_objects = {rest.objects.back()};
+  rest.objects.pop_back();
+  std::erase_if(rest.pieces,
+                [&](const ViewPiece& piece) { return piece.object == rest.objects.size(); });
+  return rest;
+}
+
+TEST(ViewDiff, WhatLimitsLeftOutIsToldAndCountedApart) {
+  const ViewDocument whole =
+      drawn({line({0, 0, 0}, {90'000, 0, 0}, 0), line({0, 5, 0}, {0, 70'000, 0}, 1),
+             line({0, 9, 9}, {50'000, 9, 9}, 0)});
+  ViewDocument without = left_out(whole);
+  without.pieces.pop_back();
+  const ViewDiff diff = compared(whole, without);
+  ASSERT_EQ(diff.settings.size(), 1U);
+  EXPECT_EQ(diff.settings[0].setting, "far_objects");
+  EXPECT_EQ(diff.settings[0].before, "0");
+  EXPECT_EQ(diff.settings[0].after, "1 (B)");
+  EXPECT_EQ(lines(diff, LineChange::gone), 2U);
+  EXPECT_EQ(diff.gone_left_out.lines, 1U);
+  EXPECT_NEAR(diff.gone_left_out.length_mm, 69.995, 1e-3);
+  EXPECT_EQ(diff.new_left_out.lines, 0U);
+  EXPECT_TRUE(diff.differs(true)) << "a line that is no longer drawn is none that is the same";
+  const std::string table = view_diff_table(diff, {});
+  EXPECT_TRUE(table.starts_with("far_objects: was 0, is 1 (B)\n")) << table;
+  EXPECT_TRUE(
+      table.ends_with("\ngone because the newer drawing leaves their objects out as far from all "
+                      "others: 1 (0.070 m)\n"))
+      << table;
+  const ViewDiff back = compared(without, whole);
+  EXPECT_EQ(back.new_left_out.lines, 1U);
+  EXPECT_EQ(back.gone_left_out.lines, 0U);
+  EXPECT_EQ(back.settings[0].before, "1 (B)");
+}
+
+TEST(ViewDiff, WhatBothDrawingsLeftOutIsNoDifference) {
+  const ViewDocument whole =
+      drawn({line({0, 0, 0}, {90'000, 0, 0}, 0), line({0, 5, 0}, {0, 70'000, 0}, 1)});
+  ViewDocument before = left_out(whole), after = before;
+  EXPECT_TRUE(compared(before, after).settings.empty());
+  EXPECT_EQ(view_diff_table(compared(before, after), {}).find("far_objects"), std::string::npos);
+  before.far_objects.push_back({"c", "", "f"});
+  after.far_objects.push_back({"d", "D", "f"});
+  const ViewDiff diff = compared(before, after);
+  EXPECT_EQ(diff.settings[0].before, "2 (c)");
+  EXPECT_EQ(diff.settings[0].after, "2 (D)");
+  // Where the file was renamed, it is the same object.
+  ViewDocument renamed = left_out(whole);
+  for (ViewObject& object : renamed.objects) object.file = "g";
+  renamed.far_objects[0].file = "g";
+  ViewDiffOptions options;
+  options.files = match_files(whole, renamed, std::vector<std::string>{"f=g"}).value();
+  EXPECT_EQ(compared(whole, renamed, options).gone_left_out.lines, 1U);
+  EXPECT_TRUE(compared(left_out(whole), renamed, options).settings.empty());
+}
+
 TEST(ViewDiff, AFileThatWasRenamedIsTheSameFile) {
   const ViewDocument before = test::view_document(test::view_file(crowd(0)));
   ViewDocument after = before;

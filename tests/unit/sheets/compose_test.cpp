@@ -164,6 +164,21 @@ TEST(Sheet, AViewFromAnEyeIsTrueInThePlaneOfItsTarget) {
   EXPECT_EQ(view_of(d.sheet, "w").caption.texts.size(), 1U);
 }
 
+TEST(Sheet, PerspectivesAloneGiveTheSheetNoScale) {
+  const std::string eye =
+      "[[view]]\nname=\"v\"\neye=[\"2m\",\"-10m\",\"500mm\"]\ntarget=[\"2m\",0,\"500mm\"]\n"
+      "scale=\"1:50\"\nposition=[\"200mm\",\"100mm\"]\n";
+  const Drawn alone = drawn(eye);
+  EXPECT_EQ(alone.svg.find(">1:50</text>"), std::string::npos);
+  EXPECT_EQ(count_of(alone.svg, ">\xE2\x80\x93</text>"), 1U);
+  EXPECT_FALSE(told(alone.sheet, "field-not-filled", "scale"));
+  // A view that can be measured has its scale in the title block, whichever comes first.
+  const Drawn both = drawn(eye + "[[view]]\nname=\"w\"\ndirection=\"front\"\nscale=\"1:100\"\n" +
+                           "position=[\"330mm\",\"200mm\"]\n");
+  EXPECT_EQ(count_of(both.svg, ">1:100</text>"), 1U);
+  EXPECT_EQ(both.svg.find(">1:50</text>"), std::string::npos);
+}
+
 TEST(Sheet, WhatAViewDoesNotShowIsNotWorkedOut) {
   const std::string view = "[[view]]\nname=\"v\"\nscale=\"1:50\"\n";
   const Drawn without = drawn(with_frame(view));
@@ -205,6 +220,25 @@ TEST(Sheet, ATitleSaysItsSectionUnlessItIsGiven) {
   EXPECT_EQ(view_of(own.sheet, "v").title, "DECK");
 }
 
+TEST(Sheet, APlaneCutsAwayWhatIsNearerInEachView) {
+  // The defaults hold for views from both sides, and from an eye.
+  const auto sheet = [](const std::string& all, const std::string& front, const std::string& back) {
+    const auto view = [](const std::string& name, const std::string& from, const std::string& x,
+                         const std::string& sections) {
+      return "[[view]]\nname=\"" + name + "\"\n" + from + "\nscale=\"1:50\"\nposition=[\"" + x +
+             "\",\"60mm\"]\n" + sections;
+    };
+    return drawn(with_frame(all + view("f", "direction=\"front\"", "90mm", front) +
+                            view("b", "direction=\"back\"", "250mm", back) +
+                            view("e", "eye=[\"2m\",\"-9m\",\"1m\"]\ntarget=[\"2m\",0,\"1m\"]",
+                                 "350mm", front)))
+        .svg;
+  };
+  const std::string below = "sections=[\"y<300mm\"]\n", above = "sections=\"y>300mm\"\n";
+  EXPECT_EQ(sheet("[defaults]\nsections=[\"y = 300mm\"]\n", "", ""), sheet("", below, above));
+  EXPECT_NE(sheet("", below, above), sheet("", below, below));
+}
+
 TEST(Sheet, TheFirstHatchThatPicksAnObjectHolds) {
   const Drawn d = drawn(with_frame(
       "[[view]]\nname=\"v\"\ndirection=\"front\"\nscale=\"1:50\"\nsections=[\"y<300mm\"]\n"
@@ -242,12 +276,34 @@ TEST(Sheet, SectionsLeaveWhatAViewSaysWhole) {
   EXPECT_EQ(cut_lines(d, kTop), 0);
   EXPECT_GT(cut_lines(d, kBase), 0);
   EXPECT_EQ(d.sheet.views[0].drawing.counters.uncut_objects, 1U);
+  EXPECT_EQ(d.sheet.views[0].drawing.uncut_selections, (std::vector<std::string>{"nobody", "top"}));
   EXPECT_EQ(count_of(d.svg, " objects-uncut=\"1\""), 1U);
   EXPECT_TRUE(told(d.sheet, "selection-matches-nothing", "'nobody'"));
   // An empty list takes back what holds for all views.
   const Drawn all = drawn(with_frame("[defaults]\nuncut=\"top\"\n" + view + "uncut=[]\n"));
   EXPECT_GT(cut_lines(all, kTop), 0);
   EXPECT_EQ(count_of(all.svg, "objects-uncut"), 0U);
+}
+
+TEST(Sheet, UncutWithoutSectionsIsTold) {
+  const std::string cut =
+      "[[view]]\nname=\"v\"\ndirection=\"front\"\nsections=[\"y=300mm\"]\n"
+      "position=[\"100mm\",\"100mm\"]\n";
+  const std::string whole =
+      "[[view]]\nname=\"w\"\ndirection=\"front\"\nposition=[\"300mm\",\"100mm\"]\n";
+  const auto said = [](const std::string& text) {
+    std::vector<std::string> where;
+    for (const Diagnostic& d : drawn(with_frame(text)).sheet.diagnostics.kept())
+      if (d.code == "uncut-without-sections") where.push_back(d.where);
+    return where;
+  };
+  const auto told_of = said(cut + whole + "uncut=\"top\"\n");
+  ASSERT_EQ(told_of.size(), 1U);
+  EXPECT_NE(told_of[0].find("line 10: [[view]] 'w', uncut"), std::string::npos) << told_of[0];
+  EXPECT_TRUE(said(cut + "uncut=\"top\"\n" + whole).empty());
+  // What holds for all views is for those that have sections.
+  EXPECT_TRUE(said("[defaults]\nuncut=\"top\"\n" + cut + whole).empty());
+  EXPECT_EQ(said("[defaults]\nuncut=\"top\"\n" + whole).size(), 1U);
 }
 
 TEST(Sheet, FlushSeamsAreLeftOutWhereAViewSaysSo) {
