@@ -293,7 +293,8 @@ TEST(Sheet, UncutWithoutSectionsIsTold) {
       "[[view]]\nname=\"w\"\ndirection=\"front\"\nposition=[\"300mm\",\"100mm\"]\n";
   const auto said = [](const std::string& text) {
     std::vector<std::string> where;
-    for (const Diagnostic& d : drawn(with_frame(text)).sheet.diagnostics.kept())
+    const Drawn composed = drawn(with_frame(text));
+    for (const Diagnostic& d : composed.sheet.diagnostics.kept())
       if (d.code == "uncut-without-sections") where.push_back(d.where);
     return where;
   };
