@@ -32,22 +32,30 @@ std::size_t OccupancyGrid::column(double x) const {
 std::size_t OccupancyGrid::row(double y) const { return clamped(std::floor(y / size_), rows_); }
 
 /// Calls `take` with the square of each step of at most half a square from a to b, as far as the
-/// line runs on the sheet: each of its points is within a quarter of a square of one that is taken.
+/// line runs on the sheet and `take` returns true: each point of what it ran along is within a
+/// quarter of a square of one that is taken.
 template <class Take>
 void OccupancyGrid::walk(const PaperPoint& a, const PaperPoint& b, Take&& take) const {
   const auto seen = clipped({a, b}, {0, 0, width_mm_, height_mm_});
   if (!seen) return;
-  const double dx = seen->b.x - seen->a.x, dy = seen->b.y - seen->a.y;
-  const double steps = std::max(1.0, std::ceil(std::sqrt(dx * dx + dy * dy) * 2 / size_));
-  for (double i = 0; i < steps; ++i) {
-    const double t = (i + 0.5) / steps;
-    take(row(seen->a.y + dy * t) * columns_ + column(seen->a.x + dx * t));
+  const double dx = (seen->b.x - seen->a.x) / size_, dy = (seen->b.y - seen->a.y) / size_;
+  const double steps = std::max(1.0, std::ceil(std::sqrt(dx * dx + dy * dy) * 2));
+  const double per_step = 1 / steps;
+  // In squares; rounding may leave the sheet by a little.
+  const double x = seen->a.x / size_, y = seen->a.y / size_;
+  const auto square = [](double at, std::size_t count) {
+    return std::min(static_cast<std::size_t>(std::max(at, 0.0)), count - 1);
+  };
+  for (double i = 0.5; i < steps; ++i) {
+    const double t = i * per_step;
+    if (!take(square(y + dy * t, rows_) * columns_ + square(x + dx * t, columns_))) return;
   }
 }
 
 void OccupancyGrid::add_line(const PaperPoint& a, const PaperPoint& b) {
   walk(a, b, [&](std::size_t cell) {
     if (cells_[cell] == Taken::no) cells_[cell] = Taken::by_line;
+    return true;
   });
 }
 
@@ -82,8 +90,10 @@ OccupancyGrid::LeaderPath OccupancyGrid::leader_path(const PaperPoint& a,
                                                      const PaperPoint& b) const {
   LeaderPath path;
   walk(a, b, [&](std::size_t cell) {
-    path.open = path.open && cells_[cell] != Taken::blocked;
+    ++path.steps;
+    path.open = cells_[cell] != Taken::blocked;
     if (cells_[cell] == Taken::by_line) ++path.lines;
+    return path.open;
   });
   return path;
 }

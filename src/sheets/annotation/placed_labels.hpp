@@ -39,14 +39,21 @@ class PlacedLabels {
   struct Conflicts {
     std::vector<Label> blockers;  ///< whose text or leader it covers, or which cover its own
     std::vector<Label> crossed;   ///< whose leaders it only crosses
+    std::size_t looked_at = 0;    ///< bins and labels that the query looked at
   };
   /// Sets `found` to the conflicts of a place, both lists in ascending order. Looks no further once
-  /// there are more than `most` blockers.
+  /// there are more than `most` blockers; the lists are then not all.
   void find_conflicts(const LabelPlace& place, std::size_t most, Conflicts& found);
 
  private:
   template <class Visit>
-  void each_bin(const PaperBox& box, Visit&& visit) const;
+  bool each_bin(const PaperBox& box, Visit&& visit) const;
+  template <class Visit>
+  bool each_bin(const PaperSegment& line, Visit&& visit) const;
+  template <class Visit>
+  bool each_bin(const LabelPlace& place, double rim_mm, Visit&& visit) const;
+
+  void compare(const LabelPlace& place, Label label, Conflicts& found) const;
 
   std::size_t columns_, rows_;
   std::vector<std::vector<Label>> bins_;
