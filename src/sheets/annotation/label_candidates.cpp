@@ -22,9 +22,8 @@ constexpr double kLineStepMm = 0.1;    ///< half a square of lines under the lea
 constexpr double kLatticeMm = 1.5;       ///< between two places
 constexpr double kShortestLeaderMm = 5;  ///< so that the arrow leaves some of it
 
-// Units of work, measured.
-constexpr std::uint64_t kPlaceWork = 8;      ///< whether a text covers something of the ground
-constexpr std::uint64_t kCandidateWork = 8;  ///< to remember one
+/// Units of work: whether a text covers something of the ground.
+constexpr std::uint64_t kPlaceWork = 8;
 
 /// Returns whether a leader may run so: rising enough for its landing to clear the object, and
 /// neither upright, as lines of objects often are, nor nearly flat.

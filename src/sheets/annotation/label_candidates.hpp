@@ -34,19 +34,23 @@ class LabelCandidates {
   LabelCandidates(std::span<const LabelRequest> requests, const LabelGround& ground,
                   WorkLimit& work);
 
-  /// Calls take(place) for the candidates of a label that cost less than `wanted`, about the
-  /// cheapest first, but for those without a leader which come before all others. take returns the
-  /// cost from which on no place is wanted. Stops where the work is used up.
-  template <class Take>
-  void each(Label label, double wanted, Take&& take) {
+  /// Calls take(place) for the candidates of a label that cost less than `wanted` and for which
+  /// suits(place) is true, about the cheapest first, but for those without a leader which come
+  /// before all others. take returns the cost from which on no place is wanted. suits is asked
+  /// before the lines under a leader are counted, which is the dearest question: the cost is the
+  /// least that it may be then. Stops where the work is used up.
+  template <class Suits, class Take>
+  void each(Label label, double wanted, Suits&& suits, Take&& take) {
     const double at_first = wanted;
     for (const bool leader : {false, true}) {
-      each(label, leader, wanted, take);
+      each(label, leader, wanted, suits, take);
       if (wanted < at_first) return;
     }
   }
 
  private:
+  static constexpr std::uint64_t kCandidateWork = 8;  ///< units of work: to make a place
+
   struct Offset {
     PaperPoint by;
     double length = 0;
@@ -65,17 +69,19 @@ class LabelCandidates {
     std::size_t next = 0;  ///< the number that has not been looked at
   };
 
-  template <class Take>
-  void each(Label label, bool leader, double& wanted, Take&& take) {
+  template <class Suits, class Take>
+  void each(Label label, bool leader, double& wanted, Suits&& suits, Take&& take) {
     Found& found = (leader ? by_leader_ : on_object_)[label];
     for (std::size_t i = 0; i < found.all.size() || look_farther(label, leader, wanted); ++i) {
       Candidate& candidate = found.all[i];
       const double length = offset_of(label, leader, candidate.number).length;
-      if (length >= wanted) return;
+      if (length >= wanted || work_.used_up()) return;
       work_.spend(1);
-      if (work_.used_up()) return;
       if (length + static_cast<double>(candidate.more) >= wanted) continue;
       LabelPlace place = place_of(label, leader, candidate.number);
+      place.cost = length + static_cast<double>(candidate.more);
+      work_.spend(kCandidateWork);
+      if (!suits(place)) continue;
       if (!candidate.walked) walk(place, candidate);
       place.cost = length + static_cast<double>(candidate.more);
       if (place.cost < wanted) wanted = take(place);

@@ -93,12 +93,17 @@ class LabelPlacer {
     std::optional<LabelPlace> best;
     double least = limit;
     Conflicts conflicts;
-    candidates_.each(label, limit, [&](const LabelPlace& place) {
+    const auto cost_of_it = [&](const LabelPlace& place) {
+      return place.cost + kCrossingMm * static_cast<double>(conflicts.crossed.size());
+    };
+    const auto suits = [&](const LabelPlace& place) {
       find_conflicts(place, 0, conflicts);
-      const double cost = place.cost + kCrossingMm * static_cast<double>(conflicts.crossed.size());
-      if (!conflicts.blockers.empty() || cost >= least) return least;
+      return conflicts.blockers.empty() && cost_of_it(place) < least;
+    };
+    candidates_.each(label, limit, suits, [&](const LabelPlace& place) {
+      if (cost_of_it(place) >= least) return least;
       best = place;
-      return least = cost;
+      return least = cost_of_it(place);
     });
     return best;
   }
@@ -135,12 +140,14 @@ class LabelPlacer {
   [[nodiscard]] std::vector<std::pair<LabelPlace, Label>> evictions(Label label) {
     std::vector<std::pair<LabelPlace, Label>> found;
     Conflicts conflicts;
-    candidates_.each(label, kNoLimit, [&](const LabelPlace& place) {
+    const auto suits = [&](const LabelPlace& place) {
       find_conflicts(place, 1, conflicts);
-      if (conflicts.blockers.size() == 1 && std::ranges::none_of(found, [&](const auto& f) {
-            return f.second == conflicts.blockers.front();
-          }))
-        found.emplace_back(place, conflicts.blockers.front());
+      return conflicts.blockers.size() == 1 && std::ranges::none_of(found, [&](const auto& f) {
+               return f.second == conflicts.blockers.front();
+             });
+    };
+    candidates_.each(label, kNoLimit, suits, [&](const LabelPlace& place) {
+      found.emplace_back(place, conflicts.blockers.front());
       return found.size() < kMostEvictions ? kNoLimit : 0;
     });
     return found;

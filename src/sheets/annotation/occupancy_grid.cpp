@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "sheets/annotation/paper_segments.hpp"
 
@@ -13,6 +14,16 @@ namespace {
 std::size_t clamped(double cell, std::size_t count) {
   if (cell <= 0) return 0;
   return cell < static_cast<double>(count) ? static_cast<std::size_t>(cell) : count - 1;
+}
+
+/// Squares as multiples of 2^-32 of one: a walk adds them quickly, and up to rounding at its end
+/// they stay on the sheet.
+using FixedPoint = std::int64_t;
+FixedPoint fixed(double squares) { return static_cast<FixedPoint>(squares * 4294967296.0); }
+
+std::size_t whole(FixedPoint squares, std::size_t count) {
+  return static_cast<std::size_t>(
+      std::clamp<FixedPoint>(squares >> 32, 0, static_cast<FixedPoint>(count) - 1));
 }
 
 }  // namespace
@@ -40,16 +51,10 @@ void OccupancyGrid::walk(const PaperPoint& a, const PaperPoint& b, Take&& take) 
   if (!seen) return;
   const double dx = (seen->b.x - seen->a.x) / size_, dy = (seen->b.y - seen->a.y) / size_;
   const double steps = std::max(1.0, std::ceil(std::sqrt(dx * dx + dy * dy) * 2));
-  const double per_step = 1 / steps;
-  // In squares; rounding may leave the sheet by a little.
-  const double x = seen->a.x / size_, y = seen->a.y / size_;
-  const auto square = [](double at, std::size_t count) {
-    return std::min(static_cast<std::size_t>(std::max(at, 0.0)), count - 1);
-  };
-  for (double i = 0.5; i < steps; ++i) {
-    const double t = i * per_step;
-    if (!take(square(y + dy * t, rows_) * columns_ + square(x + dx * t, columns_))) return;
-  }
+  const FixedPoint by_x = fixed(dx / steps), by_y = fixed(dy / steps);
+  FixedPoint x = fixed(seen->a.x / size_) + by_x / 2, y = fixed(seen->a.y / size_) + by_y / 2;
+  for (double i = 0; i < steps; ++i, x += by_x, y += by_y)
+    if (!take(whole(y, rows_) * columns_ + whole(x, columns_))) return;
 }
 
 void OccupancyGrid::add_line(const PaperPoint& a, const PaperPoint& b) {

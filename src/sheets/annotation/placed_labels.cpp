@@ -26,7 +26,14 @@ std::size_t bin(double mm, std::size_t count) {
 
 /// Returns whether a leader runs nearer to a text than the clearance.
 bool runs_over(const LabelPlace& leader, const LabelPlace& text) {
-  return leader.has_leader && clipped(leader.leader, widened(text.box, kClearanceMm)).has_value();
+  if (!leader.has_leader) return false;
+  const auto& [a, b] = leader.leader;
+  const PaperBox near = widened(text.box, kClearanceMm);
+  // Most are far off.
+  if (std::max(a.x, b.x) < near.left || std::min(a.x, b.x) > near.right ||
+      std::max(a.y, b.y) < near.top || std::min(a.y, b.y) > near.bottom)
+    return false;
+  return clipped(leader.leader, near).has_value();
 }
 
 bool block_each_other(const LabelPlace& one, const LabelPlace& other) {
