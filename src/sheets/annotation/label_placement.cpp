@@ -19,7 +19,7 @@ using Conflicts = PlacedLabels::Conflicts;
 /// What a leader that is crossed costs, in millimetres of leader.
 constexpr double kCrossingMm = 40;
 /// The work of placing all labels of a sheet: less than a second.
-constexpr std::uint64_t kMostWork = 200'000'000;
+constexpr std::uint64_t kMostWork = 300'000'000;
 constexpr std::uint64_t kCompareWork = 8;  ///< to look at a bin or at a label in it
 constexpr std::size_t kMostEvictions = 8;
 constexpr int kMostRounds = 8;
@@ -83,7 +83,7 @@ class LabelPlacer {
     if (place) placed_.add(label, *place);
   }
 
-  void find_conflicts(const LabelPlace& place, std::size_t most, Conflicts& found) {
+  void find_conflicts(const LabelPlace& place, const PlacedLabels::Most& most, Conflicts& found) {
     placed_.find_conflicts(place, most, found);
     work_.spend(kCompareWork * found.looked_at);
   }
@@ -97,7 +97,8 @@ class LabelPlacer {
       return place.cost + kCrossingMm * static_cast<double>(conflicts.crossed.size());
     };
     const auto suits = [&](const LabelPlace& place) {
-      find_conflicts(place, 0, conflicts);
+      const double crossings = std::min((least - place.cost) / kCrossingMm, 1e6);
+      find_conflicts(place, {0, static_cast<std::size_t>(crossings)}, conflicts);
       return conflicts.blockers.empty() && cost_of_it(place) < least;
     };
     candidates_.each(label, limit, suits, [&](const LabelPlace& place) {
@@ -118,7 +119,7 @@ class LabelPlacer {
   void make_room() {
     auto left = static_cast<std::size_t>(
         std::ranges::count_if(places_, [](const auto& place) { return !place; }));
-    const std::uint64_t end = work_.done + (kMostWork - work_.done) / 2;
+    const std::uint64_t end = work_.done + (kMostWork - work_.done) / 4 * 3;
     for (Label label = 0; label < places_.size(); ++label)
       if (!places_[label] && take_share(end, left--)) drive_out_for(label);
   }
@@ -141,7 +142,7 @@ class LabelPlacer {
     std::vector<std::pair<LabelPlace, Label>> found;
     Conflicts conflicts;
     const auto suits = [&](const LabelPlace& place) {
-      find_conflicts(place, 1, conflicts);
+      find_conflicts(place, {1, places_.size()}, conflicts);
       return conflicts.blockers.size() == 1 && std::ranges::none_of(found, [&](const auto& f) {
                return f.second == conflicts.blockers.front();
              });
@@ -153,27 +154,32 @@ class LabelPlacer {
     return found;
   }
 
-  /// Places labels with crossed leaders anew, each alone and each pair in the other order, as long
-  /// as that makes the sheet cheaper.
+  /// Places labels with crossed leaders anew, first each alone and then each pair in the other
+  /// order, as long as that makes the sheet cheaper.
   void untangle() {
     for (int round = 0; round < kMostRounds; ++round) {
       bool changed = false;
-      for (Label label = 0; label < places_.size(); ++label) {
-        if (!take_share(kMostWork, 1)) return;
-        if (!crossed_by(label).empty()) changed = untangle(label) || changed;
-      }
+      for (const bool pairs : {false, true})
+        for (Label label = 0; label < places_.size(); ++label) {
+          if (!take_share(kMostWork, 1)) return;
+          changed = untangle(label, pairs) || changed;
+        }
       if (!changed) return;
     }
   }
 
-  /// An attempt is not made again until something near it has changed.
-  bool untangle(Label label) {
-    bool changed = try_once({label, label}, [&] { return place_again(label); });
-    for (const Label other : crossed_by(label))
-      changed = try_once({label, other}, [&] { return place_both_again(label, other); }) || changed;
+  bool untangle(Label label, bool pairs) {
+    bool changed = false;
+    for (const Label other : crossed_by(label)) {
+      changed = (pairs ? try_once({label, other}, [&] { return place_both_again(label, other); })
+                       : try_once({label, label}, [&] { return place_again(label); })) ||
+                changed;
+      if (!pairs) break;
+    }
     return changed;
   }
 
+  /// Makes an attempt, but not again until something near it has changed.
   template <class Attempt>
   bool try_once(const std::pair<Label, Label>& who, Attempt&& attempt) {
     const auto [tried, first] = tried_at_.try_emplace(who, 0);
@@ -233,7 +239,7 @@ class LabelPlacer {
   [[nodiscard]] std::vector<Label> crossed_by(Label label) {
     if (!places_[label] || !places_[label]->has_leader) return {};
     Conflicts conflicts;
-    find_conflicts(*places_[label], places_.size(), conflicts);
+    find_conflicts(*places_[label], {places_.size(), places_.size()}, conflicts);
     return std::move(conflicts.crossed);
   }
 

@@ -102,7 +102,7 @@ void PlacedLabels::remove(Label label) {
   });
 }
 
-void PlacedLabels::find_conflicts(const LabelPlace& place, std::size_t most, Conflicts& found) {
+void PlacedLabels::find_conflicts(const LabelPlace& place, const Most& most, Conflicts& found) {
   found.blockers.clear();
   found.crossed.clear();
   found.looked_at = 0;
@@ -114,7 +114,8 @@ void PlacedLabels::find_conflicts(const LabelPlace& place, std::size_t most, Con
       if (last_query_[label] == query_) continue;
       last_query_[label] = query_;
       compare(place, label, found);
-      if (found.blockers.size() > most) return false;
+      if (found.blockers.size() > most.blockers || found.crossed.size() > most.crossed)
+        return false;
     }
     return true;
   });

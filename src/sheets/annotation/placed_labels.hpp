@@ -41,9 +41,13 @@ class PlacedLabels {
     std::vector<Label> crossed;   ///< whose leaders it only crosses
     std::size_t looked_at = 0;    ///< bins and labels that the query looked at
   };
+  /// How many of them a query wants to know.
+  struct Most {
+    std::size_t blockers, crossed;
+  };
   /// Sets `found` to the conflicts of a place, both lists in ascending order. Looks no further once
-  /// there are more than `most` blockers; the lists are then not all.
-  void find_conflicts(const LabelPlace& place, std::size_t most, Conflicts& found);
+  /// there are more than `most` of either; the lists are then not all.
+  void find_conflicts(const LabelPlace& place, const Most& most, Conflicts& found);
 
  private:
   template <class Visit>

@@ -200,20 +200,22 @@ class Arranger {
 
  private:
   /// Returns what `complete` makes of the first places of columns and rows that lie free, and that
-  /// lies free itself.
+  /// lies free itself: in the whole area spread as far as that goes, or else beside what is kept
+  /// free, where they would stand crowded for no need.
   template <class Complete>
   [[nodiscard]] std::optional<Arranged> first_free(std::span<const UnplacedView> views,
                                                    const TrackCell& pictorial, double scale,
                                                    Complete&& complete) const {
     const Grid grid(views, projection_, pictorial, scale);
-    for (const Spread& spread : spreads_)
-      for (const PaperBox& box : boxes_) {
-        if (!grid.fits(box, gap_)) continue;
+    for (const PaperBox& box : boxes_) {
+      if (!grid.fits(box, gap_)) continue;
+      for (const Spread& spread : spreads_) {
         const Arranged placed{scale, true, grid.spread(box, gap_, spread)};
         if (!lie_free(views, placed)) continue;
         const std::optional<Arranged> whole = complete(placed);
         if (whole && lie_free(views_, *whole)) return whole;
       }
+    }
     return std::nullopt;
   }
 
