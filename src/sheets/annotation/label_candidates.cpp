@@ -76,7 +76,8 @@ bool LabelCandidates::look_farther(Label label, bool leader, double wanted) {
     const std::size_t anchor = leader ? number % request.anchors.size() : 0;
     const double more =
         kLaterAnchorMm * static_cast<double>(anchor) + cost_of_view(request, place.box);
-    found.all.push_back({static_cast<std::uint32_t>(number), static_cast<float>(more), !leader});
+    found.all.push_back(
+        {static_cast<std::uint32_t>(number), {}, static_cast<float>(more), !leader});
     return true;
   }
   return false;

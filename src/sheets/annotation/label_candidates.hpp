@@ -34,16 +34,21 @@ class LabelCandidates {
   LabelCandidates(std::span<const LabelRequest> requests, const LabelGround& ground,
                   WorkLimit& work);
 
-  /// Calls take(place) for the candidates of a label that cost less than `wanted` and for which
-  /// suits(place) is true, about the cheapest first, but for those without a leader which come
-  /// before all others. take returns the cost from which on no place is wanted. suits is asked
-  /// before the lines under a leader are counted, which is the dearest question: the cost is the
-  /// least that it may be then. Stops where the work is used up.
-  template <class Suits, class Take>
-  void each(Label label, double wanted, Suits&& suits, Take&& take) {
+  /// Goes through the candidates of a label that cost less than `wanted`, about the cheapest first,
+  /// but for those without a leader which come before all others, and asks what is cheap first:
+  ///
+  /// - search.is_blocked(blocker): whether a label that blocked the candidate before still does
+  /// - search.suits(place, blocker): whether the place comes into question, which costs so much at
+  ///   least; sets `blocker` to what blocks it, if one label alone is enough
+  /// - search.take(place): takes a place, of which all is known now, or does not; returns the cost
+  ///   from which on no place is wanted
+  ///
+  /// Stops where the work is used up.
+  template <class Search>
+  void each(Label label, double wanted, Search& search) {
     const double at_first = wanted;
     for (const bool leader : {false, true}) {
-      each(label, leader, wanted, suits, take);
+      each(label, leader, wanted, search);
       if (wanted < at_first) return;
     }
   }
@@ -59,8 +64,9 @@ class LabelCandidates {
   /// A place where the text covers nothing of the ground.
   struct Candidate {
     std::uint32_t number;  ///< of the offset and, with a leader, of the anchor: offset first
-    float more;            ///< than its length it costs, as far as that is known; infinite: closed
-    bool walked;           ///< whether the lines under its leader are known
+    PlacedLabels::Blocker blocker;  ///< that last blocked it
+    float more;   ///< than its length it costs, as far as that is known; infinite: closed
+    bool walked;  ///< whether the lines under its leader are known
   };
 
   /// The candidates of a label without a leader, or with one, in the order of their lengths.
@@ -69,8 +75,8 @@ class LabelCandidates {
     std::size_t next = 0;  ///< the number that has not been looked at
   };
 
-  template <class Suits, class Take>
-  void each(Label label, bool leader, double& wanted, Suits&& suits, Take&& take) {
+  template <class Search>
+  void each(Label label, bool leader, double& wanted, Search& search) {
     Found& found = (leader ? by_leader_ : on_object_)[label];
     for (std::size_t i = 0; i < found.all.size() || look_farther(label, leader, wanted); ++i) {
       Candidate& candidate = found.all[i];
@@ -78,13 +84,14 @@ class LabelCandidates {
       if (length >= wanted || work_.used_up()) return;
       work_.spend(1);
       if (length + static_cast<double>(candidate.more) >= wanted) continue;
+      if (search.is_blocked(candidate.blocker)) continue;
       LabelPlace place = place_of(label, leader, candidate.number);
       place.cost = length + static_cast<double>(candidate.more);
       work_.spend(kCandidateWork);
-      if (!suits(place)) continue;
+      if (!search.suits(place, candidate.blocker)) continue;
       if (!candidate.walked) walk(place, candidate);
       place.cost = length + static_cast<double>(candidate.more);
-      if (place.cost < wanted) wanted = take(place);
+      if (place.cost < wanted) wanted = search.take(place);
     }
   }
 

@@ -15,6 +15,7 @@ namespace {
 
 using Label = PlacedLabels::Label;
 using Conflicts = PlacedLabels::Conflicts;
+using Blocker = PlacedLabels::Blocker;
 
 /// What a leader that is crossed costs, in millimetres of leader.
 constexpr double kCrossingMm = 40;
@@ -80,7 +81,7 @@ class LabelPlacer {
   void settle(Label label, const std::optional<LabelPlace>& place) {
     if (places_[label]) placed_.remove(label);
     places_[label] = place;
-    if (place) placed_.add(label, *place);
+    if (place) placed_.add(label, *places_[label]);
   }
 
   void find_conflicts(const LabelPlace& place, const PlacedLabels::Most& most, Conflicts& found) {
@@ -88,25 +89,36 @@ class LabelPlacer {
     work_.spend(kCompareWork * found.looked_at);
   }
 
-  /// Returns the cheapest place beside the labels that have one, if it costs less than `limit`.
-  [[nodiscard]] std::optional<LabelPlace> cheapest(Label label, double limit = kNoLimit) {
-    std::optional<LabelPlace> best;
-    double least = limit;
-    Conflicts conflicts;
-    const auto cost_of_it = [&](const LabelPlace& place) {
+  /// A search for the cheapest place beside the labels that have one.
+  struct Cheapest {
+    LabelPlacer& of;
+    double least;
+    std::optional<LabelPlace> best = {};
+    Conflicts conflicts = {};
+
+    [[nodiscard]] double cost(const LabelPlace& place) const {
       return place.cost + kCrossingMm * static_cast<double>(conflicts.crossed.size());
-    };
-    const auto suits = [&](const LabelPlace& place) {
+    }
+    [[nodiscard]] bool is_blocked(const Blocker& blocker) const { return of.placed_.has(blocker); }
+    [[nodiscard]] bool suits(const LabelPlace& place, Blocker& blocker) {
       const double crossings = std::min((least - place.cost) / kCrossingMm, 1e6);
-      find_conflicts(place, {0, static_cast<std::size_t>(crossings)}, conflicts);
-      return conflicts.blockers.empty() && cost_of_it(place) < least;
-    };
-    candidates_.each(label, limit, suits, [&](const LabelPlace& place) {
-      if (cost_of_it(place) >= least) return least;
+      of.find_conflicts(place, {0, static_cast<std::size_t>(crossings)}, conflicts);
+      if (conflicts.blockers.empty()) return cost(place) < least;
+      blocker = of.placed_.blocker(conflicts.blockers.front());
+      return false;
+    }
+    double take(const LabelPlace& place) {
+      if (cost(place) >= least) return least;
       best = place;
-      return least = cost_of_it(place);
-    });
-    return best;
+      return least = cost(place);
+    }
+  };
+
+  /// Returns the cheapest place of a label, if it costs less than `limit`.
+  [[nodiscard]] std::optional<LabelPlace> cheapest(Label label, double limit = kNoLimit) {
+    Cheapest search{*this, limit};
+    candidates_.each(label, limit, search);
+    return search.best;
   }
 
   /// Gives each label the cheapest place that those before it leave.
@@ -136,22 +148,29 @@ class LabelPlacer {
     }
   }
 
-  /// Returns the nearest places of a label that one other label alone blocks, one for each of
-  /// those.
-  [[nodiscard]] std::vector<std::pair<LabelPlace, Label>> evictions(Label label) {
-    std::vector<std::pair<LabelPlace, Label>> found;
-    Conflicts conflicts;
-    const auto suits = [&](const LabelPlace& place) {
-      find_conflicts(place, {1, places_.size()}, conflicts);
+  /// A search for the nearest places that one other label alone blocks, one for each of those.
+  struct Evictions {
+    LabelPlacer& of;
+    std::vector<std::pair<LabelPlace, Label>> found = {};
+    Conflicts conflicts = {};
+
+    [[nodiscard]] static bool is_blocked(const Blocker&) { return false; }
+    [[nodiscard]] bool suits(const LabelPlace& place, Blocker&) {
+      of.find_conflicts(place, {1, of.places_.size()}, conflicts);
       return conflicts.blockers.size() == 1 && std::ranges::none_of(found, [&](const auto& f) {
                return f.second == conflicts.blockers.front();
              });
-    };
-    candidates_.each(label, kNoLimit, suits, [&](const LabelPlace& place) {
+    }
+    double take(const LabelPlace& place) {
       found.emplace_back(place, conflicts.blockers.front());
       return found.size() < kMostEvictions ? kNoLimit : 0;
-    });
-    return found;
+    }
+  };
+
+  [[nodiscard]] std::vector<std::pair<LabelPlace, Label>> evictions(Label label) {
+    Evictions search{*this};
+    candidates_.each(label, kNoLimit, search);
+    return std::move(search.found);
   }
 
   /// Places labels with crossed leaders anew, first each alone and then each pair in the other

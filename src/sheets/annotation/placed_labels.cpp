@@ -87,7 +87,8 @@ bool PlacedLabels::each_bin(const LabelPlace& place, double rim_mm, Visit&& visi
          (!place.has_leader || each_bin(place.leader, visit));
 }
 
-void PlacedLabels::add(Label label, const LabelPlace& place) {
+void PlacedLabels::add(Label label, LabelPlace& place) {
+  if (place.number == 0) place.number = ++numbers_;
   places_[label] = place;
   each_bin(place, 0, [&](std::size_t b) {
     if (bins_[b].empty() || bins_[b].back() != label) bins_[b].push_back(label);
@@ -100,6 +101,7 @@ void PlacedLabels::remove(Label label) {
     std::erase(bins_[b], label);
     return true;
   });
+  places_[label].number = 0;
 }
 
 void PlacedLabels::find_conflicts(const LabelPlace& place, const Most& most, Conflicts& found) {
