@@ -52,7 +52,6 @@ struct LabelGround {
 /// any number of them, of which more than some hundreds look less far. Triggered, `stop` leaves all
 /// that has no place yet without one.
 [[nodiscard]] std::vector<std::optional<LabelPlace>> place_labels(
-    std::span<const LabelRequest> requests, const LabelGround& ground,
-    const std::stop_token& stop = {});
+    std::span<const LabelRequest> requests, const LabelGround& ground, const std::stop_token& stop);
 
 }  // namespace strake::sheets
