@@ -23,7 +23,7 @@ constexpr double kLatticeMm = 1.5;       ///< between two places
 constexpr double kShortestLeaderMm = 5;  ///< so that the arrow leaves some of it
 
 /// Units of work: whether a text covers something of the ground.
-constexpr std::uint64_t kPlaceWork = 8;
+constexpr std::uint64_t kPlaceWork = 12;
 
 /// Returns whether a leader may run so: rising enough for its landing to clear the object, and
 /// neither upright, as lines of objects often are, nor nearly flat.

@@ -54,7 +54,7 @@ class LabelCandidates {
   }
 
  private:
-  static constexpr std::uint64_t kCandidateWork = 8;  ///< units of work: to make a place
+  static constexpr std::uint64_t kCandidateWork = 12;  ///< units of work: to make a place
 
   struct Offset {
     PaperPoint by;

@@ -173,28 +173,23 @@ class LabelPlacer {
     return std::move(search.found);
   }
 
-  /// Places labels with crossed leaders anew, first each alone and then each pair in the other
-  /// order, as long as that makes the sheet cheaper.
+  /// Places labels with crossed leaders anew, each alone and each pair in the other order, as long
+  /// as that makes the sheet cheaper.
   void untangle() {
     for (int round = 0; round < kMostRounds; ++round) {
       bool changed = false;
-      for (const bool pairs : {false, true})
-        for (Label label = 0; label < places_.size(); ++label) {
-          if (!take_share(kMostWork, 1)) return;
-          changed = untangle(label, pairs) || changed;
-        }
+      for (Label label = 0; label < places_.size(); ++label) {
+        if (!take_share(kMostWork, 1)) return;
+        if (!crossed_by(label).empty()) changed = untangle(label) || changed;
+      }
       if (!changed) return;
     }
   }
 
-  bool untangle(Label label, bool pairs) {
-    bool changed = false;
-    for (const Label other : crossed_by(label)) {
-      changed = (pairs ? try_once({label, other}, [&] { return place_both_again(label, other); })
-                       : try_once({label, label}, [&] { return place_again(label); })) ||
-                changed;
-      if (!pairs) break;
-    }
+  bool untangle(Label label) {
+    bool changed = try_once({label, label}, [&] { return place_again(label); });
+    for (const Label other : crossed_by(label))
+      changed = try_once({label, other}, [&] { return place_both_again(label, other); }) || changed;
     return changed;
   }
 
