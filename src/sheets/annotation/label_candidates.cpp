@@ -76,8 +76,7 @@ bool LabelCandidates::look_farther(Label label, bool leader, double wanted) {
     const std::size_t anchor = leader ? number % request.anchors.size() : 0;
     const double more =
         kLaterAnchorMm * static_cast<double>(anchor) + cost_of_view(request, place.box);
-    found.all.push_back(
-        {static_cast<std::uint32_t>(number), {}, static_cast<float>(more), !leader});
+    found.all.push_back({static_cast<std::uint32_t>(number), {}, !leader, more});
     return true;
   }
   return false;
@@ -138,9 +137,8 @@ void LabelCandidates::walk(const LabelPlace& place, Candidate& candidate) {
       ground_.occupied.leader_path(place.leader.a, place.leader.b);
   work_.spend(path.steps);
   candidate.walked = true;
-  candidate.more =
-      path.open ? candidate.more + static_cast<float>(kLineStepMm * static_cast<double>(path.lines))
-                : std::numeric_limits<float>::infinity();
+  candidate.more = path.open ? candidate.more + kLineStepMm * static_cast<double>(path.lines)
+                             : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace strake::sheets

@@ -65,8 +65,8 @@ class LabelCandidates {
   struct Candidate {
     std::uint32_t number;  ///< of the offset and, with a leader, of the anchor: offset first
     PlacedLabels::Blocker blocker;  ///< that last blocked it
-    float more;   ///< than its length it costs, as far as that is known; infinite: closed
-    bool walked;  ///< whether the lines under its leader are known
+    bool walked;                    ///< whether the lines under its leader are known
+    double more;  ///< than its length it costs, as far as that is known; infinite: closed
   };
 
   /// The candidates of a label without a leader, or with one, in the order of their lengths.
@@ -83,14 +83,14 @@ class LabelCandidates {
       const double length = offset_of(label, leader, candidate.number).length;
       if (length >= wanted || work_.used_up()) return;
       work_.spend(1);
-      if (length + static_cast<double>(candidate.more) >= wanted) continue;
+      if (length + candidate.more >= wanted) continue;
       if (search.is_blocked(candidate.blocker)) continue;
       LabelPlace place = place_of(label, leader, candidate.number);
-      place.cost = length + static_cast<double>(candidate.more);
+      place.cost = length + candidate.more;
       work_.spend(kCandidateWork);
       if (!search.suits(place, candidate.blocker)) continue;
       if (!candidate.walked) walk(place, candidate);
-      place.cost = length + static_cast<double>(candidate.more);
+      place.cost = length + candidate.more;
       if (place.cost < wanted) wanted = search.take(place);
     }
   }

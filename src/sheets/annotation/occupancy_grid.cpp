@@ -19,7 +19,7 @@ std::size_t clamped(double cell, std::size_t count) {
 /// Squares as multiples of 2^-32 of one: a walk adds them quickly, and up to rounding at its end
 /// they stay on the sheet.
 using FixedPoint = std::int64_t;
-FixedPoint fixed(double squares) { return static_cast<FixedPoint>(squares * 4294967296.0); }
+FixedPoint fixed(double squares) { return std::llround(squares * 4294967296.0); }
 
 std::size_t whole(FixedPoint squares, std::size_t count) {
   return static_cast<std::size_t>(
