@@ -54,7 +54,7 @@ class Composer {
     for (std::size_t v = 0; v < what_.views.size(); ++v) caption(v, scale);
     grid();
     fill_frame(what_, scale, sheet_);
-    tags();
+    if (const Status status = tags(); !status) return status.error();
     for (PlacedView& view : sheet_.views) view.drawing.lines = {};
     return std::move(sheet_);
   }
@@ -349,7 +349,7 @@ class Composer {
              what_.grid.where);
   }
 
-  void tags() {
+  Status tags() {
     const std::size_t first = asked_;
     std::vector<TagList> lists;
     for (const TagSpec& tag : what_.tags) {
@@ -359,7 +359,8 @@ class Composer {
             std::ranges::find(tag.views, sheet_.views[v].name) != tag.views.end())
           lists.push_back(tags_of(tag, picked, *scene_.model, sheet_, v));
     }
-    write_tags(lists, room_, sheet_);
+    if (const Status status = write_tags(lists, room_, sheet_, context_.stop); !status)
+      return status.error();
     auto list = lists.begin();
     for (std::size_t t = 0; t < what_.tags.size(); ++t) {
       const TagSpec& tag = what_.tags[t];
@@ -374,6 +375,7 @@ class Composer {
              "none of the objects of '" + tag.select->selection.text() + "' is seen in a view",
              tag.where);
     }
+    return {};
   }
 
   /// Warns of the tags of a table that a view lacks.

@@ -2,183 +2,138 @@
 #include "sheets/annotation/label_placement.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <limits>
-#include <tuple>
+#include <map>
 #include <utility>
 
-#include "drawing/layout/view_plane.hpp"
-#include "sheets/spec/text_metrics.hpp"
+#include "sheets/annotation/label_candidates.hpp"
+#include "sheets/annotation/placed_labels.hpp"
 
 namespace strake::sheets {
 
 namespace {
 
-using drawing::rounded_paper;
 using Label = PlacedLabels::Label;
 using Conflicts = PlacedLabels::Conflicts;
+using Blocker = PlacedLabels::Blocker;
 
-// Costs of a place are millimetres of leader: how much longer it may be to avoid this.
-constexpr double kCrossingMm = 40;     ///< a leader that is crossed
-constexpr double kForeignViewMm = 40;  ///< a text within the box of another view
-constexpr double kLaterAnchorMm = 3;   ///< an anchor that is not the first, each
-constexpr double kLineStepMm = 0.1;    ///< half a square of lines under the leader
-
-constexpr double kLatticeMm = 1.5;       ///< between two places
-constexpr double kShortestLeaderMm = 5;  ///< so that the arrow leaves some of it
-/// Places tried for all labels together at first, and again by each step that mends: a second or
-/// so, on sheets that nobody could read.
-constexpr std::size_t kMostTried = 20'000'000;
-constexpr std::size_t kFewestPlaces = 64;  ///< that each label may try even so
+/// What a leader that is crossed costs, in millimetres of leader.
+constexpr double kCrossingMm = 40;
+/// The work of placing all labels of a sheet: less than a second.
+constexpr std::uint64_t kMostWork = 300'000'000;
+constexpr std::uint64_t kCompareWork = 8;  ///< to look at a bin or at a label in it
 constexpr std::size_t kMostEvictions = 8;
 constexpr int kMostRounds = 8;
+/// An attempt to untangle takes this part of the work that is left, at most.
+constexpr std::size_t kUntangleParts = 16;
 
-struct Offset {
-  PaperPoint by;
-  double length = 0;
-};
-
-/// Returns whether a leader may run so: rising enough for its landing to clear the object, and
-/// neither upright, as lines of objects often are, nor nearly flat.
-bool suits_leader(const PaperPoint& by) {
-  const double x = std::abs(by.x), y = std::abs(by.y);
-  return y >= 2 * kLatticeMm && y >= 0.2 * x && x >= 0.25 * y;
+PaperBox around(const PaperPoint& a, const PaperPoint& b) {
+  return {std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x, b.x), std::max(a.y, b.y)};
 }
 
-/// Returns the points of a lattice about the origin, the nearest first; of equally near ones the
-/// upper and right ones.
-std::vector<Offset> lattice(double least_mm, bool for_leader) {
-  std::vector<Offset> all;
-  const int most = static_cast<int>(kLabelReachMm / kLatticeMm);
-  for (int row = -most; row <= most; ++row)
-    for (int column = -most; column <= most; ++column) {
-      const PaperPoint by{column * kLatticeMm, row * kLatticeMm};
-      const double length = std::sqrt(by.x * by.x + by.y * by.y);
-      if (length >= least_mm && length <= kLabelReachMm && (!for_leader || suits_leader(by)))
-        all.push_back({by, length});
-    }
-  std::ranges::sort(all, {}, [](const Offset& o) { return std::tuple(o.length, o.by.y, -o.by.x); });
-  return all;
+PaperBox joined(const PaperBox& a, const PaperBox& b) {
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right),
+          std::max(a.bottom, b.bottom)};
+}
+
+/// Returns the box of the paper that a label may take.
+PaperBox reach_of(const LabelRequest& request) {
+  PaperBox reach = request.object;
+  if (!request.on_object) reach = around(request.anchors.front(), request.anchors.front());
+  for (const PaperPoint& anchor : request.anchors) reach = joined(reach, around(anchor, anchor));
+  return widened(reach, kLabelReachMm + request.width_mm + request.height_mm + kClearanceMm);
+}
+
+/// Returns the box of what a label takes.
+PaperBox taken_by(const LabelPlace& place) {
+  return place.has_leader ? joined(place.box, around(place.leader.a, place.leader.b)) : place.box;
 }
 
 class LabelPlacer {
  public:
-  LabelPlacer(std::span<const LabelRequest> requests, const LabelGround& ground)
-      : requests_(requests),
-        ground_(ground),
-        on_object_(lattice(0, false)),
-        by_leader_(lattice(kShortestLeaderMm, true)),
-        most_tried_(
-            std::max(kFewestPlaces, kMostTried / std::max<std::size_t>(1, requests.size()))),
+  LabelPlacer(std::span<const LabelRequest> requests, const LabelGround& ground,
+              const std::stop_token& stop)
+      : stop_(stop),
+        candidates_(requests, ground, work_),
         placed_(ground.width_mm, ground.height_mm, requests.size()),
-        places_(requests.size()) {}
+        places_(requests.size()) {
+    for (const LabelRequest& request : requests) reach_.push_back(reach_of(request));
+  }
 
   std::vector<std::optional<LabelPlace>> run() && {
-    for (Label label = 0; label < places_.size(); ++label) settle(label, cheapest(label));
+    place_each();
     make_room();
     untangle();
     return std::move(places_);
   }
 
  private:
-  static constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+  static constexpr double kNoLimit = LabelCandidates::kNoLimit;
+
+  /// Lets what comes next do one of so many equal parts of the work that is left until `end`.
+  /// Returns whether there is any.
+  bool take_share(std::uint64_t end, std::size_t parts) {
+    if (stop_.stop_requested() || work_.done >= end) return false;
+    work_.most = work_.done + (end - work_.done + parts - 1) / parts;
+    return true;
+  }
 
   void settle(Label label, const std::optional<LabelPlace>& place) {
     if (places_[label]) placed_.remove(label);
     places_[label] = place;
-    if (place) placed_.add(label, *place);
+    if (place) placed_.add(label, *places_[label]);
   }
 
-  [[nodiscard]] bool covers_nothing(const PaperBox& box) const {
-    return ground_.room.takes(widened(box, kClearanceMm)) && ground_.occupied.is_free(box);
+  void find_conflicts(const LabelPlace& place, const PlacedLabels::Most& most, Conflicts& found) {
+    placed_.find_conflicts(place, most, found);
+    work_.spend(kCompareWork * found.looked_at);
   }
 
-  [[nodiscard]] double cost_of_view(const LabelRequest& request, const PaperBox& box) const {
-    for (std::size_t v = 0; v < ground_.views.size(); ++v)
-      if (v != request.view && ground_.views[v].overlaps(box)) return kForeignViewMm;
-    return 0;
-  }
+  /// A search for the cheapest place beside the labels that have one.
+  struct Cheapest {
+    LabelPlacer& of;
+    double least;
+    std::optional<LabelPlace> best = {};
+    Conflicts conflicts = {};
 
-  /// Returns the place without a leader that lies so from the middle of the object, if it covers
-  /// nothing of the ground.
-  [[nodiscard]] std::optional<LabelPlace> on_object(const LabelRequest& request,
-                                                    const Offset& offset) const {
-    const PaperBox& object = request.object;
-    const PaperPoint middle{(object.left + object.right) / 2 + offset.by.x,
-                            (object.top + object.bottom) / 2 + offset.by.y};
-    if (!object.holds({middle.x, middle.y, middle.x, middle.y})) return std::nullopt;
-    LabelPlace place;
-    place.at = {rounded_paper(middle.x), rounded_paper(middle.y + request.height_mm / 2)};
-    place.box = box_of(place.at, Align::middle, request.width_mm, request.height_mm);
-    if (!covers_nothing(place.box)) return std::nullopt;
-    place.cost = offset.length + cost_of_view(request, place.box);
-    return place;
-  }
-
-  /// Returns the place whose leader runs so from an anchor, if it covers nothing of the ground.
-  [[nodiscard]] std::optional<LabelPlace> by_leader(const LabelRequest& request, std::size_t anchor,
-                                                    const Offset& offset) const {
-    const PaperPoint& tip = request.anchors[anchor];
-    const bool right = offset.by.x > 0;
-    LabelPlace place;
-    const PaperPoint elbow{rounded_paper(tip.x + offset.by.x), rounded_paper(tip.y + offset.by.y)};
-    place.at = {elbow.x, rounded_paper(elbow.y - kClearanceMm)};
-    place.align = right ? Align::start : Align::end;
-    place.box = box_of(place.at, place.align, request.width_mm, request.height_mm);
-    place.box.bottom = std::max(place.box.bottom, elbow.y);
-    if (!covers_nothing(place.box)) return std::nullopt;
-    const OccupancyGrid::LeaderPath path = ground_.occupied.leader_path(tip, elbow);
-    if (!path.open) return std::nullopt;
-    place.has_leader = true;
-    place.leader = {tip, elbow};
-    place.end = {rounded_paper(elbow.x + (right ? request.width_mm : -request.width_mm)), elbow.y};
-    place.cost = offset.length + kLaterAnchorMm * static_cast<double>(anchor) +
-                 kLineStepMm * static_cast<double>(path.lines) + cost_of_view(request, place.box);
-    return place;
-  }
-
-  /// Calls take(place) for the places of a label that cover nothing of the ground, about the
-  /// cheapest first, but for those without a leader which come before all others. It returns the
-  /// cost from which on no place is wanted.
-  template <class Take>
-  void each_place(const LabelRequest& request, Take&& take) {
-    double wanted = kNoLimit;
-    const std::size_t last = tried_ + most_tried_;
-    if (request.on_object)
-      for (const Offset& offset : on_object_) {
-        if (offset.length >= wanted || ++tried_ > last) break;
-        if (const auto place = on_object(request, offset)) wanted = take(*place);
-      }
-    if (wanted < kNoLimit) return;
-    for (const Offset& offset : by_leader_)
-      for (std::size_t anchor = 0; anchor < request.anchors.size(); ++anchor) {
-        if (offset.length >= wanted || ++tried_ > last) return;
-        if (const auto place = by_leader(request, anchor, offset)) wanted = take(*place);
-      }
-  }
-
-  /// Returns the cheapest place beside the labels that have one.
-  [[nodiscard]] std::optional<LabelPlace> cheapest(Label label) {
-    std::optional<LabelPlace> best;
-    double least = kNoLimit;
-    Conflicts conflicts;
-    each_place(requests_[label], [&](const LabelPlace& place) {
-      if (place.cost >= least) return least;
-      placed_.find_conflicts(place, 0, conflicts);
-      const double cost = place.cost + kCrossingMm * static_cast<double>(conflicts.crossed.size());
-      if (!conflicts.blockers.empty() || cost >= least) return least;
+    [[nodiscard]] double cost(const LabelPlace& place) const {
+      return place.cost + kCrossingMm * static_cast<double>(conflicts.crossed.size());
+    }
+    [[nodiscard]] bool is_blocked(const Blocker& blocker) const { return of.placed_.has(blocker); }
+    [[nodiscard]] bool suits(const LabelPlace& place, Blocker& blocker) {
+      const double crossings = std::min((least - place.cost) / kCrossingMm, 1e6);
+      of.find_conflicts(place, {0, static_cast<std::size_t>(crossings)}, conflicts);
+      if (conflicts.blockers.empty()) return cost(place) < least;
+      blocker = of.placed_.blocker(conflicts.blockers.front());
+      return false;
+    }
+    double take(const LabelPlace& place) {
+      if (cost(place) >= least) return least;
       best = place;
-      return least = cost;
-    });
-    return best;
+      return least = cost(place);
+    }
+  };
+
+  /// Returns the cheapest place of a label, if it costs less than `limit`.
+  [[nodiscard]] std::optional<LabelPlace> cheapest(Label label, double limit = kNoLimit) {
+    Cheapest search{*this, limit};
+    candidates_.each(label, limit, search);
+    return search.best;
+  }
+
+  /// Gives each label the cheapest place that those before it leave.
+  void place_each() {
+    for (Label label = 0; label < places_.size(); ++label)
+      if (take_share(kMostWork / 2, places_.size() - label)) settle(label, cheapest(label));
   }
 
   /// Gives labels without room the place of one that finds another.
   void make_room() {
-    tried_ = 0;
-    for (Label label = 0; label < places_.size() && tried_ < kMostTried; ++label)
-      if (!places_[label]) drive_out_for(label);
+    auto left = static_cast<std::size_t>(
+        std::ranges::count_if(places_, [](const auto& place) { return !place; }));
+    const std::uint64_t end = work_.done + (kMostWork - work_.done) / 4 * 3;
+    for (Label label = 0; label < places_.size(); ++label)
+      if (!places_[label] && take_share(end, left--)) drive_out_for(label);
   }
 
   void drive_out_for(Label label) {
@@ -193,46 +148,83 @@ class LabelPlacer {
     }
   }
 
-  /// Returns the nearest places of a label that one other label alone blocks, one for each of
-  /// those.
-  [[nodiscard]] std::vector<std::pair<LabelPlace, Label>> evictions(Label label) {
-    std::vector<std::pair<LabelPlace, Label>> found;
-    Conflicts conflicts;
-    each_place(requests_[label], [&](const LabelPlace& place) {
-      placed_.find_conflicts(place, 1, conflicts);
-      if (conflicts.blockers.size() == 1 && std::ranges::none_of(found, [&](const auto& f) {
-            return f.second == conflicts.blockers.front();
-          }))
-        found.emplace_back(place, conflicts.blockers.front());
+  /// A search for the nearest places that one other label alone blocks, one for each of those.
+  struct Evictions {
+    LabelPlacer& of;
+    std::vector<std::pair<LabelPlace, Label>> found = {};
+    Conflicts conflicts = {};
+
+    [[nodiscard]] static bool is_blocked(const Blocker&) { return false; }
+    [[nodiscard]] bool suits(const LabelPlace& place, Blocker&) {
+      of.find_conflicts(place, {1, of.places_.size()}, conflicts);
+      return conflicts.blockers.size() == 1 && std::ranges::none_of(found, [&](const auto& f) {
+               return f.second == conflicts.blockers.front();
+             });
+    }
+    double take(const LabelPlace& place) {
+      found.emplace_back(place, conflicts.blockers.front());
       return found.size() < kMostEvictions ? kNoLimit : 0;
-    });
-    return found;
+    }
+  };
+
+  [[nodiscard]] std::vector<std::pair<LabelPlace, Label>> evictions(Label label) {
+    Evictions search{*this};
+    candidates_.each(label, kNoLimit, search);
+    return std::move(search.found);
   }
 
   /// Places labels with crossed leaders anew, each alone and each pair in the other order, as long
   /// as that makes the sheet cheaper.
   void untangle() {
-    tried_ = 0;
     for (int round = 0; round < kMostRounds; ++round) {
       bool changed = false;
-      for (Label label = 0; label < places_.size() && tried_ < kMostTried; ++label)
+      for (Label label = 0; label < places_.size(); ++label) {
+        if (!take_share(kMostWork, 1)) return;
         if (!crossed_by(label).empty()) changed = untangle(label) || changed;
+      }
       if (!changed) return;
     }
   }
 
   bool untangle(Label label) {
-    bool changed = place_again(label);
-    for (const Label other : crossed_by(label)) changed = place_both_again(label, other) || changed;
+    bool changed = try_once({label, label}, [&] { return place_again(label); });
+    for (const Label other : crossed_by(label))
+      changed = try_once({label, other}, [&] { return place_both_again(label, other); }) || changed;
     return changed;
+  }
+
+  /// Makes an attempt, but not again until something near it has changed.
+  template <class Attempt>
+  bool try_once(const std::pair<Label, Label>& who, Attempt&& attempt) {
+    const auto [tried, first] = tried_at_.try_emplace(who, 0);
+    if (!first && !changed_near(who.first, tried->second) &&
+        !changed_near(who.second, tried->second))
+      return false;
+    if (!take_share(kMostWork, kUntangleParts)) return false;
+    const bool changed = attempt();
+    tried->second = changes_.size();
+    return changed;
+  }
+
+  /// Returns whether a change since the one of that number lies where a label may stand.
+  [[nodiscard]] bool changed_near(Label label, std::size_t since) const {
+    return std::any_of(changes_.begin() + static_cast<std::ptrdiff_t>(since), changes_.end(),
+                       [&](const PaperBox& change) { return reach_[label].overlaps(change); });
+  }
+
+  void note_change(Label label, const LabelPlace& before) {
+    changes_.push_back(joined(taken_by(before), taken_by(*places_[label])));
   }
 
   bool place_again(Label label) {
     const LabelPlace before = *places_[label];
     const double cost = cost_of(label);
     settle(label, std::nullopt);
-    settle(label, cheapest(label));
-    if (places_[label] && cost_of(label) < cost) return true;
+    settle(label, cheapest(label, cost));
+    if (places_[label] && cost_of(label) < cost) {
+      note_change(label, before);
+      return true;
+    }
     settle(label, before);
     return false;
   }
@@ -243,9 +235,13 @@ class LabelPlacer {
     const double cost = cost_of(first, second);
     settle(first, std::nullopt);
     settle(second, std::nullopt);
-    settle(second, cheapest(second));
-    settle(first, cheapest(first));
-    if (places_[first] && places_[second] && cost_of(first, second) < cost) return true;
+    settle(second, cheapest(second, cost));
+    if (places_[second]) settle(first, cheapest(first, cost - places_[second]->cost));
+    if (places_[first] && places_[second] && cost_of(first, second) < cost) {
+      note_change(first, one);
+      note_change(second, two);
+      return true;
+    }
     settle(first, std::nullopt);
     settle(second, std::nullopt);
     settle(first, one);
@@ -257,7 +253,7 @@ class LabelPlacer {
   [[nodiscard]] std::vector<Label> crossed_by(Label label) {
     if (!places_[label] || !places_[label]->has_leader) return {};
     Conflicts conflicts;
-    placed_.find_conflicts(*places_[label], places_.size(), conflicts);
+    find_conflicts(*places_[label], {places_.size(), places_.size()}, conflicts);
     return std::move(conflicts.crossed);
   }
 
@@ -271,21 +267,24 @@ class LabelPlacer {
     return cost_of(one) + cost_of(other) - (each_other ? kCrossingMm : 0);
   }
 
-  std::span<const LabelRequest> requests_;
-  const LabelGround& ground_;
-  std::vector<Offset> on_object_, by_leader_;
-  std::size_t most_tried_;  ///< places that a search for one label tries
-  std::size_t tried_ = 0;   ///< places that the step has tried
+  const std::stop_token& stop_;
+  WorkLimit work_;
+  LabelCandidates candidates_;
   PlacedLabels placed_;
   std::vector<std::optional<LabelPlace>> places_;
+  std::vector<PaperBox> reach_;    ///< of each label
+  std::vector<PaperBox> changes_;  ///< where untangling changed something, one after the other
+  /// How many changes there had been when an attempt was last made.
+  std::map<std::pair<Label, Label>, std::size_t> tried_at_;
 };
 
 }  // namespace
 
 std::vector<std::optional<LabelPlace>> place_labels(std::span<const LabelRequest> requests,
-                                                    const LabelGround& ground) {
+                                                    const LabelGround& ground,
+                                                    const std::stop_token& stop) {
   if (requests.empty()) return {};
-  return LabelPlacer(requests, ground).run();
+  return LabelPlacer(requests, ground, stop).run();
 }
 
 }  // namespace strake::sheets

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "sheets/annotation/paper_segments.hpp"
 
@@ -13,6 +14,16 @@ namespace {
 std::size_t clamped(double cell, std::size_t count) {
   if (cell <= 0) return 0;
   return cell < static_cast<double>(count) ? static_cast<std::size_t>(cell) : count - 1;
+}
+
+/// Squares as multiples of 2^-32 of one: a walk adds them quickly, and up to rounding at its end
+/// they stay on the sheet.
+using FixedPoint = std::int64_t;
+FixedPoint fixed(double squares) { return std::llround(squares * 4294967296.0); }
+
+std::size_t whole(FixedPoint squares, std::size_t count) {
+  return static_cast<std::size_t>(
+      std::clamp<FixedPoint>(squares >> 32, 0, static_cast<FixedPoint>(count) - 1));
 }
 
 }  // namespace
@@ -32,22 +43,24 @@ std::size_t OccupancyGrid::column(double x) const {
 std::size_t OccupancyGrid::row(double y) const { return clamped(std::floor(y / size_), rows_); }
 
 /// Calls `take` with the square of each step of at most half a square from a to b, as far as the
-/// line runs on the sheet: each of its points is within a quarter of a square of one that is taken.
+/// line runs on the sheet and `take` returns true: each point of what it ran along is within a
+/// quarter of a square of one that is taken.
 template <class Take>
 void OccupancyGrid::walk(const PaperPoint& a, const PaperPoint& b, Take&& take) const {
   const auto seen = clipped({a, b}, {0, 0, width_mm_, height_mm_});
   if (!seen) return;
-  const double dx = seen->b.x - seen->a.x, dy = seen->b.y - seen->a.y;
-  const double steps = std::max(1.0, std::ceil(std::sqrt(dx * dx + dy * dy) * 2 / size_));
-  for (double i = 0; i < steps; ++i) {
-    const double t = (i + 0.5) / steps;
-    take(row(seen->a.y + dy * t) * columns_ + column(seen->a.x + dx * t));
-  }
+  const double dx = (seen->b.x - seen->a.x) / size_, dy = (seen->b.y - seen->a.y) / size_;
+  const double steps = std::max(1.0, std::ceil(std::sqrt(dx * dx + dy * dy) * 2));
+  const FixedPoint by_x = fixed(dx / steps), by_y = fixed(dy / steps);
+  FixedPoint x = fixed(seen->a.x / size_) + by_x / 2, y = fixed(seen->a.y / size_) + by_y / 2;
+  for (double i = 0; i < steps; ++i, x += by_x, y += by_y)
+    if (!take(whole(y, rows_) * columns_ + whole(x, columns_))) return;
 }
 
 void OccupancyGrid::add_line(const PaperPoint& a, const PaperPoint& b) {
   walk(a, b, [&](std::size_t cell) {
     if (cells_[cell] == Taken::no) cells_[cell] = Taken::by_line;
+    return true;
   });
 }
 
@@ -82,8 +95,10 @@ OccupancyGrid::LeaderPath OccupancyGrid::leader_path(const PaperPoint& a,
                                                      const PaperPoint& b) const {
   LeaderPath path;
   walk(a, b, [&](std::size_t cell) {
-    path.open = path.open && cells_[cell] != Taken::blocked;
+    ++path.steps;
+    path.open = cells_[cell] != Taken::blocked;
     if (cells_[cell] == Taken::by_line) ++path.lines;
+    return path.open;
   });
   return path;
 }

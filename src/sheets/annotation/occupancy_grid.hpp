@@ -30,11 +30,11 @@ class OccupancyGrid {
   /// that are free by less than two squares.
   [[nodiscard]] bool is_free(const PaperBox& box) const;
 
-  /// What the leader from a to b runs over: `lines` counts half-square steps with lines, which have
-  /// no meaning where it is blocked.
+  /// What the leader from a to b runs over, in half-square steps: those with lines, and all that
+  /// were looked at. It is looked at up to the first step that is blocked.
   struct LeaderPath {
     bool open = true;
-    std::size_t lines = 0;
+    std::size_t lines = 0, steps = 0;
   };
   [[nodiscard]] LeaderPath leader_path(const PaperPoint& a, const PaperPoint& b) const;
 

@@ -190,14 +190,16 @@ TagList tags_of(const TagSpec& spec, const std::vector<bool>& picked, const mode
   return list;
 }
 
-void write_tags(std::span<TagList> lists, const SheetArea& room, Sheet& sheet) {
+Status write_tags(std::span<TagList> lists, const SheetArea& room, Sheet& sheet,
+                  const std::stop_token& stop) {
   std::vector<LabelRequest> requests;
   for (const TagList& list : lists)
     for (const TaggedObject& seen : list.objects) requests.push_back(request_of(list, seen));
   const OccupancyGrid occupied = occupied_paper(sheet);
   LabelGround ground{sheet.width_mm, sheet.height_mm, occupied, room, {}};
   for (const PlacedView& view : sheet.views) ground.views.push_back(view.box);
-  const auto places = place_labels(requests, ground);
+  const auto places = place_labels(requests, ground, stop);
+  if (stop.stop_requested()) return Error{ErrorCode::cancelled, "cancelled", {}, {}};
   auto place = places.begin();
   for (TagList& list : lists)
     for (const TaggedObject& seen : list.objects) {
@@ -207,6 +209,7 @@ void write_tags(std::span<TagList> lists, const SheetArea& room, Sheet& sheet) {
         list.count.first_crowded = seen.text;
       ++place;
     }
+  return {};
 }
 
 }  // namespace strake::sheets

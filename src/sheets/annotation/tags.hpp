@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "sheets/annotation/paper_segments.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/spec/sheet_spec.hpp"
+#include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 #include "strake/sheets/sheet.hpp"
 
@@ -52,7 +54,8 @@ struct TagList {
 
 /// Writes the tags of a sheet, all together: on free paper near their objects, with leaders, or
 /// plainly on their objects where nothing is covered there (label_placement.hpp). A tag that finds
-/// no room is left out and counted.
-void write_tags(std::span<TagList> lists, const SheetArea& room, Sheet& sheet);
+/// no room is left out and counted. Errors: cancelled.
+[[nodiscard]] Status write_tags(std::span<TagList> lists, const SheetArea& room, Sheet& sheet,
+                                const std::stop_token& stop);
 
 }  // namespace strake::sheets

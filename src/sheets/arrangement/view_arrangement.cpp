@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/arrangement/grid_lines.hpp"
@@ -113,6 +114,12 @@ class Grid {
     return at;
   }
 
+  /// Returns how many millimetres spread() adds to each gap between columns and between rows.
+  [[nodiscard]] Spread added(const PaperBox& box, double gap, const Spread& spread) const {
+    return {more(columns_, box.width(), gap, spread.columns),
+            more(rows_, box.height(), gap, spread.rows)};
+  }
+
   [[nodiscard]] bool fits(const PaperBox& box, double gap) const {
     return needed(columns_, gap) <= box.width() && needed(rows_, gap) <= box.height();
   }
@@ -142,16 +149,20 @@ class Grid {
     return sum;
   }
 
-  static std::array<double, kTracks> starts(const Tracks& tracks, double from, double room,
-                                            double gap, double share) {
+  static double more(const Tracks& tracks, double room, double gap, double share) {
     double count = 1;
     for (const Track& track : tracks) count += track.used ? 1 : 0;
-    const double more = share * (room - needed(tracks, gap)) / count;
+    return share * (room - needed(tracks, gap)) / count;
+  }
+
+  static std::array<double, kTracks> starts(const Tracks& tracks, double from, double room,
+                                            double gap, double share) {
+    const double added = more(tracks, room, gap, share);
     std::array<double, kTracks> at{};
-    double next = from + more;
+    double next = from + added;
     for (std::size_t t = 0; t < tracks.size(); ++t) {
       at[t] = next;
-      if (tracks[t].used) next += tracks[t].size() + gap + more;
+      if (tracks[t].used) next += tracks[t].size() + gap + added;
     }
     return at;
   }
@@ -161,6 +172,9 @@ class Grid {
   std::vector<TrackCell> cells_;
   Tracks columns_{}, rows_{};
 };
+
+/// The pictorial view leaves a cell that would leave more of the paper empty on one side.
+constexpr double kMostEmpty = 0.3;
 
 class Arranger {
  public:
@@ -184,12 +198,23 @@ class Arranger {
     }
   }
 
+  /// Returns the places in the first cell of the pictorial view that leaves no side of the paper
+  /// empty, or else those that leave least; without any, with that view where it has room.
   [[nodiscard]] std::optional<Arranged> at_scale(double scale) const {
-    for (const TrackCell& cell : cells_)
-      if (auto found = first_free(views_, cell, scale, [&](const Arranged& a) { return a; }))
-        return found;
-    if (!pictorial_) return std::nullopt;
-    return first_free(others_, {}, scale, [&](const Arranged& a) { return with_pictorial(a); });
+    std::optional<Arranged> best;
+    double least = 0;
+    for (const TrackCell& cell : cells_) {
+      auto found = widest(views_, cell, scale, [&](const Arranged& a) { return a; });
+      if (!found) continue;
+      const double empty = empty_side(*found);
+      if (!best || empty < least) {
+        best = std::move(found);
+        least = empty;
+      }
+      if (least <= kMostEmpty) break;
+    }
+    if (best || !pictorial_) return best;
+    return widest(others_, {}, scale, [&](const Arranged& a) { return with_pictorial(a); });
   }
 
   /// Places the views at a scale at which they do not fit.
@@ -199,22 +224,44 @@ class Arranger {
   }
 
  private:
-  /// Returns what `complete` makes of the first places of columns and rows that lie free, and that
-  /// lies free itself.
+  /// Returns what `complete` makes of those places of columns and rows that lie free and have the
+  /// widest gaps, the lesser of the two first, and that lies free itself.
   template <class Complete>
-  [[nodiscard]] std::optional<Arranged> first_free(std::span<const UnplacedView> views,
-                                                   const TrackCell& pictorial, double scale,
-                                                   Complete&& complete) const {
+  [[nodiscard]] std::optional<Arranged> widest(std::span<const UnplacedView> views,
+                                               const TrackCell& pictorial, double scale,
+                                               Complete&& complete) const {
     const Grid grid(views, projection_, pictorial, scale);
-    for (const Spread& spread : spreads_)
-      for (const PaperBox& box : boxes_) {
-        if (!grid.fits(box, gap_)) continue;
+    std::optional<Arranged> best;
+    std::pair most{-1.0, 0.0};
+    for (const PaperBox& box : boxes_) {
+      if (!grid.fits(box, gap_)) continue;
+      for (const Spread& spread : spreads_) {
+        const Spread added = grid.added(box, gap_, spread);
+        const std::pair gaps{std::min(added.columns, added.rows), added.columns + added.rows};
+        if (gaps <= most) continue;
         const Arranged placed{scale, true, grid.spread(box, gap_, spread)};
         if (!lie_free(views, placed)) continue;
-        const std::optional<Arranged> whole = complete(placed);
-        if (whole && lie_free(views_, *whole)) return whole;
+        std::optional<Arranged> whole = complete(placed);
+        if (!whole || !lie_free(views_, *whole)) continue;
+        most = gaps;
+        best = std::move(whole);
       }
-    return std::nullopt;
+    }
+    return best;
+  }
+
+  /// Returns how much wider the right margin is than the left one, or the lower one than the upper
+  /// one, as a share of the area.
+  [[nodiscard]] double empty_side(const Arranged& arranged) const {
+    const PaperBox& area = room_.area;
+    PaperBox all = views_.front().at(arranged.at.front(), arranged.scale);
+    for (std::size_t v = 1; v < views_.size(); ++v) {
+      const PaperBox box = views_[v].at(arranged.at[v], arranged.scale);
+      all = {std::min(all.left, box.left), std::min(all.top, box.top),
+             std::max(all.right, box.right), std::max(all.bottom, box.bottom)};
+    }
+    return std::max((area.right - all.right - (all.left - area.left)) / area.width(),
+                    (area.bottom - all.bottom - (all.top - area.top)) / area.height());
   }
 
   /// Returns the other views with the pictorial one where it has room beside them.

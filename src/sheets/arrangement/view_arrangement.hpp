@@ -45,8 +45,9 @@ struct Arranged {
 /// Places the views of an arrangement in first- or third-angle projection round the front view, in
 /// columns and rows. Views of one column have the same x and views of one row the same y for each
 /// point of the model, to the micrometre. The remaining paper is spread between and beside them, as
-/// evenly as what is kept free allows. The pictorial view stands in a free cell of the columns and
-/// rows, or, where that makes all larger, wherever it has room.
+/// evenly as what is kept free allows. The pictorial view stands in the first free cell of the
+/// columns and rows that leaves no side of the paper empty, or, where that makes all larger,
+/// wherever it has room.
 ///
 /// `scale` 0 takes the largest usual scale at which all fit, or the intermediate one above it where
 /// they fit that. At a given scale that is too large

@@ -160,6 +160,30 @@ TEST(Arrangement, PaperThatIsLeftIsSpreadAsFarAsTheTitleBlockAllows) {
   EXPECT_GT(views[0].at(a.at[0], a.scale).left, kA3.area.left + 1);
 }
 
+/// Returns the box of all views.
+PaperBox box_of_all(const std::vector<UnplacedView>& views, const Arranged& a) {
+  PaperBox all = views[0].at(a.at[0], a.scale);
+  for (std::size_t v = 1; v < views.size(); ++v) {
+    const PaperBox box = views[v].at(a.at[v], a.scale);
+    all = {std::min(all.left, box.left), std::min(all.top, box.top), std::max(all.right, box.right),
+           std::max(all.bottom, box.bottom)};
+  }
+  return all;
+}
+
+TEST(Arrangement, NoSideOfThePaperStaysEmptyForThePictorialView) {
+  // A narrow, high body: front and top view take the height, and below the left view the isometric
+  // one would stand beside the title block, with the front and the left view in the left half.
+  const auto views = views_of_box(3300, 12000, 9000);
+  const Arranged a = arranged(views, Projection::first_angle, kA3, 100);
+  EXPECT_TRUE(a.fits);
+  expect_apart(views, a, 15);
+  EXPECT_EQ(a.at[1].x, a.at[0].x);
+  EXPECT_EQ(a.at[2].y, a.at[0].y);
+  const PaperBox all = box_of_all(views, a);
+  EXPECT_LT(kA3.area.right - all.right, 0.4 * kA3.area.width());
+}
+
 TEST(Arrangement, AFreePlaceIsInTheMiddleOfTheMostRoom) {
   const SheetArea room{{0, 0, 400, 200}, {{300, 150, 400, 200}}};
   const std::vector<PaperBox> others{{0, 0, 100, 100}};

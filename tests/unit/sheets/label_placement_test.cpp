@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <ctime>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -45,7 +47,7 @@ struct Paper {
     OccupancyGrid occupied(420, 297);
     for (const PaperSegment& line : lines) occupied.add_line(line.a, line.b);
     occupied.finish();
-    return place_labels(requests, {420, 297, occupied, room, views});
+    return place_labels(requests, {420, 297, occupied, room, views}, {});
   }
 };
 
@@ -240,6 +242,91 @@ TEST(Labels, OfAnyCrowdCoverNothingAndAreTheSameAgain) {
       EXPECT_TRUE(paper.room.takes(places[i]->box));
     }
   }
+}
+
+/// Bad paper for many labels: narrow gaps between lines, and anchors close together.
+std::pair<Paper, std::vector<LabelRequest>> crowd(int count) {
+  test::Draw draw(41);
+  Paper paper;
+  for (double x = 20; x < 400; x += 50) paper.frame({x, 12, x + 10, 285});
+  std::vector<LabelRequest> requests;
+  for (int i = 0; i < count; ++i)
+    requests.push_back(request({draw.between(60, 340), draw.between(60, 230)}, 25));
+  return {paper, requests};
+}
+
+// The work is counted for all labels together, so the time does not grow with their number: these
+// took many minutes once. A limit in seconds of any machine says how busy it is: this one is
+// far from any, with sanitizers, too.
+TEST(Labels, OfAnyNumberEndSoonAndCoverNothing) {
+  const auto [paper, requests] = crowd(3000);
+  const std::clock_t start = std::clock();
+  const Places places = paper.place(requests);
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  EXPECT_LT(seconds, 30);
+  const Faults f = faults_of(places, paper);
+  expect_clean(f);
+  EXPECT_GT(places.size() - f.without, 100U);
+}
+
+TEST(Labels, ThatAreStoppedHaveNoPlaces) {
+  const auto [paper, requests] = crowd(10);
+  OccupancyGrid occupied(420, 297);
+  occupied.finish();
+  std::stop_source stop;
+  stop.request_stop();
+  const Places places =
+      place_labels(requests, {420, 297, occupied, paper.room, {}}, stop.get_token());
+  for (const auto& place : places) EXPECT_FALSE(place);
+}
+
+// Queries look into the bins along a leader alone: they must miss nobody.
+TEST(Labels, FindWhatTheyMeetInAnyDirection) {
+  test::Draw draw(43);
+  for (int round = 0; round < 400; ++round) {
+    const auto drawn = [&] {
+      LabelPlace place;
+      const double x = draw.between(0, 390), y = draw.between(0, 290);
+      place.box = {x, y, x + draw.between(1, 30), y + draw.between(1, 7)};
+      place.has_leader = true;
+      place.leader = {{draw.between(0, 420), draw.between(0, 297)}, {x, place.box.bottom}};
+      return place;
+    };
+    PlacedLabels placed(420, 297, 2);
+    LabelPlace one = drawn();
+    const LabelPlace other = drawn();
+    placed.add(0, one);
+    PlacedLabels::Conflicts found;
+    placed.find_conflicts(other, {2, 2}, found);
+    const auto near = [](const LabelPlace& leader, const LabelPlace& text) {
+      return clipped(leader.leader, widened(text.box, kClearanceMm)).has_value();
+    };
+    const bool blocks =
+        widened(one.box, kClearanceMm).overlaps(other.box) || near(one, other) || near(other, one);
+    EXPECT_EQ(found.blockers.size(), blocks ? 1U : 0U) << round;
+    EXPECT_EQ(found.crossed.size(), !blocks && segments_cross(one.leader, other.leader) ? 1U : 0U)
+        << round;
+    // Its place is known by number until it leaves.
+    const PlacedLabels::Blocker blocker = placed.blocker(0);
+    EXPECT_TRUE(placed.has(blocker));
+    placed.remove(0);
+    EXPECT_FALSE(placed.has(blocker));
+    placed.find_conflicts(other, {2, 2}, found);
+    EXPECT_TRUE(found.blockers.empty() && found.crossed.empty());
+  }
+}
+
+// A leader is looked at up to the first square that is blocked.
+TEST(Occupancy, LeadersEndAtWhatBlocksThem) {
+  OccupancyGrid occupied(100, 80);
+  occupied.block({20, 0, 22, 80});
+  occupied.finish();
+  const auto open = occupied.leader_path({30, 10}, {90, 70});
+  EXPECT_TRUE(open.open);
+  EXPECT_GT(open.steps, 150U);
+  const auto blocked = occupied.leader_path({10, 10}, {90, 70});
+  EXPECT_FALSE(blocked.open);
+  EXPECT_LT(blocked.steps, 30U);
 }
 
 }  // namespace
