@@ -115,6 +115,21 @@ bool is_in_force(const std::string& text, const FileContentsByLabel& former,
   return in_force;
 }
 
+/// Leaves out the new names of files that are asked for, NEW of OLD=NEW: rows that have one are
+/// those of a run that did not know of it. A name that is OLD of another text is that of another
+/// file.
+void leave_out_new_names(std::span<const std::string> asked, FileContentsByLabel& former) {
+  const auto is_old_name = [&](std::string_view label) {
+    return std::ranges::any_of(
+        asked, [&](const std::string& text) { return text.starts_with(std::string(label) + "="); });
+  };
+  for (const std::string& text : asked)
+    for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1))
+      if (const std::string is = text.substr(at + 1);
+          former.contains(text.substr(0, at)) && !is_old_name(is))
+        former.erase(is);
+}
+
 bool names_all_files(const DecisionFile& decided) {
   return std::ranges::none_of(decided.decisions, [](const Decision& row) {
     return row.a.file.empty() || row.b.file.empty();
@@ -132,6 +147,7 @@ Result<DecidedFiles> match_decided_files(const clash::Findings& findings, const 
   std::vector<std::string> open;
   for (const std::string& text : asked)
     (is_in_force(text, former, today) ? files.in_force : open).push_back(text);
+  leave_out_new_names(open, former);
   RunFiles before = files_of(std::move(former));
   before.is_excerpt = true;
   RunFiles after = files_of(std::move(today));

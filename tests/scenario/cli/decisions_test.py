@@ -217,7 +217,7 @@ class Decisions(Scenario):
     def test_the_hint_counts_what_is_not_approved(self):
         files = []
         for name, y in (('a', 0), ('b', 5000), ('c', 10000), ('d', 15000), ('e', 20000)):
-            files.append(self.write(f'{name}.obj', ''.join(cube(f'{name}{n}', n, (50 * n, y, 0), 100) for n in range(6))))
+            files.append(self.write(f'{name}.obj', ''.join(cube(f'{name}{n}', n, (60 * n, y, 0), 100) for n in range(6))))
         run = [*files, '--self', '--unit', 'mm', '--up-axis', 'z', '--decisions', 'all.csv', '--write-decisions']
         self.assertIn('25 of 25 hits lie between parts of one assembly: ', self.run_strake('clash', *run).stderr)
         path = self.folder / 'all.csv'
