@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -111,7 +110,9 @@ class OddValues {
   [[nodiscard]] std::string values() const {
     constexpr std::size_t kMost = 5;
     std::vector<std::pair<std::string_view, std::uint64_t>> all(uses_.begin(), uses_.end());
-    std::ranges::stable_sort(all, std::ranges::greater{}, [](const auto& v) { return v.second; });
+    std::ranges::sort(all, [](const auto& x, const auto& y) {
+      return x.second != y.second ? x.second > y.second : x.first < y.first;
+    });
     std::string out;
     for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i)
       out += (i == 0 ? "" : ", ") + in_quotes(all[i].first) + " (" + std::to_string(all[i].second) +

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "drawing/layout/view_plane.hpp"
@@ -69,9 +71,9 @@ std::vector<Spread> spreads() {
   std::vector<Spread> all;
   for (const double columns : kShares)
     for (const double rows : kShares) all.push_back({columns, rows});
-  std::ranges::stable_sort(all, [](const Spread& a, const Spread& b) {
-    const double of_a = a.columns + a.rows, of_b = b.columns + b.rows;
-    return of_a != of_b ? of_a > of_b : std::min(a.columns, a.rows) > std::min(b.columns, b.rows);
+  // Of equal ones that comes first which spreads the columns more.
+  std::ranges::sort(all, std::ranges::greater{}, [](const Spread& s) {
+    return std::tuple(s.columns + s.rows, std::min(s.columns, s.rows), s.columns);
   });
   return all;
 }
