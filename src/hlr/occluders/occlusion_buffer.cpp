@@ -369,10 +369,7 @@ class OcclusionBuffer::TileTraversal {
 void OcclusionBuffer::find_gaps(const ViewPoint& a, const ViewPoint& b, const SegmentRange& part,
                                 std::vector<SegmentRange>& gaps) const {
   gaps.clear();
-  if (empty())
-    gaps.push_back(part);
-  else
-    TileTraversal(*this, a, b).find_gaps(part, gaps);
+  TileTraversal(*this, a, b).find_gaps(part, gaps);
 }
 
 bool OcclusionBuffer::covers(const ViewBox& box) const {

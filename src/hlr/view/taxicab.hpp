@@ -6,12 +6,13 @@
 #include <cstdlib>
 
 #include "geometry/predicates/exact_normal.hpp"
+#include "geometry/predicates/feature_distance.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/geometry/wide_int.hpp"
 
 namespace strake::hlr {
 
-[[nodiscard]] constexpr geometry::Int128 magnitude(geometry::Int128 x) { return x < 0 ? -x : x; }
+using geometry::feature::magnitude;
 
 /// Return the sum of the magnitudes of the components, |v|₁.
 [[nodiscard]] constexpr geometry::Int128 taxicab(const geometry::ExactNormal& v) {

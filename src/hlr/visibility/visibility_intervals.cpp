@@ -220,10 +220,6 @@ void append(std::vector<VisibilityInterval>& out, std::size_t first, const Ratio
     out.push_back({lo, hi, state});
 }
 
-}  // namespace
-
-namespace {
-
 // Removes an interval at either end of a range; true when that changed the range.
 bool shrink_range(const OcclusionInterval& interval, ParamRange& range) {
   bool changed = false;

@@ -93,26 +93,33 @@ std::pair<clash::ElementName, clash::ElementName> names_of(const model::Model& m
   return {{model.files[a.file].label, a.id}, {model.files[b.file].label, b.id}};
 }
 
+/// Calls visit(OLD, NEW) for each way to read OLD=NEW, as labels may have a '=' themselves.
+template <class Visit>
+void for_each_reading(const std::string& text, Visit&& visit) {
+  for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1))
+    if (at > 0) visit(text.substr(0, at), text.substr(at + 1));
+}
+
 /// Adds the former names that are asked for and that a file without the columns of files cannot
 /// know.
 void add_asked(FileContentsByLabel& former, const FileContentsByLabel& today,
                std::span<const std::string> asked) {
   for (const std::string& text : asked)
-    for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1))
-      if (at > 0 && today.contains(text.substr(at + 1))) former.try_emplace(text.substr(0, at));
+    for_each_reading(text, [&](const std::string& was, const std::string& is) {
+      if (today.contains(is)) former.try_emplace(was);
+    });
 }
 
 /// Whether a run before this one wrote the name of today, OLD=NEW, into the file.
 bool is_in_force(const std::string& text, const FileContentsByLabel& former,
                  const FileContentsByLabel& today) {
-  bool in_force = false;
-  for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1)) {
-    const std::string was = text.substr(0, at), is = text.substr(at + 1);
-    if (was.empty() || !today.contains(is)) continue;
-    if (former.contains(was)) return false;
-    in_force = in_force || former.contains(is);
-  }
-  return in_force;
+  bool has_old = false, has_new = false;
+  for_each_reading(text, [&](const std::string& was, const std::string& is) {
+    if (!today.contains(is)) return;
+    has_old = has_old || former.contains(was);
+    has_new = has_new || former.contains(is);
+  });
+  return has_new && !has_old;
 }
 
 /// Leaves out the new names of files that are asked for, NEW of OLD=NEW: rows that have one are
@@ -124,10 +131,9 @@ void leave_out_new_names(std::span<const std::string> asked, FileContentsByLabel
         asked, [&](const std::string& text) { return text.starts_with(std::string(label) + "="); });
   };
   for (const std::string& text : asked)
-    for (std::size_t at = text.find('='); at != std::string::npos; at = text.find('=', at + 1))
-      if (const std::string is = text.substr(at + 1);
-          former.contains(text.substr(0, at)) && !is_old_name(is))
-        former.erase(is);
+    for_each_reading(text, [&](const std::string& was, const std::string& is) {
+      if (former.contains(was) && !is_old_name(is)) former.erase(is);
+    });
 }
 
 bool names_all_files(const DecisionFile& decided) {
