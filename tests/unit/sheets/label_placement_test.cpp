@@ -273,7 +273,7 @@ TEST(Labels, ThatAreStoppedHaveNoPlaces) {
   const auto [paper, requests] = crowd(10);
   OccupancyGrid occupied(420, 297);
   occupied.finish();
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   const Places places =
       place_labels(requests, {420, 297, occupied, paper.room, {}}, stop.get_token());
