@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "strake/core/hash.hpp"
+#include "strake/core/result.hpp"
+#include "strake/project/project.hpp"
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+/// SQLite behind values that close themselves, with our errors.
+namespace strake::project {
+
+/// One prepared statement. Parameters count from 1, columns from 0. A fault of binding is told by
+/// the next step.
+class Statement {
+ public:
+  ~Statement();
+  Statement(Statement&& other) noexcept;
+  Statement& operator=(Statement&& other) noexcept;
+  Statement(const Statement&) = delete;
+  Statement& operator=(const Statement&) = delete;
+
+  Statement& bind(int parameter, std::int64_t value);
+  Statement& bind(int parameter, double value);
+  /// The text or bytes must last until the statement is reset.
+  Statement& bind(int parameter, std::string_view text);
+  Statement& bind(int parameter, std::span<const std::byte> bytes);
+  Statement& bind(int parameter, const Hash128& hash);  ///< as a blob of 16 bytes
+  Statement& bind_null(int parameter);
+
+  /// Goes to the next row; false where there is none.
+  [[nodiscard]] Result<bool> step();
+  /// Runs a statement that has no rows, and resets it.
+  [[nodiscard]] Status run();
+  void reset();
+
+  [[nodiscard]] bool is_null(int column) const;
+  [[nodiscard]] std::int64_t integer(int column) const;
+  [[nodiscard]] double real(int column) const;
+  /// Text and bytes last until the next step or reset.
+  [[nodiscard]] std::string_view text(int column) const;
+  [[nodiscard]] std::span<const std::byte> bytes(int column) const;
+  /// Returns nothing where the column is no blob of 16 bytes.
+  [[nodiscard]] std::optional<Hash128> hash(int column) const;
+
+ private:
+  friend class Database;
+  Statement(Database& database, sqlite3_stmt* statement);
+  Database* database_ = nullptr;
+  sqlite3_stmt* statement_ = nullptr;
+  int fault_ = 0;
+};
+
+/// A connection.
+class Database {
+ public:
+  [[nodiscard]] Result<Statement> prepare(std::string_view sql);
+  /// Runs statements without parameters or rows.
+  [[nodiscard]] Status execute(std::string_view sql);
+  [[nodiscard]] std::int64_t last_insert_id() const;
+  [[nodiscard]] std::int64_t changes() const;
+  /// Returns the error for what SQLite said last: it names the file, and how to mend it.
+  [[nodiscard]] Error error(int code) const;
+
+ private:
+  friend class Project;
+  friend class Statement;
+  friend class Transaction;
+  sqlite3* handle_ = nullptr;
+  std::filesystem::path file_;
+};
+
+/// All that is written between begin() and commit(), or nothing of it.
+class Transaction {
+ public:
+  /// Errors: that another process writes (after the connection's time to wait), that the project
+  /// is open for reading only, or that it is on read-only media.
+  [[nodiscard]] static Result<Transaction> begin(Database& database);
+  ~Transaction();
+  Transaction(Transaction&& other) noexcept;
+  Transaction& operator=(Transaction&&) = delete;
+  Transaction(const Transaction&) = delete;
+  Transaction& operator=(const Transaction&) = delete;
+  [[nodiscard]] Status commit();
+
+ private:
+  explicit Transaction(Database& database) : database_(&database) {}
+  Database* database_ = nullptr;
+};
+
+}  // namespace strake::project

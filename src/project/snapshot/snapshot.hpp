@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "project/codec/blob.hpp"
+#include "strake/core/hash.hpp"
+#include "strake/core/result.hpp"
+#include "strake/model/model.hpp"
+#include "strake/parallel/context.hpp"
+
+/// What a stored result was computed from, so that what changed since is known from the data alone.
+namespace strake::project {
+
+/// One state of the objects of a model, as one computation sees them.
+struct Snapshot {
+  Hash128 whole;                          ///< of what concerns no single object: rules, view
+  std::vector<std::uint64_t> identities;  ///< of each object: file label and durable id
+  std::vector<Hash128> signatures;        ///< of each object: all that the computation sees of it
+  friend bool operator==(const Snapshot&, const Snapshot&) = default;
+};
+
+/// Returns an entry for each object (clash::element_hash).
+[[nodiscard]] Result<std::vector<std::uint64_t>> identities(const model::Model& model,
+                                                            const parallel::Context& context);
+
+/// No object.
+inline constexpr std::uint32_t kGone = 0xffffffffU;
+
+/// Returns for each object of `then` its number in `now`: kGone where none has its identity and
+/// signature. Identities that are not unique match nothing.
+[[nodiscard]] Result<std::vector<std::uint32_t>> unchanged(const Snapshot& then,
+                                                           const Snapshot& now,
+                                                           const parallel::Context& context);
+
+void write(BlobWriter& out, const Snapshot& snapshot);
+[[nodiscard]] Snapshot read_snapshot(BlobReader& in);
+
+}  // namespace strake::project
