@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/views/drawing_codec.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "project/views/number_columns.hpp"
+#include "project/views/view_codec.hpp"
+#include "strake/parallel/slots.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::project {
+
+namespace {
+
+using geometry::Vec3l;
+
+constexpr std::uint64_t kDrawingForm = 1;
+
+/// Columns of pieces: three of their ends, that of their objects, edges and others.
+constexpr std::size_t kPieceColumns = 6;
+
+std::int64_t number_of(model::ObjectId id) { return static_cast<std::int64_t>(model::index(id)); }
+
+/// Appends the numbers that `get` takes from each item, `each` to an item.
+template <class Item, class Get>
+void write_column(BlobWriter& out, std::span<const Item> items, std::size_t each, Get&& get) {
+  std::vector<std::int64_t> values;
+  values.reserve(items.size() * each);
+  for (const Item& item : items)
+    for (std::size_t k = 0; k < each; ++k) values.push_back(get(item, k));
+  write_numbers(out, values);
+}
+
+void write_pieces(BlobWriter& out, std::span<const hlr::EdgePiece> pieces) {
+  std::vector<std::uint8_t> bytes(pieces.size());
+  std::ranges::transform(pieces, bytes.begin(), [](const hlr::EdgePiece& piece) {
+    return static_cast<std::uint8_t>(piece.kind);
+  });
+  out.column(std::span<const std::uint8_t>(bytes));
+  std::ranges::transform(pieces, bytes.begin(), [](const hlr::EdgePiece& piece) {
+    return static_cast<std::uint8_t>(piece.state);
+  });
+  out.column(std::span<const std::uint8_t>(bytes));
+  // A piece mostly begins where the last one ends.
+  for (int axis = 0; axis < 3; ++axis)
+    write_column(out, pieces, 2, [axis](const hlr::EdgePiece& piece, std::size_t k) {
+      return (k == 0 ? piece.a : piece.b)[axis];
+    });
+  write_column(out, pieces, 1, [](const hlr::EdgePiece& piece, std::size_t /*k*/) {
+    return number_of(piece.object);
+  });
+  write_column(out, pieces, 1, [](const hlr::EdgePiece& piece, std::size_t /*k*/) {
+    return static_cast<std::int64_t>(piece.edge);
+  });
+  // That of the object itself but for intersections.
+  write_column(out, pieces, 1, [](const hlr::EdgePiece& piece, std::size_t /*k*/) {
+    return number_of(piece.other) - number_of(piece.object);
+  });
+}
+
+bool is_on_grid(std::int64_t coordinate) {
+  return coordinate >= -kFarthestGrid && coordinate <= kFarthestGrid;
+}
+
+bool is_number(std::int64_t value, std::size_t size) {
+  return value >= 0 && static_cast<std::uint64_t>(value) < size;
+}
+
+/// Makes pieces of their columns; `sound` becomes false where they cannot be those of a drawing.
+class PieceMaker {
+ public:
+  PieceMaker(const std::vector<std::vector<std::int64_t>>& columns,
+             std::span<const std::uint8_t> kinds, std::span<const std::uint8_t> states,
+             std::size_t objects)
+      : columns_(columns), kinds_(kinds), states_(states), objects_(objects) {}
+
+  [[nodiscard]] bool is_sound(std::size_t i) const {
+    const std::int64_t object = columns_[3][i], edge = columns_[4][i];
+    if (kinds_[i] > static_cast<std::uint8_t>(hlr::EdgeKind::smooth) ||
+        states_[i] > static_cast<std::uint8_t>(hlr::State::clipped) ||
+        !is_number(object, objects_) || !is_number(edge, std::size_t{1} << 32U))
+      return false;
+    const std::int64_t apart = columns_[5][i];
+    if (apart < -object || !is_number(object + std::min(apart, std::int64_t{1} << 32U), objects_))
+      return false;
+    if (i > 0 && std::pair(columns_[3][i - 1], columns_[4][i - 1]) > std::pair(object, edge))
+      return false;
+    return is_within(i * 2) && is_within(i * 2 + 1);
+  }
+
+  [[nodiscard]] hlr::EdgePiece operator()(std::size_t i) const {
+    hlr::EdgePiece piece;
+    piece.object = model::ObjectId{static_cast<std::uint32_t>(columns_[3][i])};
+    piece.edge = static_cast<std::uint32_t>(columns_[4][i]);
+    piece.other = model::ObjectId{static_cast<std::uint32_t>(columns_[3][i] + columns_[5][i])};
+    piece.kind = static_cast<hlr::EdgeKind>(kinds_[i]);
+    piece.state = static_cast<hlr::State>(states_[i]);
+    piece.a = end(i * 2);
+    piece.b = end(i * 2 + 1);
+    return piece;
+  }
+
+ private:
+  [[nodiscard]] Vec3l end(std::size_t e) const {
+    return {columns_[0][e], columns_[1][e], columns_[2][e]};
+  }
+  [[nodiscard]] bool is_within(std::size_t e) const {
+    return std::ranges::all_of(std::span(columns_).first(3),
+                               [e](const auto& column) { return is_on_grid(column[e]); });
+  }
+
+  const std::vector<std::vector<std::int64_t>>& columns_;
+  std::span<const std::uint8_t> kinds_, states_;
+  std::size_t objects_;
+};
+
+Result<std::vector<hlr::EdgePiece>> read_pieces(BlobReader& in, std::size_t objects,
+                                                const parallel::Context& context) {
+  const std::vector<std::uint8_t> kinds = in.column<std::uint8_t>();
+  const std::vector<std::uint8_t> states = in.column<std::uint8_t>();
+  if (kinds.size() != states.size()) in.refuse("columns are not of one length");
+  std::vector<NumberColumn> written;
+  for (std::size_t c = 0; c < kPieceColumns; ++c)
+    written.push_back(NumberColumn::read(in, kinds.size() * (c < 3 ? 2 : 1)));
+  if (in.failed()) return std::vector<hlr::EdgePiece>{};
+  const auto columns =
+      parallel::transform(context, {.name = "columns of lines", .n = written.size()},
+                          [&](std::size_t c) { return written[c].values(); });
+  if (!columns) return columns.error();
+  const PieceMaker maker(*columns, kinds, states, objects);
+  Result<std::vector<hlr::EdgePiece>> pieces =
+      parallel::slots<hlr::EdgePiece>(kinds.size(), context);
+  if (!pieces) return pieces;
+  std::vector<hlr::EdgePiece>& slot = *pieces;
+  constexpr std::size_t kRun = 16384;
+  const auto unsound = parallel::transform(
+      context, {.name = "lines of columns", .n = (kinds.size() + kRun - 1) / kRun},
+      [&](std::size_t run) -> std::uint8_t {
+        for (std::size_t i = run * kRun; i < std::min(kinds.size(), (run + 1) * kRun); ++i) {
+          if (!maker.is_sound(i)) return 1;
+          slot[i] = maker(i);
+        }
+        return 0;
+      });
+  if (!unsound) return unsound.error();
+  if (std::ranges::count(*unsound, std::uint8_t{1}) > 0) {
+    in.refuse("a line cannot be one of a drawing");
+    return std::vector<hlr::EdgePiece>{};
+  }
+  return pieces;
+}
+
+void write_curves(BlobWriter& out, const hlr::Curves& curves) {
+  std::vector<double> sizes;
+  sizes.reserve(curves.all.size() * 9);
+  for (const hlr::Curve& curve : curves.all)
+    for (const geometry::Vec3d& v : {curve.at.centre, curve.at.u, curve.at.v})
+      for (int k = 0; k < 3; ++k) sizes.push_back(v[k]);
+  out.reals(sizes);
+  for (int axis = 0; axis < 3; ++axis)
+    write_column(out, std::span<const hlr::Curve>(curves.all), 1,
+                 [axis](const hlr::Curve& curve, std::size_t /*k*/) { return curve.origin[axis]; });
+  std::vector<std::uint32_t> edges;
+  edges.reserve(curves.edges.size() * 3);
+  for (const hlr::CurvedEdge& edge : curves.edges) {
+    edges.push_back(model::index(edge.object));
+    edges.push_back(edge.edge);
+    edges.push_back(edge.curve);
+  }
+  out.column(std::span<const std::uint32_t>(edges));
+}
+
+hlr::Curves read_curves(BlobReader& in, std::size_t objects) {
+  const std::vector<double> sizes = in.column<double>();
+  if (sizes.size() % 9 != 0 ||
+      !std::ranges::all_of(sizes, [](double size) { return std::isfinite(size); }))
+    in.refuse("a curve has no size");
+  if (in.failed()) return {};
+  const std::size_t count = sizes.size() / 9;
+  std::array<std::vector<std::int64_t>, 3> origins;
+  for (std::vector<std::int64_t>& column : origins) column = NumberColumn::read(in, count).values();
+  const std::vector<std::uint32_t> edges = in.column<std::uint32_t>();
+  if (edges.size() % 3 != 0) in.refuse("an edge has no curve");
+  if (in.failed()) return {};
+  hlr::Curves curves;
+  for (std::size_t c = 0; c < count; ++c) {
+    const double* const s = sizes.data() + c * 9;
+    curves.all.push_back({{origins[0][c], origins[1][c], origins[2][c]},
+                          {{s[0], s[1], s[2]}, {s[3], s[4], s[5]}, {s[6], s[7], s[8]}}});
+    for (const std::vector<std::int64_t>& column : origins)
+      if (!is_on_grid(column[c])) in.refuse("a curve lies outside what can be placed");
+  }
+  for (std::size_t e = 0; e < edges.size(); e += 3) {
+    if (edges[e] >= objects || edges[e + 2] >= count) in.refuse("an edge has no curve");
+    curves.edges.push_back({model::ObjectId{edges[e]}, edges[e + 1], edges[e + 2]});
+  }
+  const auto key = [](const hlr::CurvedEdge& e) { return std::pair(e.object, e.edge); };
+  if (!std::ranges::is_sorted(curves.edges, {}, key)) in.refuse("curved edges are not in order");
+  return curves;
+}
+
+}  // namespace
+
+void write(BlobWriter& out, const hlr::Drawing& drawing) {
+  out.number(kDrawingForm);
+  write(out, drawing.view);
+  write(out, drawing.options);
+  out.real(drawing.contact_distance_mm);
+  out.real(drawing.weld_mm);
+  out.real(drawing.sag_mm);
+  write(out, drawing.origin);
+  write(out, drawing.counters);
+  write(out, drawing.account);
+  write(out, drawing.diagnostics);
+  out.column(std::span<const std::uint32_t>(drawing.left_out));
+  write_curves(out, drawing.curves);
+  write_pieces(out, drawing.pieces);
+}
+
+Result<hlr::Drawing> read_drawing(BlobReader& in, const parallel::Context& context) {
+  hlr::Drawing drawing;
+  if (in.number() != kDrawingForm)
+    in.refuse("a drawing is of a form that this version cannot read");
+  drawing.view = read_view(in);
+  drawing.options = read_options(in);
+  for (double* const value : {&drawing.contact_distance_mm, &drawing.weld_mm, &drawing.sag_mm}) {
+    *value = in.real();
+    if (!std::isfinite(*value)) in.refuse("a number is not finite");
+  }
+  drawing.origin = read_vector(in);
+  drawing.counters = read_counters(in);
+  drawing.account = read_account(in);
+  drawing.diagnostics = read_diagnostics(in);
+  const std::size_t objects = drawing.account.fates.size();
+  drawing.left_out = in.column<std::uint32_t>();
+  if (!drawing.left_out.empty() && drawing.left_out.size() != objects)
+    in.refuse("columns are not of one length");
+  drawing.curves = read_curves(in, objects);
+  Result<std::vector<hlr::EdgePiece>> pieces = read_pieces(in, objects, context);
+  if (!pieces) return pieces.error();
+  drawing.pieces = std::move(*pieces);
+  return drawing;
+}
+
+namespace {
+
+/// Returns the drawing as bytes, without what tells only how much work it was.
+Result<std::vector<std::byte>> bytes_of_result(const hlr::Drawing& drawing) {
+  BlobWriter out;
+  const hlr::Counters& all = drawing.counters;
+  write(out, hlr::Counters{.feature_edges = all.feature_edges,
+                           .specks = all.specks,
+                           .left_out = all.left_out,
+                           .seams = all.seams,
+                           .uncut_objects = all.uncut_objects});
+  write(out, drawing.view);
+  write(out, drawing.options);
+  for (const double value : {drawing.contact_distance_mm, drawing.weld_mm, drawing.sag_mm})
+    out.real(value);
+  write(out, drawing.origin);
+  write(out, drawing.account);
+  write(out, drawing.diagnostics);
+  out.column(std::span<const std::uint32_t>(drawing.left_out));
+  write_curves(out, drawing.curves);
+  write_pieces(out, drawing.pieces);
+  return out.finish();
+}
+
+}  // namespace
+
+Result<bool> are_equal(const hlr::Drawing& x, const hlr::Drawing& y) {
+  const auto of_x = bytes_of_result(x);
+  if (!of_x) return of_x.error();
+  const auto of_y = bytes_of_result(y);
+  if (!of_y) return of_y.error();
+  return *of_x == *of_y;
+}
+
+}  // namespace strake::project

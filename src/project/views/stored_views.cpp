@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/views/stored_views.hpp"
+
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "project/codec/blob.hpp"
+#include "project/views/drawing_codec.hpp"
+#include "project/views/number_columns.hpp"
+#include "strake/core/version.hpp"
+
+namespace strake::project {
+
+namespace {
+
+using geometry::Box3l;
+
+constexpr std::string_view kListViews =
+    "SELECT v.name, v.settings, v.created, v.changed, d.program, d.drawn, d.objects, d.pieces, "
+    "d.edges, d.edges_solved, d.seconds FROM view v LEFT JOIN drawing d ON d.view = v.id "
+    "ORDER BY v.name";
+
+std::uint64_t count_of(const Statement& row, int column) {
+  return static_cast<std::uint64_t>(row.integer(column));
+}
+
+StoredView view_of(const Statement& row) {
+  StoredView view{std::string(row.text(0)), std::string(row.text(1)), std::string(row.text(2)),
+                  std::string(row.text(3)), std::nullopt};
+  if (row.is_null(4)) return view;
+  view.last = DrawnView{.program = std::string(row.text(4)),
+                        .drawn = std::string(row.text(5)),
+                        .objects = count_of(row, 6),
+                        .pieces = count_of(row, 7),
+                        .edges = count_of(row, 8),
+                        .edges_solved = count_of(row, 9),
+                        .seconds = row.real(10)};
+  return view;
+}
+
+/// The corners of boxes, of which one that is empty has its own.
+void write_boxes(BlobWriter& out, std::span<const Box3l> boxes) {
+  std::vector<std::int64_t> corners;
+  corners.reserve(boxes.size() * 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    corners.clear();
+    for (const Box3l& box : boxes) {
+      corners.push_back(box.lo[axis]);
+      corners.push_back(box.hi[axis]);
+    }
+    write_numbers(out, corners);
+  }
+}
+
+std::vector<Box3l> read_boxes(BlobReader& in, std::size_t count) {
+  std::vector<Box3l> boxes(count);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::vector<std::int64_t> corners = NumberColumn::read(in, count * 2).values();
+    if (in.failed()) return {};
+    for (std::size_t b = 0; b < count; ++b) {
+      boxes[b].lo[axis] = corners[b * 2];
+      boxes[b].hi[axis] = corners[b * 2 + 1];
+    }
+  }
+  return boxes;
+}
+
+Result<StoredDrawing> decode(const Statement& row, int lines, int made_from, std::string_view name,
+                             const parallel::Context& context) {
+  const std::string of_view = " of the view '" + std::string(name) + "'";
+  StoredDrawing stored;
+  Result<BlobReader> state = BlobReader::open(row.bytes(made_from), "the state" + of_view);
+  if (!state) return state.error();
+  stored.made_from = read_snapshot(*state);
+  stored.boxes = read_boxes(*state, stored.made_from.identities.size());
+  Result<BlobReader> in = BlobReader::open(row.bytes(lines), "the drawing" + of_view);
+  if (!in) return in.error();
+  Result<hlr::Drawing> drawing = read_drawing(*in, context);
+  if (!drawing) return drawing.error();
+  stored.drawing = std::move(*drawing);
+  if (stored.drawing.account.fates.size() != stored.boxes.size())
+    state->refuse("it is not of as many objects as the drawing");
+  if (const Status status = state->finish(); !status) return status.error();
+  if (const Status status = in->finish(); !status) return status.error();
+  return stored;
+}
+
+/// A drawing as the bytes of its row.
+struct EncodedDrawing {
+  std::vector<std::byte> lines, made_from;
+};
+
+Result<EncodedDrawing> encode(const ViewToStore& view) {
+  BlobWriter lines, made_from;
+  write(lines, *view.drawing);
+  write(made_from, *view.made_from);
+  write_boxes(made_from, *view.boxes);
+  auto bytes = lines.finish();
+  if (!bytes) return bytes.error();
+  auto state = made_from.finish();
+  if (!state) return state.error();
+  return EncodedDrawing{std::move(*bytes), std::move(*state)};
+}
+
+constexpr std::string_view kSaveSettings =
+    "INSERT INTO view (name, settings, created, changed) VALUES (?1, ?2, "
+    "strftime('%Y-%m-%dT%H:%M:%SZ', 'now'), strftime('%Y-%m-%dT%H:%M:%SZ', 'now')) "
+    "ON CONFLICT (name) DO UPDATE SET settings = excluded.settings, changed = excluded.changed "
+    "WHERE settings <> excluded.settings";
+
+constexpr std::string_view kSaveDrawing =
+    "INSERT OR REPLACE INTO drawing (view, program, drawn, objects, pieces, edges, edges_solved, "
+    "seconds, lines, made_from) SELECT id, ?2, strftime('%Y-%m-%dT%H:%M:%SZ', 'now'), ?3, ?4, ?5, "
+    "?6, ?7, ?8, ?9 FROM view WHERE name = ?1";
+
+Status save_settings(Database& database, const ViewToStore& view) {
+  auto statement = database.prepare(kSaveSettings);
+  if (!statement) return statement.error();
+  return statement->bind(1, view.name).bind(2, *view.settings).run();
+}
+
+Status save_drawing(Database& database, const ViewToStore& view, const EncodedDrawing& encoded) {
+  auto statement = database.prepare(kSaveDrawing);
+  if (!statement) return statement.error();
+  const auto whole = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
+  return statement->bind(1, view.name)
+      .bind(2, version())
+      .bind(3, whole(view.drawing->account.fates.size()))
+      .bind(4, whole(view.drawing->pieces.size()))
+      .bind(5, whole(view.drawing->counters.feature_edges))
+      .bind(6, whole(view.edges_solved))
+      .bind(7, view.seconds)
+      .bind(8, std::span<const std::byte>(encoded.lines))
+      .bind(9, std::span<const std::byte>(encoded.made_from))
+      .run();
+}
+
+}  // namespace
+
+Result<std::vector<StoredView>> list_views(Database& database) {
+  auto statement = database.prepare(kListViews);
+  if (!statement) return statement.error();
+  std::vector<StoredView> views;
+  for (;;) {
+    const Result<bool> there = statement->step();
+    if (!there) return there.error();
+    if (!*there) return views;
+    views.push_back(view_of(*statement));
+  }
+}
+
+Result<StoredView> find_view(Database& database, std::string_view name) {
+  auto views = list_views(database);
+  if (!views) return views.error();
+  std::string names;
+  for (StoredView& view : *views) {
+    if (view.name == name) return std::move(view);
+    names += (names.empty() ? "there are " : ", ") + ("'" + view.name + "'");
+  }
+  return Error{ErrorCode::usage,
+               "the project has no view '" + std::string(name) + "'",
+               {},
+               names.empty() ? "'strake draw -p FILE --save NAME' makes one" : names};
+}
+
+Result<std::optional<StoredDrawing>> load_drawing(Database& database, std::string_view name,
+                                                  const Hash128& whole,
+                                                  const parallel::Context& context) {
+  auto statement = database.prepare(
+      "SELECT d.lines, d.made_from FROM drawing d JOIN view v ON v.id = d.view "
+      "WHERE v.name = ?1 AND d.program = ?2");
+  if (!statement) return statement.error();
+  const Result<bool> there = statement->bind(1, name).bind(2, version()).step();
+  if (!there) return there.error();
+  if (!*there) return std::optional<StoredDrawing>();
+  Result<StoredDrawing> stored = decode(*statement, 0, 1, name, context);
+  if (!stored) return stored.error();
+  if (stored->made_from.whole != whole) return std::optional<StoredDrawing>();
+  return std::optional(std::move(*stored));
+}
+
+Status store_view(Database& database, const ViewToStore& view) {
+  EncodedDrawing encoded;
+  if (view.drawing != nullptr) {
+    auto bytes = encode(view);
+    if (!bytes) return bytes.error();
+    encoded = std::move(*bytes);
+  }
+  Result<Transaction> transaction = Transaction::begin(database);
+  if (!transaction) return transaction.error();
+  if (view.settings)
+    if (Status status = save_settings(database, view); !status) return status;
+  if (view.drawing != nullptr)
+    if (Status status = save_drawing(database, view, encoded); !status) return status;
+  return transaction->commit();
+}
+
+Status check_views(Database& database, const parallel::Context& context) {
+  auto statement = database.prepare(
+      "SELECT d.lines, d.made_from, v.name FROM drawing d JOIN view v ON v.id = d.view "
+      "ORDER BY v.name");
+  if (!statement) return statement.error();
+  for (;;) {
+    const Result<bool> there = statement->step();
+    if (!there) return there.error();
+    if (!*there) return {};
+    const auto drawing = decode(*statement, 0, 1, statement->text(2), context);
+    if (!drawing) return drawing.error();
+  }
+}
+
+}  // namespace strake::project
