@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "project/views/stored_views.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -8,6 +9,7 @@
 #include "project/codec/blob.hpp"
 #include "project/views/drawing_codec.hpp"
 #include "project/views/number_columns.hpp"
+#include "project/views/view_codec.hpp"
 #include "strake/core/version.hpp"
 
 namespace strake::project {
@@ -63,27 +65,36 @@ std::vector<Box3l> read_boxes(BlobReader& in, std::size_t count) {
       boxes[b].hi[axis] = corners[b * 2 + 1];
     }
   }
+  const auto is_placed = [](const Box3l& box) {
+    return box.empty() || (std::ranges::min({box.lo.x, box.lo.y, box.lo.z}) >= -kFarthestGrid &&
+                           std::ranges::max({box.hi.x, box.hi.y, box.hi.z}) <= kFarthestGrid);
+  };
+  if (!std::ranges::all_of(boxes, is_placed)) in.refuse("a box lies outside what can be placed");
   return boxes;
 }
 
-Result<StoredDrawing> decode(const Statement& row, int lines, int made_from, std::string_view name,
-                             const parallel::Context& context) {
+/// Returns nothing where the drawing was solved under another signature than `whole`, if that is
+/// given.
+Result<std::optional<StoredDrawing>> decode(const Statement& row, std::string_view name,
+                                            const std::optional<Hash128>& whole,
+                                            const parallel::Context& context) {
   const std::string of_view = " of the view '" + std::string(name) + "'";
   StoredDrawing stored;
-  Result<BlobReader> state = BlobReader::open(row.bytes(made_from), "the state" + of_view);
+  Result<BlobReader> state = BlobReader::open(row.bytes(1), "the state" + of_view);
   if (!state) return state.error();
   stored.made_from = read_snapshot(*state);
   stored.boxes = read_boxes(*state, stored.made_from.identities.size());
-  Result<BlobReader> in = BlobReader::open(row.bytes(lines), "the drawing" + of_view);
-  if (!in) return in.error();
-  Result<hlr::Drawing> drawing = read_drawing(*in, context);
+  if (const Status status = state->finish(); !status) return status.error();
+  if (whole && *whole != stored.made_from.whole) return std::optional<StoredDrawing>();
+  Result<BlobReader> lines = BlobReader::open(row.bytes(0), "the drawing" + of_view);
+  if (!lines) return lines.error();
+  Result<hlr::Drawing> drawing = read_drawing(*lines, context);
   if (!drawing) return drawing.error();
   stored.drawing = std::move(*drawing);
-  if (stored.drawing.account.fates.size() != stored.boxes.size())
-    state->refuse("it is not of as many objects as the drawing");
-  if (const Status status = state->finish(); !status) return status.error();
-  if (const Status status = in->finish(); !status) return status.error();
-  return stored;
+  if (!lines->failed() && stored.drawing.account.fates.size() != stored.boxes.size())
+    lines->refuse("it is of another number of objects than its state");
+  if (const Status status = lines->finish(); !status) return status.error();
+  return std::optional(std::move(stored));
 }
 
 /// A drawing as the bytes of its row.
@@ -174,10 +185,7 @@ Result<std::optional<StoredDrawing>> load_drawing(Database& database, std::strin
   const Result<bool> there = statement->bind(1, name).bind(2, version()).step();
   if (!there) return there.error();
   if (!*there) return std::optional<StoredDrawing>();
-  Result<StoredDrawing> stored = decode(*statement, 0, 1, name, context);
-  if (!stored) return stored.error();
-  if (stored->made_from.whole != whole) return std::optional<StoredDrawing>();
-  return std::optional(std::move(*stored));
+  return decode(*statement, name, whole, context);
 }
 
 Status store_view(Database& database, const ViewToStore& view) {
@@ -205,7 +213,7 @@ Status check_views(Database& database, const parallel::Context& context) {
     const Result<bool> there = statement->step();
     if (!there) return there.error();
     if (!*there) return {};
-    const auto drawing = decode(*statement, 0, 1, statement->text(2), context);
+    const auto drawing = decode(*statement, statement->text(2), std::nullopt, context);
     if (!drawing) return drawing.error();
   }
 }

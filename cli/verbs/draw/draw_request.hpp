@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cli/options/options.hpp"
+#include "cli/run/load.hpp"
+#include "cli/run/project_input.hpp"
+#include "cli/verbs/draw/draw_options.hpp"
+#include "strake/core/result.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/drawing/ink.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/model/selection.hpp"
+
+/// What `draw` is asked for: as it was written, and parsed.
+namespace strake::cli {
+
+/// --limits that leave far objects out.
+constexpr std::string_view kAutoLimits = "auto";
+
+/// The options of `draw` as they were written.
+struct DrawOptions {
+  InputOptions input;
+  SceneInput scene;
+  PerspectiveOptions perspective;
+  std::string sheet;
+  std::string view, direction, up, limits, scale, paper, title;
+  std::string stage, solver, global, culling, bucketing, hidden, intersections, own_polylines,
+      smooth, flush_seams, sharp_angle, contact_distance;
+  std::vector<std::string> select, outputs, sections, uncut, hatches;
+  bool visible_only = false;
+  ProjectOptions project;
+  std::string save, stored;  ///< names of stored views
+  bool verify = false, full = false;
+};
+
+/// What the options ask for, after parsing.
+struct DrawRequest {
+  model::SceneOptions scene;
+  hlr::View view;
+  hlr::Options options;
+  drawing::LayoutOptions layout;
+  std::vector<model::Selection> selections, uncut;
+  std::vector<HatchRule> hatches;
+  bool sag_for_paper = true;
+  bool far_objects = true;  ///< drawn, and warned of; otherwise left out
+};
+
+/// Parses the options, and says where directions were rounded. Hidden lines are kept where an output
+/// shows them, or `keep_hidden`, unless --visible-only was given. Errors: usage.
+[[nodiscard]] Result<DrawRequest> request_of(const DrawOptions& given, Session& session,
+                                             bool keep_hidden);
+
+/// Parses --scale, --paper and --title. Errors: usage.
+[[nodiscard]] Result<drawing::LayoutOptions> layout_options(const DrawOptions& given);
+
+/// Returns what --hidden asks for.
+[[nodiscard]] drawing::InkOptions ink_options(const DrawOptions& given);
+
+}  // namespace strake::cli

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/verbs/draw/draw_run.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "cli/run/load.hpp"
+#include "cli/run/object_selection.hpp"
+#include "cli/verbs/draw/brute_force_cost.hpp"
+#include "cli/verbs/draw/draw_summary.hpp"
+#include "cli/verbs/draw/far_objects.hpp"
+#include "core/output_format.hpp"
+#include "drawing/drawing_writers.hpp"
+#include "strake/drawing/write.hpp"
+
+namespace strake::cli {
+
+Result<PreparedView> prepare_view(Session& session, const DrawRequest& request,
+                                  const model::Scene& scene) {
+  PreparedView prepared{{}, request.options, request.layout};
+  Result<std::vector<bool>> drawn = pick_any(session, scene, request.selections, "--select");
+  if (!drawn) return drawn.error();
+  prepared.drawn = std::move(*drawn);
+  if (const Status status = mind_far_objects(session, scene, request.view, !request.far_objects,
+                                             prepared.drawn, prepared.layout);
+      !status)
+    return status.error();
+  auto hatches = hatches_of(session, scene, request.hatches);
+  if (!hatches) return hatches.error();
+  prepared.options.hatches = std::move(*hatches);
+  auto uncut = pick_any(session, scene, request.uncut, "--uncut");
+  if (!uncut) return uncut.error();
+  prepared.options.uncut = std::move(*uncut);
+  for (const model::Selection& selection : request.uncut)
+    prepared.layout.uncut_selections.push_back(selection.text());
+  if (!request.sag_for_paper) return prepared;
+  const Result<double> sag = drawing::sag_for_paper(scene, prepared.drawn, request.view,
+                                                    prepared.layout, session.context());
+  if (!sag) return sag.error();
+  prepared.options.sag_mm = *sag;
+  return prepared;
+}
+
+Result<hlr::Drawing> solve(Session& session, const DrawRequest& request,
+                           const PreparedView& prepared, const model::Scene& scene) {
+  if (prepared.options.solver == hlr::Solver::brute_force)
+    if (const Status told = tell_brute_force_cost(session, scene, prepared.drawn, request.view,
+                                                  prepared.options);
+        !told)
+      return told.error();
+  const auto timer = session.step("hidden lines");
+  return hlr::draw(scene, prepared.drawn, request.view, prepared.options, session.context());
+}
+
+Result<drawing::NeutralDrawing> put_on_paper(Session& session, const hlr::Drawing& lines,
+                                             const model::Model& model,
+                                             const drawing::LayoutOptions& layout) {
+  print_diagnostics(session.console(), lines.diagnostics);
+  const auto timer = session.step("layout");
+  return drawing::lay_out(lines, model, layout, session.context());
+}
+
+namespace {
+
+void count_work(Stats& stats, const drawing::NeutralDrawing& drawing) {
+  const hlr::Counters& work = drawing.counters;
+  count_objects(stats, drawing.account, "");
+  stats.count("feature edges", work.feature_edges);
+  stats.count("covered edges", work.covered_edges);
+  stats.count("face tests", work.face_tests);
+  stats.count("exact fall-backs", work.exact_fallbacks);
+  stats.count("intersection pairs", work.crossing_pairs);
+  stats.count("intersection tests", work.crossing_tests);
+  stats.count("specks", work.specks);
+  stats.count("edges with hidden pieces left out", work.left_out);
+  if (drawing.uncut) stats.count("objects uncut", work.uncut_objects);
+  if (!drawing.flush_seams) stats.count("edges with flush seams left out", work.seams);
+  for (std::size_t s = 0; s < drawing::kLineStates; ++s)
+    stats.count(fmt::format("lines {}", drawing::state_name(static_cast<drawing::LineState>(s))),
+                drawing.count[s]);
+}
+
+void print_drawing_summary(Console& console, const drawing::NeutralDrawing& drawing,
+                           const model::Model& model) {
+  const auto of = [&](drawing::LineState state) {
+    return drawing.count[static_cast<std::size_t>(state)];
+  };
+  const std::uint64_t visible = of(drawing::LineState::visible);
+  console.note(object_summary_line(drawing.account, model));
+  console.note(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
+                           drawing.lines.size(), scale_words(drawing), drawing.sheet.width_mm,
+                           drawing.sheet.height_mm));
+  for (const std::string& line : left_alone_lines(drawing)) console.note(line);
+  if (visible > 0) return;
+  console.note(of(drawing::LineState::clipped) > 0
+                   ? "warning empty-sheet: nothing is left to draw inside the limits, the field of "
+                     "view and the sections"
+                   : "warning empty-sheet: the model has nothing to draw");
+}
+
+}  // namespace
+
+void tell_drawing(Session& session, const drawing::NeutralDrawing& drawing,
+                  const model::Model& model) {
+  count_work(session.stats(), drawing);
+  print_drawing_summary(session.console(), drawing, model);
+}
+
+Status write_drawing(Session& session, const DrawOptions& given,
+                     const drawing::NeutralDrawing& drawing, const model::Model& model) {
+  std::vector<drawing::DrawingWriter> writers;
+  for (const std::string& file : given.outputs) {
+    const Result<drawing::DrawingWriter> writer = find_writer(drawing::drawing_writers(), file);
+    if (!writer) return writer.error();
+    writers.push_back(*writer);
+  }
+  drawing::Ink ink;
+  if (std::any_of(writers.begin(), writers.end(),
+                  std::mem_fn(&drawing::DrawingWriter::needs_ink))) {
+    const auto timer = session.step("ink");
+    Result<drawing::Ink> chosen = drawing::choose_ink(drawing, ink_options(given), session.context());
+    if (!chosen) return chosen.error();
+    ink = std::move(*chosen);
+  }
+  for (std::size_t i = 0; i < writers.size(); ++i) {
+    const Status status = session.write(given.outputs[i], [&](Session::Sink sink) {
+      return writers[i].write({drawing, ink, model}, sink, session.context());
+    });
+    if (!status) return status;
+  }
+  if (!session.json()) return {};
+  return session.write_stdout([&](Session::Sink sink) {
+    return drawing::write_view_json(drawing, model, sink, session.context());
+  });
+}
+
+}  // namespace strake::cli
