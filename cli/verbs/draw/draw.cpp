@@ -2,33 +2,21 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "cli/run/load.hpp"
-#include "cli/run/object_selection.hpp"
-#include "cli/verbs/draw/brute_force_cost.hpp"
+#include "cli/run/project_input.hpp"
+#include "cli/verbs/draw/draw_again.hpp"
 #include "cli/verbs/draw/draw_options.hpp"
+#include "cli/verbs/draw/draw_request.hpp"
+#include "cli/verbs/draw/draw_run.hpp"
 #include "cli/verbs/draw/draw_sheet.hpp"
-#include "cli/verbs/draw/draw_summary.hpp"
-#include "cli/verbs/draw/far_objects.hpp"
+#include "cli/verbs/draw/draw_stored.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
-#include "core/units.hpp"
 #include "drawing/drawing_writers.hpp"
-#include "drawing/layout/paper_size.hpp"
-#include "strake/drawing/drawing.hpp"
-#include "strake/drawing/view.hpp"
-#include "strake/drawing/write.hpp"
-#include "strake/geometry/grid.hpp"
-#include "strake/hlr/hlr.hpp"
 
 namespace strake::cli {
 
@@ -43,10 +31,51 @@ std::string suffixes_by_ink(bool needs_ink) {
   return list_suffixes(formats, "and");
 }
 
+Status check_drawing_outputs(Session& session, const DrawOptions& given,
+                             const std::vector<std::string>& inputs) {
+  const bool remembers = !given.save.empty() || !given.stored.empty();
+  if (given.outputs.empty() && !session.json() && !remembers)
+    return Error{ErrorCode::usage, "nowhere to draw to", "-o",
+                 fmt::format("write -o FILE{}, or --json",
+                             formats_of(drawing::drawing_writers()).front().suffix)};
+  return check_outputs(given.outputs, formats_of(drawing::drawing_writers()), inputs);
+}
+
+/// Draws the model files, or a project as if its model came from them.
+Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
+                            const DrawRequest& request) {
+  const Result<Loaded> loaded = [&]() -> Result<Loaded> {
+    if (given.project.file.empty()) return load(session, given.input, request.scene);
+    Result<OpenedProject> opened = open_project(session, given.project, project::Access::read);
+    if (!opened) return opened.error();
+    return load_project(session, *opened, request.scene);
+  }();
+  if (!loaded) return loaded.error();
+  const Result<PreparedView> prepared = prepare_view(session, request, loaded->scene);
+  if (!prepared) return prepared.error();
+  const Result<hlr::Drawing> lines = solve(session, request, *prepared, loaded->scene);
+  if (!lines) return lines.error();
+  const auto drawing = put_on_paper(session, *lines, *loaded->model, prepared->layout);
+  if (!drawing) return drawing.error();
+  tell_drawing(session, *drawing, *loaded->model);
+  if (const Status status = write_drawing(session, given, *drawing, *loaded->model); !status)
+    return status.error();
+  return strict_exit_code(given.input, *loaded);
+}
+
 Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
-  if (given.input.files.empty())
+  if (const Status status = check_project_options(given.project, given.input); !status)
+    return status.error();
+  if (given.input.files.empty() && given.project.file.empty())
     return Error{ErrorCode::usage, "no model file is given", {}, "'strake draw --help' tells more"};
-  const Result<DrawRequest> request = request_of(given, session);
+  std::vector<std::string> inputs = given.input.files;
+  if (!given.project.file.empty()) inputs.push_back(given.project.file);
+  if (given.sheet.empty())
+    if (const Status status = check_drawing_outputs(session, given, inputs); !status)
+      return status.error();
+  if (!given.save.empty() || !given.stored.empty()) return draw_stored(session, given);
+  if (holds_drawing(given.input)) return draw_again(session, given);
+  const Result<DrawRequest> request = request_of(given, session, session.json());
   if (!request) return request.error();
   if (!given.sheet.empty())
     return draw_sheet(
@@ -55,23 +84,7 @@ Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
          given.outputs,
          {.solver = request->options.solver, .sag_for_paper = request->sag_for_paper}},
         given.input, request->scene);
-  if (given.outputs.empty() && !session.json())
-    return Error{ErrorCode::usage, "nowhere to draw to", "-o",
-                 fmt::format("write -o FILE{}, or --json",
-                             formats_of(drawing::drawing_writers()).front().suffix)};
-  if (const Status status =
-          check_outputs(given.outputs, formats_of(drawing::drawing_writers()), given.input.files);
-      !status)
-    return status.error();
-  const Result<Loaded> loaded = load(session, given.input, request->scene);
-  if (!loaded) return loaded.error();
-  const Result<drawing::NeutralDrawing> drawing = compute(session, *request, loaded->scene);
-  if (!drawing) return drawing.error();
-  count_work(session.stats(), *drawing);
-  print_drawing_summary(session.console(), *drawing, *loaded->model);
-  if (const Status status = write_drawing(session, given, *drawing, *loaded->model); !status)
-    return status.error();
-  return strict_exit_code(given.input, *loaded);
+  return draw_model(session, given, *request);
 }
 
 void add_view(CLI::App& command, DrawOptions& options) {
@@ -187,6 +200,39 @@ void add_lines(CLI::App& command, DrawOptions& options) {
       ->group("Lines");
 }
 
+/// Adds -p and what a project remembers of drawings.
+void add_stored(CLI::App& command, DrawOptions& options) {
+  add_project_options(command, options.project);
+  CLI::Option* const project = command.get_option("--project");
+  CLI::Option* const save =
+      command
+          .add_option("--save", options.save,
+                      "Remember these options in the project as a view of this name, and its lines")
+          ->type_name("NAME")
+          ->needs(project)
+          ->group("Stored views");
+  CLI::Option* const stored =
+      command
+          .add_option("--stored", options.stored,
+                      "Draw a view that the project remembers: only what changed since is solved. "
+                      "--hidden, --scale, --paper and --title may be other ones")
+          ->type_name("NAME")
+          ->needs(project)
+          ->excludes(save)
+          ->group("Stored views");
+  command
+      .add_flag("--full", options.full,
+                "Solve all lines of the stored view, whatever is remembered")
+      ->needs(project)
+      ->group("Stored views");
+  command
+      .add_flag("--verify", options.verify,
+                "Solve the stored view both ways, by what changed and in full: exit code 1 where "
+                "they differ")
+      ->needs(stored)
+      ->group("Stored views");
+}
+
 /// Adds --sheet; it excludes the options that a sheet states itself.
 void add_sheet(CLI::App& command, DrawOptions& options) {
   CLI::Option* const sheet =
@@ -201,7 +247,7 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
         "--select",        "--hidden",           "--visible-only", "--stage",
         "--intersections", "--own-polylines",    "--smooth",       "--flush-seams",
         "--sharp-angle",   "--contact-distance", "--scale",        "--paper",
-        "--title"})
+        "--title",         "--project",          "--save",         "--stored"})
     sheet->excludes(other);
 }
 
@@ -254,6 +300,7 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
       ->group("Output");
   command->add_option("--title", options->title, "Title of the sheet")->group("Output");
   add_output_option(*command, options->outputs, "Drawing", formats_of(drawing::drawing_writers()));
+  add_stored(*command, *options);
   add_sheet(*command, *options);
   add_distribution_option(*command, common);
   add_common_options(*command, common);
@@ -266,7 +313,10 @@ Examples:
   strake draw ship.glb --view top --section z=4500mm -o section.svg
   strake draw ship.glb --view top --paper A1 -o plan.svg
   strake draw ship.glb --eye 2000,-9000,6000 --target 9000,0,3000 -o seen.svg
-  strake draw ship.glb --sheet deck.toml -o deck.svg)");
+  strake draw ship.glb --sheet deck.toml -o deck.svg
+  strake draw -p ship.strake --save deck4 --view top --limits 0,0,9m,80m,20m,12m -o deck4.svg
+  strake draw -p ship.strake --stored deck4 --hidden dashed -o deck4.svg -o deck4.json
+  strake draw deck4.json --scale 1:50 --paper A1 -o deck4_A1.svg)");
   return {command, [options](Session& session) { return run_draw(session, *options); }};
 }
 

@@ -190,8 +190,7 @@ drawing::InkOptions ink_options(const DrawOptions& given) {
           .clean_up = given.hidden != "all"};
 }
 
-Result<DrawRequest> request_of(const DrawOptions& given, Session& session,
-                               bool keep_hidden) {
+Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool keep_hidden) {
   const Result<model::SceneOptions> scene = scene_options(given.scene, kSagMm);
   if (!scene) return scene.error();
   const Result<hlr::View> view = view_of(given, session.console());

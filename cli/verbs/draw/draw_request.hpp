@@ -50,8 +50,8 @@ struct DrawRequest {
   bool far_objects = true;  ///< drawn, and warned of; otherwise left out
 };
 
-/// Parses the options, and says where directions were rounded. Hidden lines are kept where an output
-/// shows them, or `keep_hidden`, unless --visible-only was given. Errors: usage.
+/// Parses the options, and says where directions were rounded. Hidden lines are kept where an
+/// output shows them, or `keep_hidden`, unless --visible-only was given. Errors: usage.
 [[nodiscard]] Result<DrawRequest> request_of(const DrawOptions& given, Session& session,
                                              bool keep_hidden);
 

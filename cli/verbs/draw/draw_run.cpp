@@ -50,8 +50,8 @@ Result<PreparedView> prepare_view(Session& session, const DrawRequest& request,
 Result<hlr::Drawing> solve(Session& session, const DrawRequest& request,
                            const PreparedView& prepared, const model::Scene& scene) {
   if (prepared.options.solver == hlr::Solver::brute_force)
-    if (const Status told = tell_brute_force_cost(session, scene, prepared.drawn, request.view,
-                                                  prepared.options);
+    if (const Status told =
+            tell_brute_force_cost(session, scene, prepared.drawn, request.view, prepared.options);
         !told)
       return told.error();
   const auto timer = session.step("hidden lines");
@@ -124,7 +124,8 @@ Status write_drawing(Session& session, const DrawOptions& given,
   if (std::any_of(writers.begin(), writers.end(),
                   std::mem_fn(&drawing::DrawingWriter::needs_ink))) {
     const auto timer = session.step("ink");
-    Result<drawing::Ink> chosen = drawing::choose_ink(drawing, ink_options(given), session.context());
+    Result<drawing::Ink> chosen =
+        drawing::choose_ink(drawing, ink_options(given), session.context());
     if (!chosen) return chosen.error();
     ink = std::move(*chosen);
   }

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/verbs/draw/draw_stored.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cli/run/project_input.hpp"
+#include "cli/verbs/draw/draw_run.hpp"
+#include "cli/verbs/draw/view_settings.hpp"
+#include "project/snapshot/snapshot.hpp"
+#include "project/views/drawing_codec.hpp"
+#include "project/views/object_boxes.hpp"
+#include "project/views/stored_views.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/hlr/incremental.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+/// The view, as it is asked for and as the project has it.
+struct ViewOfProject {
+  std::string name;
+  DrawOptions solved;  ///< whose lines are those of the view
+  DrawOptions shown;   ///< the same on the sheet that this run asks for
+};
+
+/// How the lines of a view came about.
+struct SolvedView {
+  hlr::Drawing drawing;
+  std::uint64_t edges_solved = 0;
+  std::size_t changed = 0;  ///< objects that are new, gone or other than in the drawing before
+  double seconds = 0;
+  std::string_view in_full_because = {};  ///< empty: what is remembered was used
+};
+
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
+  return text;
+}
+
+std::string counted(std::uint64_t number, std::string_view one) {
+  return fmt::format("{} {}{}", grouped(number), one, number == 1 ? "" : "s");
+}
+
+/// The line that tells what was solved and what it took.
+std::string solved_text(const std::string& name, const SolvedView& solved) {
+  const std::size_t objects = solved.drawing.account.fates.size();
+  const std::uint64_t edges = solved.drawing.counters.feature_edges;
+  const std::string view = "view '" + name + "': ";
+  if (!solved.in_full_because.empty())
+    return view + fmt::format("{}: {} of {} solved in {:.2f} s", solved.in_full_because,
+                              counted(edges, "edge"), counted(objects, "object"), solved.seconds);
+  if (solved.changed == 0 && solved.edges_solved == 0)
+    return view + fmt::format("none of {} changed, nothing solved again, {} kept",
+                              counted(objects, "object"), counted(edges, "edge"));
+  return view + fmt::format("{} of {} changed, {} solved again in {:.2f} s, {} kept",
+                            grouped(solved.changed), counted(objects, "object"),
+                            counted(solved.edges_solved, "edge"), solved.seconds,
+                            grouped(edges - std::min(edges, solved.edges_solved)));
+}
+
+Result<ViewOfProject> view_to_draw(const DrawOptions& given, OpenedProject& opened) {
+  if (!given.save.empty()) return ViewOfProject{given.save, given, given};
+  if (const std::string option = first_option_of_lines(given); !option.empty())
+    return Error{ErrorCode::usage, "the view '" + given.stored + "' is drawn as it was saved",
+                 option, "leave it out, or make another view: --save NAME"};
+  const auto stored = project::find_view(opened.project.database(), given.stored);
+  if (!stored) {
+    Error error = stored.error();
+    error.where = opened.file;
+    return error;
+  }
+  Result<DrawOptions> options =
+      parse_settings(stored->settings, opened.file + ": view '" + given.stored + "'");
+  if (!options) return options.error();
+  ViewOfProject view{given.stored, *options, *options};
+  put_on_sheet_of(given, view.shown);
+  view.shown.outputs = given.outputs;
+  return view;
+}
+
+/// Returns what the lines of a view are a function of, and what is remembered is compared with.
+Result<project::Snapshot> snapshot_of(Session& session, const DrawRequest& request,
+                                      const PreparedView& prepared, const model::Scene& scene) {
+  const auto timer = session.step("signatures");
+  auto signatures =
+      hlr::signatures(scene, prepared.drawn, request.view, prepared.options, session.context());
+  if (!signatures) return signatures.error();
+  auto identities = project::identities(*scene.model, session.context());
+  if (!identities) return identities.error();
+  return project::Snapshot{signatures->view, std::move(*identities),
+                           std::move(signatures->objects)};
+}
+
+/// Returns the drawing that is remembered, if any of it may serve. What is damaged serves nobody:
+/// everything is solved then.
+Result<std::optional<project::StoredDrawing>> remembered(Session& session, OpenedProject& opened,
+                                                         const std::string& name,
+                                                         const project::Snapshot& now) {
+  const auto timer = session.step("stored lines");
+  auto stored =
+      project::load_drawing(opened.project.database(), name, now.whole, session.context());
+  if (stored || stored.error().code != ErrorCode::input) return stored;
+  session.console().warn(fmt::format("{}: all lines are solved anew", stored.error().text()));
+  return std::optional<project::StoredDrawing>();
+}
+
+/// Counts the objects of then that are gone or other ones now, and those of now that are new.
+std::size_t count_changed(const std::vector<std::uint32_t>& now_of, std::size_t objects_now) {
+  const auto gone = static_cast<std::size_t>(std::ranges::count(now_of, project::kGone));
+  // An object that changed is gone and new.
+  const std::size_t kept = now_of.size() - gone;
+  return std::max(gone, objects_now - std::min(objects_now, kept));
+}
+
+/// Finds the lines by what changed since they were stored.
+Result<SolvedView> solve_changes(Session& session, const DrawRequest& request,
+                                 const PreparedView& prepared, const model::Scene& scene,
+                                 project::StoredDrawing stored, const project::Snapshot& now) {
+  SolvedView solved;
+  if (stored.made_from == now) {
+    solved.drawing = std::move(stored.drawing);
+    return solved;
+  }
+  const auto now_of = [&] {
+    const auto timer = session.step("match");
+    return project::unchanged(stored.made_from, now, session.context());
+  }();
+  if (!now_of) return now_of.error();
+  solved.changed = count_changed(*now_of, now.identities.size());
+  const auto timer = session.step("hidden lines");
+  const auto begin = std::chrono::steady_clock::now();
+  Result<hlr::Redrawn> redrawn =
+      hlr::draw_changes(scene, prepared.drawn, request.view, prepared.options,
+                        {&stored.drawing, *now_of, stored.boxes}, session.context());
+  if (!redrawn) return redrawn.error();
+  solved.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  solved.drawing = std::move(redrawn->drawing);
+  solved.edges_solved = redrawn->edges_solved;
+  if (redrawn->in_full) solved.in_full_because = redrawn->why;
+  return solved;
+}
+
+Result<SolvedView> solve_in_full(Session& session, const DrawRequest& request,
+                                 const PreparedView& prepared, const model::Scene& scene,
+                                 std::string_view why) {
+  const auto begin = std::chrono::steady_clock::now();
+  Result<hlr::Drawing> drawing = solve(session, request, prepared, scene);
+  if (!drawing) return drawing.error();
+  const std::uint64_t edges = drawing->counters.feature_edges;
+  return SolvedView{
+      .drawing = std::move(*drawing),
+      .edges_solved = edges,
+      .changed = scene.model->objects.size(),
+      .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
+      .in_full_because = why};
+}
+
+/// Stores what a run has found. A view that is only drawn again is drawn even where the project
+/// cannot be written, as on read-only media: the run says so.
+Status remember(Session& session, const DrawOptions& given, const project::ViewToStore& view) {
+  const auto timer = session.step("remember");
+  const Status status = [&]() -> Status {
+    Result<OpenedProject> opened = open_project(session, given.project, project::Access::write);
+    if (!opened) return opened.error();
+    return project::store_view(opened->project.database(), view);
+  }();
+  if (status || !given.save.empty() || status.error().code == ErrorCode::cancelled) return status;
+  session.console().note(fmt::format("the lines of view '{}' are not remembered: {}", view.name,
+                                     status.error().text()));
+  return {};
+}
+
+/// Tells where this run's scale would have had finer curves than the lines have.
+void note_coarse_curves(Session& session, const drawing::NeutralDrawing& drawing,
+                        const hlr::Drawing& lines) {
+  constexpr double kSeenMm = 0.051;  // on paper; a little more than sag_for_paper() allows
+  if (lines.curves.edges.empty() || lines.sag_mm <= kSeenMm * drawing.sheet.scale) return;
+  session.console().note(
+      fmt::format("curves are as fine as the view was saved for, within {:.2g} mm; at {} that may "
+                  "show: --save the view with this scale for finer ones",
+                  lines.sag_mm, drawing.sheet.scale_text));
+}
+
+/// A run for one view whose model is on the grid.
+class StoredRun {
+ public:
+  StoredRun(Session& session, const DrawOptions& given, const ViewOfProject& view,
+            const DrawRequest& request, const Loaded& loaded)
+      : session_(session), given_(given), view_(view), request_(request), loaded_(loaded) {}
+
+  /// Finds the lines, and what they are made from.
+  Status find_lines(OpenedProject& opened) {
+    Result<PreparedView> prepared = prepare_view(session_, request_, loaded_.scene);
+    if (!prepared) return prepared.error();
+    prepared_ = std::move(*prepared);
+    Result<project::Snapshot> now = snapshot_of(session_, request_, prepared_, loaded_.scene);
+    if (!now) return now.error();
+    now_ = std::move(*now);
+    Result<SolvedView> solved = solved_view(opened);
+    if (!solved) return solved.error();
+    solved_ = std::move(*solved);
+    session_.stats().count("objects changed", solved_.changed);
+    session_.stats().count("edges solved", solved_.edges_solved);
+    session_.console().note(solved_text(view_.name, solved_));
+    return given_.verify ? verify() : Status{};
+  }
+
+  Result<drawing::NeutralDrawing> lay_out() {
+    drawing::LayoutOptions layout = prepared_.layout;
+    const Result<drawing::LayoutOptions> shown = layout_options(view_.shown);
+    if (!shown) return shown.error();
+    layout.scale = shown->scale;
+    layout.paper = shown->paper;
+    layout.title = shown->title;
+    Result<drawing::NeutralDrawing> drawing =
+        put_on_paper(session_, solved_.drawing, *loaded_.model, layout);
+    if (!drawing) return drawing;
+    if (request_.sag_for_paper) note_coarse_curves(session_, *drawing, solved_.drawing);
+    return drawing;
+  }
+
+  /// Stores the view as it was asked for, and its lines where they are not those that are stored.
+  Status store() {
+    project::ViewToStore view;
+    view.name = view_.name;
+    const std::string settings = settings_text(given_);
+    if (!given_.save.empty()) view.settings = settings;
+    std::vector<geometry::Box3l> boxes;
+    if (!kept_) {
+      auto of_objects = project::object_boxes(loaded_.scene, session_.context());
+      if (!of_objects) return of_objects.error();
+      boxes = std::move(*of_objects);
+      view.drawing = &solved_.drawing;
+      view.made_from = &now_;
+      view.boxes = &boxes;
+      view.edges_solved = solved_.edges_solved;
+      view.seconds = solved_.seconds;
+    }
+    return view.settings || view.drawing != nullptr ? remember(session_, given_, view) : Status{};
+  }
+
+  [[nodiscard]] bool differs() const { return differs_; }
+
+ private:
+  Result<SolvedView> solved_view(OpenedProject& opened) {
+    if (given_.full)
+      return solve_in_full(session_, request_, prepared_, loaded_.scene, "in full, as asked");
+    auto stored = remembered(session_, opened, view_.name, now_);
+    if (!stored) return stored.error();
+    if (!*stored)
+      return solve_in_full(session_, request_, prepared_, loaded_.scene,
+                           "nothing is remembered of it that holds now");
+    kept_ = (*stored)->made_from == now_;
+    return solve_changes(session_, request_, prepared_, loaded_.scene, std::move(**stored), now_);
+  }
+
+  /// Solves everything, and takes that where it is another drawing.
+  Status verify() {
+    Result<SolvedView> full =
+        solve_in_full(session_, request_, prepared_, loaded_.scene, "in full, to verify");
+    if (!full) return full.error();
+    const Result<bool> equal = [&] {
+      const auto timer = session_.step("compare");
+      return project::are_equal(full->drawing, solved_.drawing);
+    }();
+    if (!equal) return equal.error();
+    if (*equal) {
+      session_.console().note(
+          fmt::format("view '{}': the same lines in full, in {:.2f} s", view_.name, full->seconds));
+      return {};
+    }
+    differs_ = true;
+    kept_ = false;
+    session_.console().warn(
+        fmt::format("view '{}': the lines that were kept are not those of a drawing in full, which "
+                    "is taken instead",
+                    view_.name));
+    solved_ = std::move(*full);
+    return {};
+  }
+
+  Session& session_;
+  const DrawOptions& given_;
+  const ViewOfProject& view_;
+  const DrawRequest& request_;
+  const Loaded& loaded_;
+  PreparedView prepared_;
+  project::Snapshot now_;
+  SolvedView solved_;
+  bool kept_ = false;     ///< the lines are those that are stored
+  bool differs_ = false;  ///< from the drawing in full
+};
+
+}  // namespace
+
+Result<ExitCode> draw_stored(Session& session, const DrawOptions& given) {
+  Result<OpenedProject> opened = open_project(session, given.project, project::Access::read);
+  if (!opened) return opened.error();
+  const Result<ViewOfProject> view = view_to_draw(given, *opened);
+  if (!view) return view.error();
+  const Result<DrawRequest> request = request_of(view->solved, session, true);
+  if (!request) return request.error();
+  const Result<Loaded> loaded = load_project(session, *opened, request->scene);
+  if (!loaded) return loaded.error();
+  StoredRun run(session, given, *view, *request, *loaded);
+  if (const Status status = run.find_lines(*opened); !status) return status.error();
+  const Result<drawing::NeutralDrawing> drawing = run.lay_out();
+  if (!drawing) return drawing.error();
+  tell_drawing(session, *drawing, *loaded->model);
+  if (const Status status = run.store(); !status) return status.error();
+  if (const Status status = write_drawing(session, view->shown, *drawing, *loaded->model); !status)
+    return status.error();
+  return run.differs() ? ExitCode::check_failed : strict_exit_code(given.input, *loaded);
+}
+
+}  // namespace strake::cli
