@@ -170,4 +170,13 @@ struct NeutralDrawing {
                                              const LayoutOptions& options,
                                              const parallel::Context& context);
 
+/// Puts a drawing that is on paper on other paper, at another scale, under another title: of the
+/// options those three count. Its lines stay the same, and so do their places where sheet and scale
+/// do. Otherwise lines and curves lie where lay_out() puts them; only where duplicates cut a line
+/// its place is that of the cut rounded to a micrometre of the model. Errors: usage, where the view
+/// does not fit; input, where its places are not those of its view and scale; cancelled.
+[[nodiscard]] Result<NeutralDrawing> lay_out_again(NeutralDrawing drawing,
+                                                   const LayoutOptions& options,
+                                                   const parallel::Context& context);
+
 }  // namespace strake::drawing

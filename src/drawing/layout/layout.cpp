@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "drawing/layout/duplicates.hpp"
+#include "drawing/layout/placement.hpp"
 #include "drawing/layout/view_plane.hpp"
 #include "drawing/layout/view_title.hpp"
 #include "strake/drawing/drawing.hpp"
@@ -163,44 +164,6 @@ PaperCurves curves_on_paper(const hlr::Curves& curves, const PaperAxes& axes,
   return result;
 }
 
-/// Rounds a coordinate and clamps it to what files can express: clipped lines may lie anywhere,
-/// even behind the eye.
-double paper_coordinate(double mm) {
-  return rounded_paper(std::clamp(mm, -kFarthestPaperMm, kFarthestPaperMm));
-}
-
-/// Places the middle of a box in the middle of the sheet.
-Placement in_the_middle(const PlaneBox& box, const Sheet& sheet, const Vec3l& origin) {
-  return {sheet,
-          origin,
-          {sheet.width_mm / 2 - (box.left + box.width() / 2) / sheet.scale,
-           (sheet.height_mm - kTitleStrip) / 2 + (box.bottom + box.height() / 2) / sheet.scale}};
-}
-
-/// Returns the frame round the lines of a view in perspective: where the field of view ends, or a
-/// little beside the lines that end before; nothing for other views and without lines.
-std::optional<PaperFrame> frame_of(const NeutralDrawing& drawing, const Placement& placement) {
-  const auto field = field_of_view(drawing.view, placement.anchor);
-  if (!field) return std::nullopt;
-  PaperFrame frame{kFarthestPaperMm, kFarthestPaperMm, -kFarthestPaperMm, -kFarthestPaperMm};
-  for (const Line& line : drawing.lines) {
-    if (line.state == LineState::clipped) continue;
-    for (const PaperPoint& end : {line.a_paper, line.b_paper}) {
-      frame.left = std::min(frame.left, end.x - kFrameGapMm);
-      frame.top = std::min(frame.top, end.y - kFrameGapMm);
-      frame.right = std::max(frame.right, end.x + kFrameGapMm);
-      frame.bottom = std::max(frame.bottom, end.y + kFrameGapMm);
-    }
-  }
-  if (frame.left > frame.right) return std::nullopt;
-  const double scale = placement.sheet.scale;
-  const PaperPoint& at = placement.at;
-  return PaperFrame{paper_coordinate(std::max(frame.left, at.x + field->left / scale)),
-                    paper_coordinate(std::max(frame.top, at.y - field->top / scale)),
-                    paper_coordinate(std::min(frame.right, at.x + field->right / scale)),
-                    paper_coordinate(std::min(frame.bottom, at.y - field->bottom / scale))};
-}
-
 /// Makes a line for each piece, or one for each of its intervals if it has any: covered ones are
 /// duplicates.
 template <class MakeLine>
@@ -281,28 +244,18 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   if (!axes)
     return Error{ErrorCode::usage, "the upward direction is parallel to the view direction", "",
                  "give another --up"};
-  if (options.scale && !(*options.scale > 0 && std::isfinite(*options.scale)))
-    return Error{ErrorCode::usage, "the scale is not a positive number", "", "use 1:50, say"};
+  if (const Status status = check_scale(options); !status) return status.error();
   Placement placement;
   if (options.placement) {
     placement = *options.placement;
   } else {
     const Result<PlaneBox> box = plane_extent(drawing, *axes, drawing.origin, context);
     if (!box) return box.error();
-    const Sheet sheet = choose_sheet(*box, options);
-    if (!(std::max(sheet.width_mm, sheet.height_mm) <= kFarthestPaperMm))
-      return Error{ErrorCode::usage, "the sheet would be more than 1,000 km wide", "",
-                   "give a smaller --scale, or let it be chosen"};
-    if (options.paper)
-      if (const Status status = check_fit(*box, sheet, options); !status) return status.error();
-    placement = in_the_middle(*box, sheet, drawing.origin);
+    Result<Placement> chosen = choose_placement(*box, drawing.origin, options);
+    if (!chosen) return chosen.error();
+    placement = std::move(*chosen);
   }
-  const ViewPlane plane(*axes, placement.anchor);
-  const auto on_paper = [&](const Vec3l& grid) {
-    const PlanePoint p = plane(grid);
-    return PaperPoint{paper_coordinate(placement.at.x + p.x / placement.sheet.scale),
-                      paper_coordinate(placement.at.y - p.y / placement.sheet.scale)};
-  };
+  const PaperPlane on_paper(*axes, placement);
   NeutralDrawing out;
   out.sheet = placement.sheet;
   out.view_name = options.view_name;

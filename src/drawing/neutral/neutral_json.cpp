@@ -13,6 +13,7 @@
 
 #include "core/number.hpp"
 #include "drawing/buffered_writer.hpp"
+#include "drawing/layout/view_title.hpp"
 #include "strake/core/version.hpp"
 #include "strake/drawing/write.hpp"
 #include "strake/geometry/grid.hpp"
@@ -86,7 +87,15 @@ void write_view(BufferedWriter& out, const NeutralDrawing& drawing) {
   out << "},\n\"sheet\":{\"width_mm\":" << shortest(drawing.sheet.width_mm)
       << ",\"height_mm\":" << shortest(drawing.sheet.height_mm)
       << ",\"scale\":" << shortest(drawing.sheet.scale) << ",\"scale_text\":\""
-      << drawing.sheet.scale_text << "\"},\n";
+      << drawing.sheet.scale_text << "\"";
+  if (drawing.title != title_of(drawing.view_name, drawing.view))
+    out << ",\"title\":" << json_quoted(drawing.title);
+  if (drawing.frame) {
+    out << ",\"frame_paper_mm\":";
+    const PaperFrame& frame = *drawing.frame;
+    append_numbers(out.text(), {frame.left, frame.top, frame.right, frame.bottom});
+  }
+  out << "},\n";
 }
 
 void write_counts(BufferedWriter& out, const NeutralDrawing& drawing) {
