@@ -66,6 +66,9 @@ Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
 Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
   if (const Status status = check_project_options(given.project, given.input); !status)
     return status.error();
+  if (given.full && given.save.empty() && given.stored.empty())
+    return Error{ErrorCode::usage, "only stored views are solved otherwise than in full", "--full",
+                 "leave it out, or name the view: --stored NAME"};
   if (given.input.files.empty() && given.project.file.empty())
     return Error{ErrorCode::usage, "no model file is given", {}, "'strake draw --help' tells more"};
   std::vector<std::string> inputs = given.input.files;

@@ -88,6 +88,9 @@ Result<ViewOfProject> view_to_draw(const DrawOptions& given, OpenedProject& open
   ViewOfProject view{given.stored, *options, *options};
   put_on_sheet_of(given, view.shown);
   view.shown.outputs = given.outputs;
+  if (view.solved.visible_only && ink_options(view.shown).hidden)
+    return Error{ErrorCode::usage, "the view '" + given.stored + "' has no hidden lines",
+                 "--hidden", "save it again without --visible-only"};
   return view;
 }
 

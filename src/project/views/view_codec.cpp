@@ -6,11 +6,10 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
-#include <string_view>
 #include <utility>
 
+#include "hlr/results/defect_codes.hpp"
 #include "strake/model/model.hpp"
-#include "strake/model/scene.hpp"
 
 namespace strake::project {
 
@@ -175,23 +174,6 @@ hlr::Counters read_counters(BlobReader& in) {
   return counters;
 }
 
-namespace {
-
-/// Codes of defects, which values hold as literals.
-constexpr std::array<std::string_view, 10> kDefectCodes{
-    "only-points",        "no-lines",          "object-skipped",     "object-incomplete",
-    "body-without-shape", "mesh-bad-triangle", "polyline-bad-point", "body-unplaceable",
-    "shape-unplaceable",  model::kVanished};
-
-std::string_view defect_literal(BlobReader& in, const std::string& code) {
-  const auto* const found = std::ranges::find(kDefectCodes, code);
-  if (found != kDefectCodes.end()) return *found;
-  in.refuse("a defect has a code that this version does not know");
-  return {};
-}
-
-}  // namespace
-
 void write(BlobWriter& out, const hlr::Account& account) {
   std::vector<std::uint8_t> fates;
   fates.reserve(account.fates.size());
@@ -229,7 +211,9 @@ hlr::Account read_account(BlobReader& in) {
       return {};
     }
     account.defects.push_back({model::ObjectId{static_cast<std::uint32_t>(object)}, {}});
-    account.defects.back().code = defect_literal(in, in.text());
+    account.defects.back().code = hlr::defect_code(in.text());
+    if (account.defects.back().code.empty())
+      in.refuse("a defect has a code that this version does not know");
   }
   return account;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <streambuf>
@@ -17,6 +18,7 @@
 #include "report/document/document_reader.hpp"
 #include "report/json/json_reader.hpp"
 #include "report/view/view_line_reader.hpp"
+#include "report/view/view_rest.hpp"
 
 namespace strake::report {
 namespace {
@@ -31,12 +33,14 @@ constexpr int kMaxViewDepth = 8;
 /// Reads the text of a document: pieces one by one; the rest is small.
 class ViewDocumentReader {
  public:
-  /// In a binary document the lines follow the text, as rows.
-  ViewDocumentReader(std::istream& text, bool binary, ViewDocument& document)
+  /// In a binary document the lines follow the text, as rows. `rest` takes what a comparison does
+  /// not need; null: nothing does.
+  ViewDocumentReader(std::istream& text, bool binary, ViewDocument& document, ViewRest* rest)
       : json_(text, kMaxViewDepth),
         binary_(binary),
         lines_key_(binary ? "rows" : "pieces"),
-        document_(document) {}
+        document_(document),
+        rest_(rest) {}
 
   void read_text() {
     if (json_.kind() == Kind::object)
@@ -52,12 +56,16 @@ class ViewDocumentReader {
 
   /// Reads the rows that the text announces.
   void read_rows(std::istream& in, Checksum& before) {
-    document_.pieces = report::read_rows(in, *rows_, stated("pieces"), before);
+    report::read_rows(in, *rows_, stated("pieces"), before,
+                      [this](const ReadPiece& piece) { take(piece); });
   }
 
-  void check() const {
+  void check() {
     check_objects();
     check_counts();
+    if (rest_ == nullptr) return;
+    check_curves();
+    rest_->counts = std::move(counted_);
   }
 
  private:
@@ -80,6 +88,12 @@ class ViewDocumentReader {
       objects("far_objects", document_.far_objects);
     else if (key == lines_key_)
       lines();
+    else if (rest_ != nullptr && key == "curves")
+      take_curves(json_, *rest_);
+    else if (rest_ != nullptr && key == "defects")
+      take_defects(json_, *rest_);
+    else if (rest_ != nullptr && key == "files_ending_early")
+      take_cut_files(json_, *rest_);
     else if (key == "pieces" || key == "rows")
       throw DocumentFault{"the document", "has \"" + std::string(key) +
                                               "\" beside or instead of its " + lines_key_};
@@ -115,11 +129,22 @@ class ViewDocumentReader {
     json_.members([&](std::string_view key) {
       const std::string name(key);
       const auto* const at = std::ranges::find(known, name, [](const auto& k) { return k.first; });
-      if (at == known.end()) return json_.skip();
+      if (at == known.end()) return rest_of_sheet(name);
       *at->second = fields_.number("sheet", name);
     });
     for (const auto& [key, value] : known)
       if (!(*value > 0)) throw wrong_type("sheet", key, "positive number");
+  }
+
+  void rest_of_sheet(const std::string& name) {
+    if (rest_ != nullptr && name == "scale_text")
+      rest_->scale_text = fields_.text("sheet", name);
+    else if (rest_ != nullptr && name == "title")
+      rest_->title = fields_.text("sheet", name);
+    else if (rest_ != nullptr && name == "frame_paper_mm")
+      rest_->frame = take_frame(json_);
+    else
+      json_.skip();
   }
 
   void counts() {
@@ -166,8 +191,31 @@ class ViewDocumentReader {
       return;
     }
     fields_.must_be(Kind::array, "the document", "pieces", "list");
-    ViewPieceReader reader(json_, document_.pieces);
+    ViewPieceReader reader(json_, [this](const ReadPiece& piece) { take(piece); });
     json_.items([&] { reader.take(); });
+  }
+
+  void take(const ReadPiece& piece) {
+    ++of_state_.at(static_cast<std::size_t>(piece.state));
+    if (rest_ != nullptr) return rest_->add(piece, name_of(rest_->lines.size()));
+    const auto rounded = [](const std::array<double, 2>& mm) {
+      return std::array<float, 2>{static_cast<float>(mm[0]), static_cast<float>(mm[1])};
+    };
+    document_.pieces.push_back({piece.a, piece.b, rounded(piece.a_paper), rounded(piece.b_paper),
+                                piece.object, piece.other, piece.kind, piece.state});
+  }
+
+  /// Returns what faults call a line.
+  [[nodiscard]] std::string name_of(std::size_t line) const {
+    return (binary_ ? "row " : "piece ") + std::to_string(line);
+  }
+
+  void check_curves() const {
+    for (const hlr::CurvedEdge& edge : rest_->curves.edges)
+      if (edge.curve >= rest_->curves.all.size())
+        throw contradiction("the document", "has a line of curve " + std::to_string(edge.curve) +
+                                                ", but there are " +
+                                                std::to_string(rest_->curves.all.size()));
   }
 
   void check_objects() const {
@@ -176,23 +224,24 @@ class ViewDocumentReader {
       if (!ids.emplace(object.file, object.id).second)
         throw contradiction("object '" + object.id + "' of '" + object.file + "'",
                             "stands there twice");
-    for (std::size_t p = 0; p < document_.pieces.size(); ++p) {
-      const ViewPiece& piece = document_.pieces[p];
-      if (std::max(piece.object, piece.other) >= document_.objects.size())
-        throw contradiction((binary_ ? "row " : "piece ") + std::to_string(p),
-                            "is of object " + std::to_string(std::max(piece.object, piece.other)) +
-                                ", but there are " + std::to_string(document_.objects.size()));
-    }
+    const auto check_object = [this](std::size_t line, std::uint32_t object) {
+      if (object >= document_.objects.size())
+        throw contradiction(name_of(line), "is of object " + std::to_string(object) +
+                                               ", but there are " +
+                                               std::to_string(document_.objects.size()));
+    };
+    for (std::size_t p = 0; p < document_.pieces.size(); ++p)
+      check_object(p, std::max(document_.pieces[p].object, document_.pieces[p].other));
+    if (rest_ == nullptr) return;
+    for (std::size_t l = 0; l < rest_->lines.size(); ++l)
+      check_object(l, model::index(std::max(rest_->lines[l].object, rest_->lines[l].other)));
   }
 
   void check_counts() const {
     std::map<std::string, std::uint64_t> there;
-    std::array<std::uint64_t, drawing::kLineStates> of_state{};
-    for (const ViewPiece& piece : document_.pieces)
-      ++of_state.at(static_cast<std::size_t>(piece.state));
     for (std::size_t s = 0; s < drawing::kLineStates; ++s)
-      there[std::string(drawing::state_name(static_cast<drawing::LineState>(s)))] = of_state.at(s);
-    there["pieces"] = document_.pieces.size();
+      there[std::string(drawing::state_name(static_cast<drawing::LineState>(s)))] = of_state_.at(s);
+    there["pieces"] = std::accumulate(of_state_.begin(), of_state_.end(), std::uint64_t{0});
     for (const auto& [key, count] : there)
       if (stated(key) != count)
         throw contradiction("the document", "counts " + std::to_string(stated(key)) + " of \"" +
@@ -210,6 +259,8 @@ class ViewDocumentReader {
   bool binary_;
   std::string lines_key_;
   ViewDocument& document_;
+  ViewRest* rest_;
+  std::array<std::uint64_t, drawing::kLineStates> of_state_{};
   std::set<std::string, std::less<>> met_;
   std::map<std::string, std::uint64_t> counted_;
   std::optional<RowLayout> rows_;
@@ -240,7 +291,7 @@ class FirstBytes : public std::streambuf {
   std::array<char, 65536> buffer_{};
 };
 
-void read_binary(ViewDocument& document, std::istream& in) {
+void read_binary(ViewDocument& document, ViewRest* rest, std::istream& in) {
   std::array<char, drawing::kViewMagic.size()> magic{};
   in.read(magic.data(), magic.size());
   if (std::string_view(magic.data(), magic.size()) != drawing::kViewMagic)
@@ -253,28 +304,37 @@ void read_binary(ViewDocument& document, std::istream& in) {
   checksum.add({reinterpret_cast<const char*>(&size), sizeof size});
   FirstBytes first(in, size, checksum);
   std::istream text(&first);
-  ViewDocumentReader reader(text, true, document);
+  ViewDocumentReader reader(text, true, document, rest);
   reader.read_text();
   if (first.left() > 0) throw contradiction("the document", "ends before its rows begin");
   reader.read_rows(in, checksum);
   reader.check();
 }
 
-void read_into(ViewDocument& document, std::istream& in) {
-  if (in.peek() == drawing::kViewMagic[0]) return read_binary(document, in);
-  ViewDocumentReader reader(in, false, document);
+void read_into(ViewDocument& document, ViewRest* rest, std::istream& in) {
+  if (in.peek() == drawing::kViewMagic[0]) return read_binary(document, rest, in);
+  ViewDocumentReader reader(in, false, document, rest);
   reader.read_text();
   reader.check();
+}
+
+Result<ViewDocument> parse(std::istream& in, const std::string& name, ViewRest* rest) {
+  ViewDocument document;
+  document.name = name;
+  const Status status = read_guarded(name, kView, [&] { read_into(document, rest, in); });
+  if (!status) return status.error();
+  return document;
 }
 
 }  // namespace
 
 Result<ViewDocument> parse_view_document(std::istream& in, const std::string& name) {
-  ViewDocument document;
-  document.name = name;
-  const Status status = read_guarded(name, kView, [&] { read_into(document, in); });
-  if (!status) return status.error();
-  return document;
+  return parse(in, name, nullptr);
+}
+
+Result<ViewDocument> parse_view_document(std::istream& in, const std::string& name,
+                                         ViewRest& rest) {
+  return parse(in, name, &rest);
 }
 
 Result<ViewDocument> read_view_document(const std::filesystem::path& file) {

@@ -18,36 +18,36 @@ namespace {
 
 using Kind = JsonReader::Kind;
 
-constexpr std::uint32_t kNone = 0xffffffffU;
-
 }  // namespace
 
-std::string ViewPieceReader::here() const {
-  return "pieces[" + std::to_string(pieces_.size()) + "]";
-}
+std::string ViewPieceReader::here() const { return "pieces[" + std::to_string(taken_) + "]"; }
 
 void ViewPieceReader::take() {
   if (json_.kind() != Kind::object) throw DocumentFault{here(), "is no object"};
-  ViewPiece piece;
-  piece.object = piece.other = kNone;
+  ReadPiece piece;
   there_ = {};
   json_.members([&](std::string_view key) { member(key, piece); });
   constexpr std::array<const char*, kMembers> kKeys{
       "object_index", "kind", "state", "a_mm", "b_mm", "a_paper_mm", "b_paper_mm"};
   for (std::size_t i = 0; i < kMembers; ++i)
     if (!there_.at(i)) throw missing_key(here(), kKeys.at(i));
-  if (piece.kind == hlr::EdgeKind::intersection && piece.other == kNone)
+  if (piece.kind == hlr::EdgeKind::intersection && piece.other == ReadPiece::kNone)
     throw missing_key(here(), "other_index");
   if (piece.kind != hlr::EdgeKind::intersection) piece.other = piece.object;
-  pieces_.push_back(piece);
+  sink_(piece);
+  ++taken_;
 }
 
-void ViewPieceReader::member(std::string_view key, ViewPiece& piece) {
+void ViewPieceReader::member(std::string_view key, ReadPiece& piece) {
   if (key == "object_index") {
-    piece.object = index("object_index");
+    piece.object = index("object_index", "number of an object");
     there_[0] = true;
   } else if (key == "other_index") {
-    piece.other = index("other_index");
+    piece.other = index("other_index", "number of an object");
+  } else if (key == "edge") {
+    piece.edge = index("edge", "number of an edge");
+  } else if (key == "curve_index") {
+    piece.curve = index("curve_index", "number of a curve");
   } else if (key == "kind") {
     if (json_.kind() != Kind::string) throw wrong_type(here(), "kind", "text");
     const auto kind = enum_by_name<hlr::EdgeKind>(json_.text(), drawing::kind_name);
@@ -70,10 +70,10 @@ void ViewPieceReader::member(std::string_view key, ViewPiece& piece) {
   }
 }
 
-std::uint32_t ViewPieceReader::index(const char* key) {
+std::uint32_t ViewPieceReader::index(const char* key, const char* what) {
   const double value = json_.kind() == Kind::number ? json_.number() : -1;
-  if (!(value >= 0 && value < kNone) || value != std::floor(value))
-    throw wrong_type(here(), key, "number of an object");
+  if (!(value >= 0 && value < ReadPiece::kNone) || value != std::floor(value))
+    throw wrong_type(here(), key, what);
   return static_cast<std::uint32_t>(value);
 }
 
@@ -86,10 +86,10 @@ geometry::Vec3l ViewPieceReader::model_point(const char* key) {
   return {um(mm[0]), um(mm[1]), um(mm[2])};
 }
 
-std::array<float, 2> ViewPieceReader::paper_point(const char* key) {
+std::array<double, 2> ViewPieceReader::paper_point(const char* key) {
   const auto mm = fields_.numbers<2>([this] { return here(); }, key, drawing::kFarthestPaperMm);
   there_[key[0] == 'a' ? 5 : 6] = true;
-  return {static_cast<float>(mm[0]), static_cast<float>(mm[1])};
+  return mm;
 }
 
 namespace {
@@ -119,7 +119,7 @@ std::vector<Enum> take_names(JsonReader& json, std::string_view key, Name&& name
 }
 
 template <class Int>
-ViewPiece piece_of(const drawing::ViewRow<Int>& row, const RowLayout& form, std::uint64_t number) {
+ReadPiece piece_of(const drawing::ViewRow<Int>& row, const RowLayout& form, std::uint64_t number) {
   const auto wrong = [&](const char* key, const char* what) {
     return wrong_type("row " + std::to_string(number), key, what);
   };
@@ -142,15 +142,17 @@ ViewPiece piece_of(const drawing::ViewRow<Int>& row, const RowLayout& form, std:
   const auto paper = [&](const std::array<Int, 2>& v, const char* key) {
     if (!within(v[0], drawing::kFarthestPaperMm) || !within(v[1], drawing::kFarthestPaperMm))
       throw wrong(key, "point");
-    return std::array<float, 2>{static_cast<float>(static_cast<double>(v[0]) / 1000),
-                                static_cast<float>(static_cast<double>(v[1]) / 1000)};
+    return std::array<double, 2>{static_cast<double>(v[0]) / 1000,
+                                 static_cast<double>(v[1]) / 1000};
   };
-  ViewPiece piece;
+  ReadPiece piece;
   piece.a = model(row.a, "a_um");
   piece.b = model(row.b, "b_um");
   piece.a_paper = paper(row.a_paper, "a_paper_um");
   piece.b_paper = paper(row.b_paper, "b_paper_um");
   piece.object = row.object;
+  piece.edge = row.edge;
+  piece.curve = row.curve;
   piece.kind = form.kinds[row.kind];
   piece.state = form.states[row.state];
   piece.other = piece.kind == hlr::EdgeKind::intersection ? row.other : row.object;
@@ -169,25 +171,23 @@ void check_checksum(std::istream& in, const Checksum& checksum) {
 
 /// Reads a run at a time: a file that claims more rows than it has must not claim memory.
 template <class Int>
-std::vector<ViewPiece> read_all(std::istream& in, const RowLayout& form, std::uint64_t count,
-                                Checksum& checksum) {
+void read_all(std::istream& in, const RowLayout& form, std::uint64_t count, Checksum& checksum,
+              PieceSink sink) {
   constexpr std::uint64_t kRun = 16384;
-  std::vector<ViewPiece> pieces;
+  std::uint64_t taken = 0;
   std::vector<drawing::ViewRow<Int>> rows;
-  while (pieces.size() < count) {
-    rows.resize(std::min<std::uint64_t>(kRun, count - pieces.size()));
+  while (taken < count) {
+    rows.resize(std::min<std::uint64_t>(kRun, count - taken));
     const std::size_t bytes = rows.size() * sizeof rows[0];
     in.read(reinterpret_cast<char*>(rows.data()), static_cast<std::streamsize>(bytes));
     const auto got = static_cast<std::size_t>(in.gcount());
-    if (got < bytes) cut_off(pieces.size() + got / sizeof rows[0], count);
+    if (got < bytes) cut_off(taken + got / sizeof rows[0], count);
     checksum.add({reinterpret_cast<const char*>(rows.data()), bytes});
-    for (const drawing::ViewRow<Int>& row : rows)
-      pieces.push_back(piece_of(row, form, pieces.size()));
+    for (const drawing::ViewRow<Int>& row : rows) sink(piece_of(row, form, taken++));
   }
   if (form.has_checksum) check_checksum(in, checksum);
   if (in.peek() != std::istream::traits_type::eof())
     throw contradiction("the document", "goes on behind its last row");
-  return pieces;
 }
 
 template <class Int>
@@ -237,10 +237,10 @@ RowLayout read_row_layout(JsonReader& json) {
   return form;
 }
 
-std::vector<ViewPiece> read_rows(std::istream& in, const RowLayout& form, std::uint64_t count,
-                                 Checksum& before) {
-  if (is_of<std::int32_t>(form)) return read_all<std::int32_t>(in, form, count, before);
-  if (is_of<std::int64_t>(form)) return read_all<std::int64_t>(in, form, count, before);
+void read_rows(std::istream& in, const RowLayout& form, std::uint64_t count, Checksum& before,
+               PieceSink sink) {
+  if (is_of<std::int32_t>(form)) return read_all<std::int32_t>(in, form, count, before, sink);
+  if (is_of<std::int64_t>(form)) return read_all<std::int64_t>(in, form, count, before, sink);
   throw wrong_type("rows", "fields", "form of rows that this version knows");
 }
 

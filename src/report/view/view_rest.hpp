@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/json/json_reader.hpp"
+#include "report/view/view_line_reader.hpp"
+#include "strake/core/result.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/report/view_document.hpp"
+
+/// What a comparison does not need of a view document, but what is written again does.
+namespace strake::report {
+
+/// An object of which something could not be drawn.
+struct ViewDefect {
+  ViewObject object;
+  std::string fate;
+  std::vector<std::string> why;
+};
+
+struct ViewRest {
+  std::vector<drawing::Line> lines;  ///< objects are indices into ViewDocument::objects
+  drawing::PaperCurves curves;
+  std::vector<ViewDefect> defects;
+  std::vector<std::string> cut_files;           ///< labels of files that end early
+  std::map<std::string, std::uint64_t> counts;  ///< as stated
+  std::string scale_text, title;
+  std::optional<drawing::PaperFrame> frame;
+
+  /// Appends a line, and its curve where it has one. Throws DocumentFault for one that is not in
+  /// order or has no number of an edge; `number` is what the fault names.
+  void add(const ReadPiece& piece, const std::string& where);
+};
+
+/// Reads the members of a document, each of which must come next. They throw DocumentFault and
+/// JsonReader::Fault.
+void take_curves(JsonReader& json, ViewRest& rest);
+void take_defects(JsonReader& json, ViewRest& rest);
+void take_cut_files(JsonReader& json, ViewRest& rest);
+[[nodiscard]] drawing::PaperFrame take_frame(JsonReader& json);
+
+/// Reads a document with all that it holds: its lines are in `rest` instead of
+/// ViewDocument::pieces. Errors: those of parse_view_document().
+[[nodiscard]] Result<ViewDocument> parse_view_document(std::istream& in, const std::string& name,
+                                                       ViewRest& rest);
+
+}  // namespace strake::report
