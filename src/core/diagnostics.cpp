@@ -36,11 +36,6 @@ void Diagnostics::append(const Diagnostics& other) {
       entry(theirs.code, theirs.severity).count += theirs.count - kMaxPerCode;
 }
 
-void Diagnostics::count_more(std::string_view code, std::uint64_t more) {
-  const auto found = std::ranges::find(counts_, code, &Count::code);
-  if (found != counts_.end() && found->count >= kMaxPerCode) found->count += more;
-}
-
 std::uint64_t Diagnostics::count(std::string_view code) const {
   for (const Count& c : counts_)
     if (c.code == code) return c.count;

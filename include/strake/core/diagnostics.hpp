@@ -38,9 +38,6 @@ class Diagnostics {
   void add(Severity severity, std::string_view code, std::string message, std::string where);
   /// Appends the diagnostics of another run, as if they had been added here one by one.
   void append(const Diagnostics& other);
-  /// Counts so many more of a code, of which kMaxPerCode are kept: for diagnostics that were
-  /// written down and are read again.
-  void count_more(std::string_view code, std::uint64_t more);
 
   [[nodiscard]] const std::vector<Diagnostic>& kept() const { return kept_; }
   /// Returns one entry per code, in order of first appearance.
