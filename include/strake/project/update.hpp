@@ -75,10 +75,11 @@ struct Changes {
 
 /// Tells which file of one model is which of the other: by label, then by what is in them
 /// (report::match_files()); what `asked` says, as OLD=NEW, comes first. Errors: usage, for what is
-/// asked.
+/// asked; cancelled.
 [[nodiscard]] Result<report::FileMatches> match_files(const model::Model& then,
                                                       const model::Model& now,
-                                                      std::span<const std::string> asked = {});
+                                                      std::span<const std::string> asked,
+                                                      const parallel::Context& context);
 
 /// Compares two finished models by content, of which hashes of 128 bits are taken: nothing is
 /// rounded.
