@@ -130,29 +130,34 @@ struct Update {
   Revision revision;              ///< id 0: nothing changed, and nothing was stored
 };
 
-/// Adds files. Errors: usage for one that the project has; those of io::read_models() and of
-/// writing.
-[[nodiscard]] Result<Update> add_files(Project& project, std::span<const io::FileToRead> files,
-                                       const RevisionNote& note, const parallel::Context& context);
+/// Adds files; all their objects count as added. Errors: usage for a file that the project has;
+/// those of io::read_models() and of writing. After an error the project is as it was.
+[[nodiscard]] Result<Revision> add_model_files(Project& project,
+                                               std::span<const io::FileToRead> files,
+                                               const RevisionNote& note,
+                                               const parallel::Context& context);
 
 /// Removes files by their labels. Errors: usage for a label that no file has, with those that there
-/// are; those of writing.
-[[nodiscard]] Result<Update> remove_files(Project& project, std::span<const std::string> labels,
-                                          const RevisionNote& note,
-                                          const parallel::Context& context);
+/// are; those of writing. After an error the project is as it was.
+[[nodiscard]] Result<Revision> remove_model_files(Project& project,
+                                                  std::span<const std::string> labels,
+                                                  const RevisionNote& note,
+                                                  const parallel::Context& context);
 
 /// What update() reads.
 struct UpdateRequest {
   /// Files that take the place of those that they match: by path, as `asked`, by name, or by what
-  /// is in them. None: every file of the project, where it lies.
+  /// is in them. What is not said of one is as it was said of the file before. None: every file of
+  /// the project, where it lies.
   std::vector<io::FileToRead> files;
   std::vector<std::string> asked;  ///< OLD=NEW
 };
 
-/// Reads again the files whose bytes changed, stores them in one transaction, and tells what
-/// changed; where the file is read with other options than before, it changed too. Errors: usage
-/// for a file that matches none, or several; input where a file is gone; those of io::read_models()
-/// and of writing. After an error the project is as it was.
+/// Reads again the files whose bytes changed, or that are read with other options or from another
+/// place than before, stores them in one transaction, and tells what changed. Clashes and decisions
+/// of renamed files follow. Errors: usage for a file that matches none, or several; input where a
+/// file is gone; those of io::read_models() and of writing. After an error the project is as it
+/// was.
 [[nodiscard]] Result<Update> update(Project& project, const UpdateRequest& request,
                                     const RevisionNote& note, const parallel::Context& context);
 
