@@ -38,6 +38,8 @@ class Diagnostics {
   void add(Severity severity, std::string_view code, std::string message, std::string where);
   /// Appends the diagnostics of another run, as if they had been added here one by one.
   void append(const Diagnostics& other);
+  /// Takes out all of one code.
+  void remove(std::string_view code);
 
   [[nodiscard]] const std::vector<Diagnostic>& kept() const { return kept_; }
   /// Returns one entry per code, in order of first appearance.
