@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/io/reader.hpp"
 #include "strake/model/model.hpp"
@@ -66,11 +67,12 @@ struct Changes {
   /// By name().file and name().id, as models order their objects; of equal ones what was removed
   /// comes first.
   std::vector<ObjectChange> objects;
-  std::uint64_t unchanged = 0;  ///< objects that are what they were
+  std::array<std::uint64_t, kChangeKinds> counts{};  ///< of objects; one may have several kinds
+  std::uint64_t unchanged = 0;                       ///< objects that are what they were
 
-  /// Returns how many objects have each kind of change; one may have several.
-  [[nodiscard]] std::array<std::uint64_t, kChangeKinds> counts() const;
-  [[nodiscard]] bool none() const { return objects.empty() && files.by_label_alone(); }
+  [[nodiscard]] std::uint64_t count(ChangeKind kind) const {
+    return counts[static_cast<std::size_t>(kind)];
+  }
 };
 
 /// Tells which file of one model is which of the other: by label, then by what is in them
@@ -126,23 +128,26 @@ struct Revision {
 
 struct Update {
   Changes changes;
-  std::vector<std::string> read;  ///< labels of the files that were read again
+  std::vector<std::string> read;  ///< labels of the files that were read
+  Diagnostics noticed;            ///< by reading them
   Revision revision;              ///< id 0: nothing changed, and nothing was stored
 };
 
-/// Adds files; all their objects count as added. Errors: usage for a file that the project has;
-/// those of io::read_models() and of writing. After an error the project is as it was.
-[[nodiscard]] Result<Revision> add_model_files(Project& project,
-                                               std::span<const io::FileToRead> files,
-                                               const RevisionNote& note,
-                                               const parallel::Context& context);
+/// Adds files; all their objects count as added, and are not listed. Errors: usage for a file that
+/// the project has; those of io::read_models() and of writing. After an error the project is as it
+/// was.
+[[nodiscard]] Result<Update> add_model_files(Project& project,
+                                             std::span<const io::FileToRead> files,
+                                             const RevisionNote& note,
+                                             const parallel::Context& context);
 
-/// Removes files by their labels. Errors: usage for a label that no file has, with those that there
-/// are; those of writing. After an error the project is as it was.
-[[nodiscard]] Result<Revision> remove_model_files(Project& project,
-                                                  std::span<const std::string> labels,
-                                                  const RevisionNote& note,
-                                                  const parallel::Context& context);
+/// Removes files by their labels; their objects are counted and not listed. Errors: usage for a
+/// label that no file has, with those that there are; those of writing. After an error the project
+/// is as it was.
+[[nodiscard]] Result<Update> remove_model_files(Project& project,
+                                                std::span<const std::string> labels,
+                                                const RevisionNote& note,
+                                                const parallel::Context& context);
 
 /// What update() reads.
 struct UpdateRequest {

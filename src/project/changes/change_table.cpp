@@ -47,17 +47,18 @@ std::string object_line(const ObjectChange& change, std::size_t width) {
   return report::ended(std::string(kIndent, ' ') + report::fit_to_columns(text, columns));
 }
 
-std::string kind_lines(const Changes& changes, ChangeKind kind, std::uint64_t count,
-                       const ChangesTable& table) {
+std::string kind_lines(const Changes& changes, ChangeKind kind, const ChangesTable& table) {
+  const std::uint64_t count = changes.count(kind);
   if (count == 0) return {};
   std::string text = fmt::format("{}: {}\n", kind_title(kind), counted(count, "object"));
   std::size_t shown = 0;
   for (const ObjectChange& change : changes.objects) {
     if (!change.is(kind)) continue;
-    if (shown++ == table.rows) break;
+    if (shown == table.rows) break;
+    ++shown;
     text += object_line(change, table.width);
   }
-  if (count > table.rows) text += fmt::format("  … and {} more\n", count - table.rows);
+  if (shown > 0 && count > shown) text += fmt::format("  … and {} more\n", count - shown);
   return text;
 }
 
@@ -65,9 +66,8 @@ std::string kind_lines(const Changes& changes, ChangeKind kind, std::uint64_t co
 
 std::string changes_text(const Changes& changes, const ChangesTable& table) {
   std::string text = file_lines(changes);
-  const auto counts = changes.counts();
   for (std::size_t k = 0; k < kChangeKinds; ++k)
-    text += kind_lines(changes, static_cast<ChangeKind>(k), counts[k], table);
+    text += kind_lines(changes, static_cast<ChangeKind>(k), table);
   return text + fmt::format("unchanged: {}\n", counted(changes.unchanged, "object"));
 }
 

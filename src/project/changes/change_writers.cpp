@@ -34,11 +34,10 @@ bool had_another_name(const ObjectChange& change) {
 }
 
 void append_change_counts(std::string& out, const Changes& changes) {
-  const auto counts = changes.counts();
   out += "  \"counts\": {";
   for (std::size_t k = 0; k < kChangeKinds; ++k) {
     report::append_key(out, change_name(static_cast<ChangeKind>(k)));
-    out += std::to_string(counts[k]) + ", ";
+    out += std::to_string(changes.counts[k]) + ", ";
   }
   out += "\"unchanged\": " + std::to_string(changes.unchanged) + "}";
 }

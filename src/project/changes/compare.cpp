@@ -90,18 +90,18 @@ std::vector<ObjectChange> listed_changes(const model::Model& then, const model::
   return changes;
 }
 
+std::array<std::uint64_t, kChangeKinds> counts_of(const std::vector<ObjectChange>& changes) {
+  std::array<std::uint64_t, kChangeKinds> counts{};
+  for (const ObjectChange& change : changes)
+    for (std::size_t k = 0; k < kChangeKinds; ++k)
+      counts[k] += change.is(static_cast<ChangeKind>(k)) ? 1U : 0U;
+  return counts;
+}
+
 }  // namespace
 
 std::string_view change_name(ChangeKind kind) {
   return kChangeNames[static_cast<std::size_t>(kind)];
-}
-
-std::array<std::uint64_t, kChangeKinds> Changes::counts() const {
-  std::array<std::uint64_t, kChangeKinds> counts{};
-  for (const ObjectChange& change : objects)
-    for (std::size_t k = 0; k < kChangeKinds; ++k)
-      counts[k] += change.is(static_cast<ChangeKind>(k)) ? 1U : 0U;
-  return counts;
 }
 
 Result<Changes> compare(const model::Model& then, const model::Model& now,
@@ -125,6 +125,7 @@ Result<Changes> compare(const model::Model& then, const model::Model& now,
   changes.files = std::move(files);
   changes.objects = listed_changes(then, now, pairs, *kinds);
   changes.unchanged = static_cast<std::uint64_t>(std::ranges::count(*kinds, std::uint8_t{0}));
+  changes.counts = counts_of(changes.objects);
   const Status named = parallel::for_each(
       context, {.name = "names of changes", .n = changes.objects.size(), .grain = 256},
       [&](std::size_t c) {

@@ -75,37 +75,48 @@ std::uint64_t count_objects(const std::vector<StoredFile>& files) {
   return count;
 }
 
+report::FileMatch match_of(const std::string& before, const std::string& after) {
+  return {before, after,
+          before == after ? report::FileRelation::same_label : report::FileRelation::renamed};
+}
+
 /// Stores a revision in which whole files came or went.
-Result<Revision> store_whole_files(Project& project, const RevisionNote& note, std::string what,
-                                   const std::vector<StoredFile>& then,
-                                   std::vector<FileEvent> events,
-                                   const std::optional<model::Model>& then_model) {
+Result<Update> store_whole_files(Project& project, const RevisionNote& note, std::string what,
+                                 const std::vector<StoredFile>& then, std::vector<FileEvent> events,
+                                 const std::optional<model::Model>& then_model) {
   const Result<std::vector<StoredFile>> now = project.files();
   if (!now) return now.error();
   const FilesById old_labels = labels_by_id(then), labels = labels_by_id(*now);
-  Revision revision{0, note.when, std::move(what), {}, 0};
+  Update done;
+  Changes& changes = done.changes;
   for (const StoredFile& file : *now) {
-    if (old_labels.contains(file.id)) {
-      revision.unchanged += file.objects;
+    if (const auto before = old_labels.find(file.id); before != old_labels.end()) {
+      changes.unchanged += file.objects;
+      changes.files.matches.push_back(match_of(before->second, file.source.label));
       continue;
     }
-    revision.counts[static_cast<std::size_t>(ChangeKind::added)] += file.objects;
+    changes.counts[static_cast<std::size_t>(ChangeKind::added)] += file.objects;
+    changes.files.only_after.push_back(file.source.label);
     events.push_back({"added", file.source.label, {}});
   }
-  revision.counts[static_cast<std::size_t>(ChangeKind::removed)] =
-      count_objects(then) - revision.unchanged;
+  for (const StoredFile& file : then)
+    if (!labels.contains(file.id)) changes.files.only_before.push_back(file.source.label);
+  changes.counts[static_cast<std::size_t>(ChangeKind::removed)] =
+      count_objects(then) - changes.unchanged;
+  done.read = changes.files.only_after;
+  done.revision = {0, note.when, std::move(what), changes.counts, changes.unchanged};
   const std::vector<RenamedFile> renamed = relabelled(then, *now);
   add_renamed(events, renamed);
   if (Status status = follow(project, then_model, renamed); !status) return status.error();
-  if (Status status = store_revision(project.database(), revision, events, {}); !status)
+  if (Status status = store_revision(project.database(), done.revision, events, changes); !status)
     return status.error();
-  return revision;
+  return done;
 }
 
 }  // namespace
 
-Result<Revision> add_model_files(Project& project, std::span<const io::FileToRead> files,
-                                 const RevisionNote& note, const parallel::Context& context) {
+Result<Update> add_model_files(Project& project, std::span<const io::FileToRead> files,
+                               const RevisionNote& note, const parallel::Context& context) {
   Result<Transaction> transaction = Transaction::begin(project.database());
   if (!transaction) return transaction.error();
   const Result<std::vector<StoredFile>> then = project.files();
@@ -124,10 +135,11 @@ Result<Revision> add_model_files(Project& project, std::span<const io::FileToRea
   const Result<std::optional<model::Model>> model = model_if(namesakes, project, context);
   if (!model) return model.error();
   if (Status status = store_files(project, read, context); !status) return status.error();
-  Result<Revision> revision = store_whole_files(project, note, "add", *then, {}, *model);
-  if (!revision) return revision;
+  Result<Update> done = store_whole_files(project, note, "add", *then, {}, *model);
+  if (!done) return done;
   if (Status status = transaction->commit(); !status) return status.error();
-  return revision;
+  for (const FileToStore& file : read) done->noticed.append(file.model.diagnostics);
+  return done;
 }
 
 namespace {
@@ -155,8 +167,8 @@ Result<std::vector<std::int64_t>> numbers_of(const std::vector<StoredFile>& file
 
 }  // namespace
 
-Result<Revision> remove_model_files(Project& project, std::span<const std::string> labels,
-                                    const RevisionNote& note, const parallel::Context& context) {
+Result<Update> remove_model_files(Project& project, std::span<const std::string> labels,
+                                  const RevisionNote& note, const parallel::Context& context) {
   Result<Transaction> transaction = Transaction::begin(project.database());
   if (!transaction) return transaction.error();
   const Result<std::vector<StoredFile>> then = project.files();
@@ -173,11 +185,11 @@ Result<Revision> remove_model_files(Project& project, std::span<const std::strin
   const Result<std::optional<model::Model>> model = model_if(namesakes, project, context);
   if (!model) return model.error();
   if (Status status = remove_files(project, *numbers, context); !status) return status.error();
-  Result<Revision> revision =
+  Result<Update> done =
       store_whole_files(project, note, "remove", *then, std::move(events), *model);
-  if (!revision) return revision;
+  if (!done) return done;
   if (Status status = transaction->commit(); !status) return status.error();
-  return revision;
+  return done;
 }
 
 namespace {
@@ -203,7 +215,7 @@ report::FileMatches matches_of(const FilePlan& plan, const std::vector<StoredFil
   for (const StoredFile& file : then)
     if (const auto at = kept.find(file.id);
         !old_labels.contains(file.source.label) && at != kept.end())
-      add({file.source.label, at->second});
+      add(match_of(file.source.label, at->second));
   for (const StoredFile& file : then)
     if (!old_labels.contains(file.source.label)) files.only_before.push_back(file.source.label);
   for (const StoredFile& file : now)
@@ -229,7 +241,11 @@ Result<Update> store_update(Project& project, FilePlan plan, const std::vector<S
                             const model::Model& then_model, const RevisionNote& note,
                             const parallel::Context& context) {
   std::vector<std::filesystem::path> read;
-  for (const FileToStore& file : plan.read) read.push_back(file.path);
+  Diagnostics noticed;
+  for (const FileToStore& file : plan.read) {
+    read.push_back(file.path);
+    noticed.append(file.model.diagnostics);
+  }
   if (Status status = store_files(project, plan.read, context); !status) return status.error();
   plan.read.clear();
   if (!plan.merged.empty())
@@ -240,7 +256,7 @@ Result<Update> store_update(Project& project, FilePlan plan, const std::vector<S
   if (!now_model) return now_model.error();
   Result<Changes> changes = compare(then_model, *now_model, matches_of(plan, then, *now), context);
   if (!changes) return changes.error();
-  Update done{std::move(*changes), {}, {}};
+  Update done{std::move(*changes), {}, std::move(noticed), {}};
   std::vector<FileEvent> events;
   for (const std::filesystem::path& path : read) {
     const StoredFile* const file = find_file(*now, path);
@@ -257,7 +273,7 @@ Result<Update> store_update(Project& project, FilePlan plan, const std::vector<S
   if (!renamed.empty())
     if (Status status = rename_files(project.database(), then_model, renamed); !status)
       return status.error();
-  done.revision = {0, note.when, "update", done.changes.counts(), done.changes.unchanged};
+  done.revision = {0, note.when, "update", done.changes.counts, done.changes.unchanged};
   if (Status status = store_revision(project.database(), done.revision, events, done.changes);
       !status)
     return status.error();
@@ -268,7 +284,7 @@ Result<Update> store_update(Project& project, FilePlan plan, const std::vector<S
 Update nothing_changed(const std::vector<StoredFile>& files) {
   Update done;
   for (const StoredFile& file : files)
-    done.changes.files.matches.push_back({file.source.label, file.source.label});
+    done.changes.files.matches.push_back(match_of(file.source.label, file.source.label));
   done.changes.unchanged = count_objects(files);
   return done;
 }
