@@ -16,6 +16,8 @@ struct ProjectOptions {
 
 /// Adds --wait alone, for verbs whose project is an argument.
 void add_wait_option(CLI::App& command, std::string& wait);
+/// Parses --wait as seconds; none is 0.
+[[nodiscard]] Result<double> wait_seconds(const std::string& wait);
 /// Adds -p,--project FILE, in place of model files, and --wait.
 void add_project_options(CLI::App& command, ProjectOptions& options);
 
@@ -35,8 +37,12 @@ struct OpenedProject {
 [[nodiscard]] Result<OpenedProject> open_project(Session& session, const ProjectOptions& options,
                                                  project::Access access);
 
+/// Takes the model out of a project. Errors: input for a project without files; those of
+/// project::Project::model().
+[[nodiscard]] Result<model::Model> project_model(Session& session, project::Project& project);
+
 /// Takes the model out of the project, puts it on the grid, and prints what was noticed, as load()
-/// does for files. Errors: input for a project without files; those of project::Project::model().
+/// does for files. Errors: those of project_model().
 [[nodiscard]] Result<Loaded> load_project(Session& session, OpenedProject& opened,
                                           const model::SceneOptions& options);
 
