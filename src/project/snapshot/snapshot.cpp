@@ -89,7 +89,7 @@ Result<std::vector<std::uint32_t>> unchanged(const Snapshot& then, const Snapsho
                                              const parallel::Context& context) {
   if (then.identities.size() != then.signatures.size() ||
       now.identities.size() != now.signatures.size())
-    return Error{ErrorCode::internal, "a snapshot has not as many signatures as objects"};
+    return Error{ErrorCode::internal, "a snapshot has not as many signatures as objects", {}, {}};
   Result<std::vector<IdentityLots>> lots = parallel::transform(
       context, {.name = "identities by lots", .n = 2},
       [&](std::size_t side) { return IdentityLots(side == 0 ? then.identities : now.identities); });
