@@ -2,6 +2,7 @@
 #include "strake/core/diagnostics.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace strake {
@@ -34,6 +35,23 @@ void Diagnostics::append(const Diagnostics& other) {
   for (const Count& theirs : other.counts_)
     if (theirs.count > kMaxPerCode)
       entry(theirs.code, theirs.severity).count += theirs.count - kMaxPerCode;
+}
+
+std::optional<Diagnostics> Diagnostics::restored(std::vector<Diagnostic> kept,
+                                                 std::vector<Count> counts) {
+  std::map<std::string_view, std::uint64_t> left;
+  for (const Count& c : counts)
+    if (!left.emplace(c.code, std::min<std::uint64_t>(c.count, kMaxPerCode)).second)
+      return std::nullopt;
+  for (const Diagnostic& d : kept) {
+    const auto at = left.find(d.code);
+    if (at == left.end() || at->second == 0) return std::nullopt;
+    --at->second;
+  }
+  Diagnostics all;
+  all.kept_ = std::move(kept);
+  all.counts_ = std::move(counts);
+  return all;
 }
 
 std::uint64_t Diagnostics::count(std::string_view code) const {

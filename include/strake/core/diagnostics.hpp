@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,11 @@ class Diagnostics {
   void add(Severity severity, std::string_view code, std::string message, std::string where);
   /// Appends the diagnostics of another run, as if they had been added here one by one.
   void append(const Diagnostics& other);
+
+  /// Returns diagnostics that were stored, from kept() and counts(); nothing where these cannot be
+  /// of one run: a code that is counted twice or not at all, or kept more often than it is counted.
+  [[nodiscard]] static std::optional<Diagnostics> restored(std::vector<Diagnostic> kept,
+                                                           std::vector<Count> counts);
 
   [[nodiscard]] const std::vector<Diagnostic>& kept() const { return kept_; }
   /// Returns one entry per code, in order of first appearance.
