@@ -34,10 +34,13 @@ class BlobWriter {
   }
   void reals(std::span<const double> values);
   void reals(std::span<const float> values);
+  /// Appends numbers that are much alike, so that they compress well: BlobReader::planes() has
+  /// them.
+  void planes(std::span<const double> values);
   void flags(const std::vector<bool>& values);
   void texts(std::span<const std::string> values);
 
-  /// Returns the compressed bytes, by so many workers of zstd at most.
+  /// Returns the head and the compressed bytes; `level` is that of zstd. Errors: memory.
   [[nodiscard]] Result<std::vector<std::byte>> finish(int level = 1);
 
  private:
@@ -66,6 +69,7 @@ class BlobReader {
     copy(std::as_writable_bytes(std::span(values)));
     return values;
   }
+  [[nodiscard]] std::vector<double> planes();
   [[nodiscard]] std::vector<bool> flags();
   [[nodiscard]] std::vector<std::string> texts();
   /// Reports a value that cannot be, found by who knows its meaning.
