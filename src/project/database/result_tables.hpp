@@ -24,7 +24,8 @@ CREATE TABLE test (
   run INTEGER NOT NULL REFERENCES run(id),  -- the last one
   objects INTEGER NOT NULL,         -- of the model then
   snapshot BLOB NOT NULL,           -- what the report was computed from
-  report BLOB NOT NULL              -- all of it but pairs and regions
+  report BLOB NOT NULL,             -- all of it but pairs and regions
+  kept BLOB NOT NULL                -- what the next run needs besides (clash::KeptForChanges)
 ) STRICT;
 
 CREATE TABLE report_part (          -- pairs and regions of a range of objects
