@@ -24,6 +24,16 @@ struct RememberedReport {
   std::vector<std::int64_t> rows;
 };
 
+/// The same of a report that is somewhere else.
+struct ReportRows {
+  const clash::Report& report;
+  std::span<const std::int64_t> rows;
+
+  ReportRows(const clash::Report& of, std::span<const std::int64_t> its) : report(of), rows(its) {}
+  ReportRows(const RememberedReport& all)  // NOLINT(google-explicit-constructor): it is a view
+      : report(all.report), rows(all.rows) {}
+};
+
 /// The pairs of one part, and their regions, as ranges of a report.
 struct PartRange {
   std::size_t first_pair = 0, last_pair = 0, first_region = 0, last_region = 0;
@@ -33,12 +43,12 @@ struct PartRange {
 [[nodiscard]] std::vector<PartRange> parts_of(const clash::Report& report, std::size_t objects);
 
 /// Whether a part of one report is the same as one of another, with the same rows.
-[[nodiscard]] bool is_same_part(const RememberedReport& x, const PartRange& of_x,
-                                const RememberedReport& y, const PartRange& of_y);
+[[nodiscard]] bool is_same_part(const ReportRows& x, const PartRange& of_x, const ReportRows& y,
+                                const PartRange& of_y);
 
 /// Encode a report without its pairs, its regions and its log, and one part of these.
 [[nodiscard]] Result<std::vector<std::byte>> encode_head(const clash::Report& report);
-[[nodiscard]] Result<std::vector<std::byte>> encode_part(const RememberedReport& report,
+[[nodiscard]] Result<std::vector<std::byte>> encode_part(const ReportRows& report,
                                                          const PartRange& range);
 
 /// A report as it is stored; the bytes must outlast decode_report().

@@ -44,7 +44,7 @@ void write_points(BlobWriter& out, std::span<const Pair> pairs) {
       write_column(out, pairs, [&](const Pair& p) { return (p.*member)[axis]; });
 }
 
-void write_pairs(BlobWriter& out, const RememberedReport& all, const PartRange& range) {
+void write_pairs(BlobWriter& out, const ReportRows& all, const PartRange& range) {
   const std::span<const Pair> pairs(all.report.pairs.data() + range.first_pair,
                                     range.last_pair - range.first_pair);
   const auto put = [&](const auto& value) { write_column(out, pairs, value); };
@@ -70,7 +70,7 @@ void write_pairs(BlobWriter& out, const RememberedReport& all, const PartRange& 
   put([](const Pair& p) { return p.depth_complete; });
   put([](const Pair& p) { return p.volume_mm3.has_value(); });
   put([](const Pair& p) { return p.volume_mm3.value_or(0); });
-  out.column(std::span<const std::int64_t>(all.rows.data() + range.first_pair, pairs.size()));
+  out.column(all.rows.subspan(range.first_pair, pairs.size()));
 }
 
 void write_regions(BlobWriter& out, std::span<const Region> regions) {
@@ -230,7 +230,7 @@ std::vector<PartRange> parts_of(const clash::Report& report, std::size_t objects
   return parts;
 }
 
-bool is_same_part(const RememberedReport& x, const PartRange& of_x, const RememberedReport& y,
+bool is_same_part(const ReportRows& x, const PartRange& of_x, const ReportRows& y,
                   const PartRange& of_y) {
   const std::size_t pairs = of_x.last_pair - of_x.first_pair,
                     regions = of_x.last_region - of_x.first_region;
@@ -252,7 +252,7 @@ bool is_same_part(const RememberedReport& x, const PartRange& of_x, const Rememb
   return true;
 }
 
-Result<std::vector<std::byte>> encode_part(const RememberedReport& report, const PartRange& range) {
+Result<std::vector<std::byte>> encode_part(const ReportRows& report, const PartRange& range) {
   BlobWriter out;
   write_pairs(out, report, range);
   write_regions(out, {report.report.regions.data() + range.first_region,
