@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "clash/rules/options.hpp"
 #include "clash/rules/shadowed_rules.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/collect.hpp"
@@ -55,9 +56,12 @@ Status check(const Policy& policy, std::size_t objects) {
   };
   bool good = true;
   for (const Exemption& e : policy.exemptions) {
-    if (const auto* const same = std::get_if<SameLabel>(&e.test)) good &= fits(same->label);
+    if (const auto* const same = std::get_if<SameLabel>(&e.test))
+      good &= fits(same->label) && are_named(same->label, same->names);
     if (const auto* const linked = std::get_if<Linked>(&e.test))
-      good &= listed(linked->answers_to) && listed(linked->refers_to);
+      good &= listed(linked->answers_to) && listed(linked->refers_to) &&
+              are_named(linked->answers_to.numbers, linked->names) &&
+              are_named(linked->refers_to.numbers, linked->names);
     if (const auto* const between = std::get_if<Between>(&e.test))
       good &= fits(between->a, between->b);
   }
