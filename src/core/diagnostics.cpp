@@ -2,7 +2,6 @@
 #include "strake/core/diagnostics.hpp"
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 namespace strake {
@@ -37,21 +36,9 @@ void Diagnostics::append(const Diagnostics& other) {
       entry(theirs.code, theirs.severity).count += theirs.count - kMaxPerCode;
 }
 
-std::optional<Diagnostics> Diagnostics::restored(std::vector<Diagnostic> kept,
-                                                 std::vector<Count> counts) {
-  std::map<std::string_view, std::uint64_t> left;
-  for (const Count& c : counts)
-    if (!left.emplace(c.code, std::min<std::uint64_t>(c.count, kMaxPerCode)).second)
-      return std::nullopt;
-  for (const Diagnostic& d : kept) {
-    const auto at = left.find(d.code);
-    if (at == left.end() || at->second == 0) return std::nullopt;
-    --at->second;
-  }
-  Diagnostics all;
-  all.kept_ = std::move(kept);
-  all.counts_ = std::move(counts);
-  return all;
+void Diagnostics::count_more(std::string_view code, std::uint64_t more) {
+  for (Count& c : counts_)
+    if (c.code == code && c.count >= kMaxPerCode) c.count += more;
 }
 
 std::uint64_t Diagnostics::count(std::string_view code) const {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,11 +38,8 @@ class Diagnostics {
   void add(Severity severity, std::string_view code, std::string message, std::string where);
   /// Appends the diagnostics of another run, as if they had been added here one by one.
   void append(const Diagnostics& other);
-
-  /// Returns diagnostics that were stored, from kept() and counts(); nothing where these cannot be
-  /// of one run: a code that is counted twice or not at all, or kept more often than it is counted.
-  [[nodiscard]] static std::optional<Diagnostics> restored(std::vector<Diagnostic> kept,
-                                                           std::vector<Count> counts);
+  /// Counts more of a code of which as many as may be are kept word for word; of others, none.
+  void count_more(std::string_view code, std::uint64_t more);
 
   [[nodiscard]] const std::vector<Diagnostic>& kept() const { return kept_; }
   /// Returns one entry per code, in order of first appearance.

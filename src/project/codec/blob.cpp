@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstring>
 #include <new>
+#include <optional>
 #include <utility>
 
 namespace strake::project {
@@ -41,6 +42,20 @@ constexpr std::uint64_t most_raw(std::uint64_t stored) {
 template <class T>
 std::span<const std::byte> bytes_of(const T& value) {
   return std::as_bytes(std::span(&value, 1));
+}
+
+/// Returns the head of a blob; nothing where it, or what it says of the rest, cannot be.
+std::optional<BlobHead> head_of(std::span<const std::byte> blob) {
+  BlobHead head;
+  if (blob.size() < sizeof head) return std::nullopt;
+  std::memcpy(&head, blob.data(), sizeof head);
+  const std::span<const std::byte> packed = blob.subspan(sizeof head);
+  const bool stored = head.packing == Packing::none && head.raw_size == packed.size();
+  const bool compressed = head.packing == Packing::zstd &&
+                          head.raw_size <= most_raw(packed.size()) &&
+                          head.raw_size == ZSTD_getFrameContentSize(packed.data(), packed.size());
+  if (head.magic != kMagic || (!stored && !compressed)) return std::nullopt;
+  return head;
 }
 
 /// Puts all first bytes before all second ones, and so on: neighbours are alike in their high
@@ -90,10 +105,18 @@ void BlobWriter::reals(std::span<const float> values) {
 
 void BlobWriter::planes(std::span<const double> values) {
   number(values.size());
+  raw_planes(std::as_bytes(values), sizeof(double));
+}
+
+void BlobWriter::planes(std::span<const std::uint32_t> values) {
+  number(values.size());
+  raw_planes(std::as_bytes(values), sizeof(std::uint32_t));
+}
+
+void BlobWriter::raw_planes(std::span<const std::byte> values, std::size_t width) {
   const std::size_t at = bytes_.size();
-  bytes_.resize(at + values.size_bytes());
-  to_planes(std::as_bytes(values), std::as_writable_bytes(std::span(bytes_).subspan(at)),
-            sizeof(double));
+  bytes_.resize(at + values.size());
+  to_planes(values, std::as_writable_bytes(std::span(bytes_).subspan(at)), width);
 }
 
 void BlobWriter::flags(const std::vector<bool>& values) {
@@ -139,26 +162,23 @@ Result<std::vector<std::byte>> BlobWriter::finish(int level) {
   }
 }
 
+std::uint64_t BlobReader::raw_size(std::span<const std::byte> blob) {
+  const auto head = head_of(blob);
+  return head ? head->raw_size : 0;
+}
+
 Result<BlobReader> BlobReader::open(std::span<const std::byte> blob, std::string what) {
   BlobReader reader;
   reader.what_ = std::move(what);
-  BlobHead head;
-  if (blob.size() < sizeof head) {
-    reader.refuse("it is too short");
-    return reader.finish().error();
-  }
-  std::memcpy(&head, blob.data(), sizeof head);
-  const std::span<const std::byte> packed = blob.subspan(sizeof head);
-  const bool stored = head.packing == Packing::none && head.raw_size == packed.size();
-  const bool compressed = head.packing == Packing::zstd &&
-                          head.raw_size <= most_raw(packed.size()) &&
-                          head.raw_size == ZSTD_getFrameContentSize(packed.data(), packed.size());
-  if (head.magic != kMagic || (!stored && !compressed)) {
+  const auto found = head_of(blob);
+  if (!found) {
     reader.refuse("it does not begin as it should");
     return reader.finish().error();
   }
+  const BlobHead& head = *found;
+  const std::span<const std::byte> packed = blob.subspan(sizeof head);
   try {
-    if (stored) {
+    if (head.packing == Packing::none) {
       reader.bytes_.assign(packed.begin(), packed.end());
     } else {
       reader.bytes_.resize(head.raw_size);
@@ -214,12 +234,10 @@ Hash128 BlobReader::hash() {
   return value;
 }
 
-std::vector<double> BlobReader::planes() {
-  std::vector<double> values(count(sizeof(double)));
-  from_planes(std::span(bytes_).subspan(at_, values.size() * sizeof(double)),
-              std::as_writable_bytes(std::span(values)), sizeof(double));
-  at_ += values.size() * sizeof(double);
-  return values;
+void BlobReader::copy_planes(std::span<std::byte> into, std::size_t width) {
+  // count() has seen to it that they are there.
+  from_planes(std::span(bytes_).subspan(at_, into.size()), into, width);
+  at_ += into.size();
 }
 
 std::vector<bool> BlobReader::flags() {

@@ -42,7 +42,7 @@ CREATE TABLE file_block (           -- 32768 of one kind, the last block fewer
 
 CREATE TABLE shape_pack (           -- meshes and polylines, each once for all files
   id INTEGER PRIMARY KEY,
-  shapes INTEGER NOT NULL,          -- that are in use
+  shapes INTEGER NOT NULL,          -- that it holds
   hashes BLOB NOT NULL,             -- 16 bytes a shape; zeros where it is no longer in use
   data BLOB NOT NULL
 ) STRICT;

@@ -308,18 +308,31 @@ class Head {
     requires(!Io::kReads)
   {
     io_.list(report_.diagnostics.kept(), [&](const Diagnostic& d) { diagnostic(d); });
-    io_.list(report_.diagnostics.counts(), [&](const Diagnostics::Count& c) { count(c); });
+    std::vector<KeptCount> more;
+    for (const Diagnostics::Count& c : report_.diagnostics.counts())
+      if (c.count > Diagnostics::kMaxPerCode)
+        more.push_back({c.code, c.count - Diagnostics::kMaxPerCode});
+    io_.list(std::as_const(more), [&](const KeptCount& c) { kept_count(c); });
   }
   void diagnostics()
     requires(Io::kReads)
   {
     std::vector<Diagnostic> kept;
-    std::vector<Diagnostics::Count> counts;
+    std::vector<KeptCount> more;
     io_.list(kept, [&](Diagnostic& d) { diagnostic(d); });
-    io_.list(counts, [&](Diagnostics::Count& c) { count(c); });
-    auto restored = Diagnostics::restored(std::move(kept), std::move(counts));
-    io_.refuse_unless(restored.has_value(), "its diagnostics do not add up");
-    if (restored) report_.diagnostics = std::move(*restored);
+    io_.list(more, [&](KeptCount& c) { kept_count(c); });
+    for (Diagnostic& d : kept) report_.diagnostics.add(std::move(d));
+    for (const KeptCount& c : more) report_.diagnostics.count_more(c.code, c.more);
+  }
+  /// Diagnostics that are only counted.
+  struct KeptCount {
+    std::string code;
+    std::uint64_t more = 0;
+  };
+  template <class U>
+  void kept_count(U& c) {
+    io_.text(c.code);
+    io_.number(c.more);
   }
   template <class D>
   void diagnostic(D& d) {
@@ -327,12 +340,6 @@ class Head {
     io_.text(d.code);
     io_.text(d.message);
     io_.text(d.where);
-  }
-  template <class C>
-  void count(C& c) {
-    io_.text(c.code);
-    io_.word(c.severity, Severity::skipped);
-    io_.number(c.count);
   }
 
   Io& io_;

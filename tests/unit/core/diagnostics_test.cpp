@@ -40,24 +40,6 @@ TEST(Diagnostics, append_is_adding_one_by_one) {
     }
 }
 
-TEST(Diagnostics, are_restored_as_they_were_kept_and_counted) {
-  Diagnostics all;
-  for (int i = 0; i < 130; ++i) all.add(Severity::note, "many", std::to_string(i), "here");
-  all.add(Severity::skipped, "one", "x", "there");
-  const auto again = Diagnostics::restored(all.kept(), all.counts());
-  ASSERT_TRUE(again);
-  EXPECT_EQ(again->count("many"), 130U);
-  EXPECT_EQ(again->skipped(), 1U);
-  EXPECT_EQ(again->kept().size(), 101U);
-  EXPECT_FALSE(Diagnostics::restored(all.kept(), {})) << "kept, but not counted";
-  std::vector<Diagnostics::Count> twice = all.counts();
-  twice.push_back(twice.front());
-  EXPECT_FALSE(Diagnostics::restored(all.kept(), twice));
-  std::vector<Diagnostics::Count> fewer = all.counts();
-  fewer.front().count = 7;
-  EXPECT_FALSE(Diagnostics::restored(all.kept(), fewer));
-}
-
 TEST(Error, names_place_fault_and_mend) {
   const Error whole{ErrorCode::input, "is empty", "ship.glb", "export it again"};
   EXPECT_EQ(whole.text(), "ship.glb: is empty (export it again)");
