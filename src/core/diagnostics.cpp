@@ -41,6 +41,11 @@ void Diagnostics::count_more(std::string_view code, std::uint64_t more) {
     if (c.code == code && c.count >= kMaxPerCode) c.count += more;
 }
 
+void Diagnostics::remove(std::string_view code) {
+  std::erase_if(kept_, [&](const Diagnostic& d) { return d.code == code; });
+  std::erase_if(counts_, [&](const Count& c) { return c.code == code; });
+}
+
 std::uint64_t Diagnostics::count(std::string_view code) const {
   for (const Count& c : counts_)
     if (c.code == code) return c.count;

@@ -47,6 +47,8 @@ bool sort_objects(const Model& model, BodyOrder& order) {
   return distinct;
 }
 
+constexpr std::string_view kPositionalIds = "object-id-positional";
+
 /// Notes for each file how many ids its reader could only count.
 void note_positional_ids(Model& model) {
   std::vector<std::size_t> counts(model.files.size(), 0);
@@ -55,7 +57,7 @@ void note_positional_ids(Model& model) {
   for (std::size_t file = 0; file < counts.size(); ++file)
     if (counts[file] > 0)
       model.diagnostics.add(
-          Severity::note, "object-id-positional",
+          Severity::note, kPositionalIds,
           fmt::format(
               "{} no stable id (only {} position in the file); clash diff matches {} by location",
               counts[file] == 1 ? "1 object has" : fmt::format("{} objects have", counts[file]),
@@ -129,6 +131,17 @@ bool is_in_order(const Model& model, const BodyOrder& order) {
     bodies += object.body_count;
   }
   return bodies == model.bodies.size();
+}
+
+/// Takes back what finish() did and what it would not do again beside other files.
+void take_up_again(Model& model) {
+  BodyOrder order = identity(model.objects.size());
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return model.objects[a].place < model.objects[b].place;
+  });
+  if (!is_in_order(model, order)) reorder(model, order);
+  for (SourceFile& file : model.files) file.label.erase(0, file.label.rfind('/') + 1);
+  model.diagnostics.remove(kPositionalIds);
 }
 
 }  // namespace
@@ -250,6 +263,16 @@ void append(Model& model, Model&& other) {
   move_all(other.objects, model.objects);
   move_all(other.bodies, model.bodies);
   model.diagnostics.append(other.diagnostics);
+}
+
+Model join(std::span<Model> models) {
+  Model all;
+  for (Model& model : models) {
+    take_up_again(model);
+    append(all, std::move(model));
+  }
+  finish(all);
+  return all;
 }
 
 }  // namespace strake::model
