@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "clash/detect.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +26,7 @@
 #include "clash/rules/rule_matcher.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/report.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -32,19 +37,26 @@ using geometry::IndexPair;
 
 class Engine {
  public:
+  /// `changed`: what the run is about where it is not about all objects.
   Engine(const model::Scene& scene, const Sets& sets, const Options& options, const Policy& policy,
-         const parallel::Context& context)
+         const ChangedObjects* changed, const parallel::Context& context)
       : scene_(scene),
         sets_(sets),
         options_(options),
+        changed_(changed),
         context_(context),
-        rules_(policy, options, *scene.model),
+        rules_(
+            policy, options, *scene.model,
+            changed == nullptr ? std::optional<std::span<const std::uint32_t>>() : changed->asked),
         pair_tolerances_(rules_, options, *scene.model),
         cache_(list_, *scene.model) {}
 
-  Result<Report> run() {
+  /// Returns nothing where changed objects have too many pairs.
+  Result<std::optional<Report>> run() {
     Report report = begin();
-    if (const Status s = run_broad_phase(report); !s) return s.error();
+    const auto begun = run_broad_phase(report);
+    if (!begun) return begun.error();
+    if (!*begun) return std::optional<Report>();
     if (const Status s = run_narrow_phase(); !s) return s.error();
     const parallel::StageTimer timer(context_.report, "result by objects");
     auto found = collect_results(report);
@@ -56,7 +68,7 @@ class Engine {
       return s.error();
     if (const Status s = aggregate(results, report); !s) return s.error();
     if (const Status s = finish(report); !s) return s.error();
-    return report;
+    return std::optional(std::move(report));
   }
 
  private:
@@ -72,22 +84,28 @@ class Engine {
     report.in_a = sets_.in_a;
     report.in_b = sets_.in_b;
     report.within_files = sets_.group.empty();
+    if (options_.engine.keep_for_changes) report.kept.emplace();
     rules_.begin_report(sets_, report);
     return report;
   }
 
   /// The first stage finds which pairs of parts go on to the narrow phase, and which of them are
-  /// equal.
-  Status run_broad_phase(Report& report) {
+  /// equal. Returns whether there are not too many.
+  Result<bool> run_broad_phase(Report& report) {
     const parallel::StageTimer timer(context_.report, "stage 1: pairs by boxes");
-    auto parts = collect_scene_parts(scene_, sets_, options_.engine.curves, context_);
+    auto parts = collect_scene_parts(scene_, asked_sets(), options_.engine.curves, context_);
     if (!parts) return parts.error();
     list_ = std::move(*parts);
-    if (const Status s = set_source_errors(scene_, options_, list_, context_); !s) return s;
-    auto pairs = find_candidate_pairs(list_, sets_, rules_.reach(), options_, context_);
-    if (!pairs) return pairs.error();
-    pairs_ = std::move(*pairs);
-    if (const Status s = rules_.exempt(list_, pairs_, context_, report); !s) return s;
+    if (const Status s = set_source_errors(scene_, options_, list_, context_); !s) return s.error();
+    auto found = find_pairs();
+    if (!found) return found.error();
+    if (!*found) return false;
+    pairs_ = std::move((*found)->pairs);
+    if (report.kept) {
+      report.kept->box_pairs = (*found)->boxes;
+      report.kept->framed = (*found)->framed;
+    }
+    if (const Status s = rules_.exempt(list_, pairs_, context_, report); !s) return s.error();
     auto unique_pairs = find_equal_pairs();
     if (!unique_pairs) return unique_pairs.error();
     unique_pairs_ = std::move(*unique_pairs);
@@ -95,7 +113,29 @@ class Engine {
     if (!objects) return objects.error();
     objects_ = std::move(*objects);
     candidates_.resize(unique_pairs_.first.size());
-    return {};
+    return true;
+  }
+
+  /// Returns the sets without objects that the run does not ask about.
+  [[nodiscard]] Sets asked_sets() const {
+    if (changed_ == nullptr) return sets_;
+    Sets asked;
+    asked.in_a.assign(sets_.in_a.size(), false);
+    asked.in_b = asked.in_a;
+    for (const std::uint32_t o : changed_->asked) {
+      asked.in_a[o] = sets_.in_a[o];
+      asked.in_b[o] = sets_.in_b[o];
+    }
+    return asked;
+  }
+
+  [[nodiscard]] Result<std::optional<CandidatePairs>> find_pairs() const {
+    if (changed_ != nullptr)
+      return find_changed_pairs(list_, sets_, rules_.reach(), changed_->change,
+                                changed_->most_box_pairs, context_);
+    auto all = find_candidate_pairs(list_, sets_, rules_.reach(), options_, context_);
+    if (!all) return all.error();
+    return std::optional(std::move(*all));
   }
 
   Result<UniquePairs> find_equal_pairs() const {
@@ -173,9 +213,13 @@ class Engine {
 
   Status finish(Report& report) const {
     if (const Status s = rules_.finish_report(context_, report); !s) return s.error();
-    auto hash = hash_of(report, *scene_.model, context_);
-    if (!hash) return hash.error();
-    report.hash = std::move(*hash);
+    const ElementHashes elements(*scene_.model);
+    if (report.kept)
+      if (const Status s = keep_elements(elements, *report.kept); !s) return s;
+    const auto sum = sum_of_hashes(report, elements, context_);
+    if (!sum) return sum.error();
+    report.hash = result_hash(*sum, report.pairs.size());
+    if (report.kept) report.kept->hash_sum = *sum;
     if (const Status s = fill_counters(evaluated(), objects_, rules_, context_, report); !s)
       return s.error();
     const auto widest = pair_tolerances_.widest_band(list_.parts, context_);
@@ -191,20 +235,23 @@ class Engine {
                                                        : Status{};
   }
 
-  void describe_sets(Report& report) const {
-    report.objects_a =
-        static_cast<std::uint64_t>(std::count(sets_.in_a.begin(), sets_.in_a.end(), true));
-    report.objects_b =
-        static_cast<std::uint64_t>(std::count(sets_.in_b.begin(), sets_.in_b.end(), true));
-    if (report.objects_a == 0 || report.objects_b == 0)
-      report.diagnostics.add(
-          Severity::warning, "empty-set", "a set without objects clashes with nothing",
-          report.objects_a == 0 ? "set A, " + sets_.name_a : "set B, " + sets_.name_b);
+  /// Fills KeptForChanges::elements, but for objects that the run does not ask about.
+  Status keep_elements(const ElementHashes& elements, KeptForChanges& kept) const {
+    constexpr std::size_t kGrain = 4096;
+    kept.elements.resize(scene_.model->objects.size());
+    const std::size_t n = changed_ == nullptr ? kept.elements.size() : changed_->asked.size();
+    return parallel::for_each(
+        context_, {.name = "hashes of ids", .n = n, .grain = kGrain}, [&](std::size_t i) {
+          const std::uint32_t o =
+              changed_ == nullptr ? static_cast<std::uint32_t>(i) : changed_->asked[i];
+          kept.elements[o] = elements.of(o).low;
+        });
   }
 
   const model::Scene& scene_;
   const Sets& sets_;
   const Options& options_;
+  const ChangedObjects* changed_;  ///< null: the run is about all
   const parallel::Context& context_;
   RuleMatcher rules_;
   PairToleranceTable pair_tolerances_;
@@ -220,14 +267,39 @@ class Engine {
 
 }  // namespace
 
+void describe_sets(Report& report) {
+  report.objects_a =
+      static_cast<std::uint64_t>(std::count(report.in_a.begin(), report.in_a.end(), true));
+  report.objects_b =
+      static_cast<std::uint64_t>(std::count(report.in_b.begin(), report.in_b.end(), true));
+  if (report.objects_a == 0 || report.objects_b == 0)
+    report.diagnostics.add(
+        Severity::warning, "empty-set", "a set without objects clashes with nothing",
+        report.objects_a == 0 ? "set A, " + report.set_a : "set B, " + report.set_b);
+}
+
+Status check_inputs(const model::Scene& scene, const Sets& sets, const Options& options,
+                    const Policy& policy) {
+  if (Status s = check(options, sets, scene.model->objects.size()); !s) return s;
+  for (const Tolerances& t : policy.tolerances)
+    if (Status s = check(t, scene.model->objects.size()); !s) return s;
+  if (Status s = check(policy, scene.model->objects.size()); !s) return s;
+  return check_narrow_phase(policy, options);
+}
+
+Result<std::optional<Report>> detect_among(const model::Scene& scene, const Sets& sets,
+                                           const Options& options, const Policy& policy,
+                                           const ChangedObjects& changed,
+                                           const parallel::Context& context) {
+  return Engine(scene, sets, options, policy, &changed, context).run();
+}
+
 Result<Report> detect(const model::Scene& scene, const Sets& sets, const Options& options,
                       const Policy& policy, const parallel::Context& context) {
-  if (const Status s = check(options, sets, scene.model->objects.size()); !s) return s.error();
-  for (const Tolerances& t : policy.tolerances)
-    if (const Status s = check(t, scene.model->objects.size()); !s) return s.error();
-  if (const Status s = check(policy, scene.model->objects.size()); !s) return s.error();
-  if (const Status s = check_narrow_phase(policy, options); !s) return s.error();
-  return Engine(scene, sets, options, policy, context).run();
+  if (const Status s = check_inputs(scene, sets, options, policy); !s) return s.error();
+  auto report = Engine(scene, sets, options, policy, nullptr, context).run();
+  if (!report) return report.error();
+  return std::move(**report);
 }
 
 Result<Report> detect(const model::Scene& scene, const Sets& sets, const Options& options,

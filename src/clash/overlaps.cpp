@@ -123,11 +123,11 @@ Result<std::vector<ObjectPair>> overlapping_pairs(const model::Scene& scene, con
   if (const Status s = check(options, sets, scene.model->objects.size()); !s) return s.error();
   const auto list = collect_scene_parts(scene, sets, Curves::off, context);
   if (!list) return list.error();
-  const auto pairs = find_candidate_pairs(*list, sets, {}, options, context);
-  if (!pairs) return pairs.error();
-  const auto states = OverlapSearch(*list, *pairs, *scene.model, context).run();
+  const auto found = find_candidate_pairs(*list, sets, {}, options, context);
+  if (!found) return found.error();
+  const auto states = OverlapSearch(*list, found->pairs, *scene.model, context).run();
   if (!states) return states.error();
-  return by_objects(*states, *list, *pairs, context);
+  return by_objects(*states, *list, found->pairs, context);
 }
 
 }  // namespace strake::clash

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -20,6 +21,7 @@
 #include "model/attributes.hpp"
 #include "model/ends/end_joints.hpp"
 #include "model/hierarchy.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::rules {
@@ -40,11 +42,48 @@ class Numbers {
  public:
   std::uint32_t of(std::string_view text) {
     const auto next = static_cast<std::uint32_t>(numbers_.size());
-    return numbers_.try_emplace(std::string(text), next).first->second;
+    const auto [at, is_new] = numbers_.try_emplace(std::string(text), next);
+    if (is_new) names_.push_back(name_of(text));
+    return at->second;
+  }
+
+  /// Returns what stays the same of each number from run to run: the text.
+  [[nodiscard]] std::vector<Hash128> names() && { return std::move(names_); }
+
+  static Hash128 name_of(std::string_view text) {
+    return hash_bytes(std::as_bytes(std::span(text)));
   }
 
  private:
   std::unordered_map<std::string, std::uint32_t, SeededHash> numbers_;
+  std::vector<Hash128> names_;
+};
+
+/// Names groups of a hierarchy by their file, their path and, where several have the same, by which
+/// of these they are.
+class GroupNames {
+ public:
+  GroupNames(const Model& model, const Hierarchy& hierarchy)
+      : model_(model), hierarchy_(hierarchy), names_(model.groups.size()), named_(names_.size()) {}
+
+  /// Names the group at the end of a path of an object.
+  void name(const Object& object, std::span<const GroupId> path) {
+    const std::size_t group = index(path.back());
+    if (named_[group]) return;
+    named_[group] = true;
+    std::string text = model_.files[object.file].label;
+    for (const GroupId g : path) text += '\0' + std::string(hierarchy_.name(g));
+    names_[group] = Hasher().add(std::string_view(text)).add(of_path_[text]++).value();
+  }
+
+  [[nodiscard]] std::vector<Hash128> names() && { return std::move(names_); }
+
+ private:
+  const Model& model_;
+  const Hierarchy& hierarchy_;
+  std::vector<Hash128> names_;
+  std::vector<bool> named_;
+  std::unordered_map<std::string, std::uint32_t, SeededHash> of_path_;
 };
 
 /// Finds the objects for which references that groups state hold: a branch names what it connects
@@ -97,7 +136,7 @@ class ConnectedReferences {
 };
 
 SameLabel unlabelled(const RuleContext& rule_context) {
-  return {std::vector<std::uint32_t>(rule_context.objects(), kNoLabel)};
+  return {std::vector<std::uint32_t>(rule_context.objects(), kNoLabel), {}};
 }
 
 /// Fills in the labels of one kind of rule.
@@ -143,12 +182,11 @@ struct Labelling {
     if (!some)
       rule_context.warn_no_match(rule.where,
                                  "no object has the attribute '" + units.attribute + "'");
-    std::map<std::int64_t, std::uint32_t> numbers;
+    Numbers numbers;
     SameLabel test = unlabelled(rule_context);
     for (std::size_t o = 0; o < objects.size(); ++o)
-      if (unit[o] >= 0 && among[o])
-        test.label[o] =
-            numbers.try_emplace(unit[o], static_cast<std::uint32_t>(numbers.size())).first->second;
+      if (unit[o] >= 0 && among[o]) test.label[o] = numbers.of(std::to_string(unit[o]));
+    test.names = std::move(numbers).names();
     return test;
   }
 
@@ -158,6 +196,7 @@ struct Labelling {
     if (assembly.by_type) assemblies.emplace(rule_context.model());
     SameLabel test = unlabelled(rule_context);
     Numbers paths;
+    GroupNames groups(rule_context.model(), hierarchy);
     bool some = false;
     for (std::size_t o = 0; o < test.label.size(); ++o) {
       const Object& object = rule_context.model().objects[o];
@@ -169,6 +208,7 @@ struct Labelling {
       some = true;
       if (!assembly.across_files) {
         test.label[o] = index(path[depth - 1]);
+        groups.name(object, std::span(path).first(depth));
         continue;
       }
       std::string text;
@@ -177,6 +217,7 @@ struct Labelling {
       if (hierarchy.name(path[depth - 1]).empty()) text += std::to_string(index(path[depth - 1]));
       test.label[o] = paths.of(text);
     }
+    test.names = assembly.across_files ? std::move(paths).names() : std::move(groups).names();
     if (!some)
       rule_context.warn_no_match(rule.where, assembly.by_type
                                                  ? "neither the attribute Type nor a name as "
@@ -208,6 +249,7 @@ struct Labelling {
       test.label[o] = values.of(found.front());
       some = true;
     }
+    test.names = std::move(values).names();
     if (!some)
       rule_context.warn_no_match(rule.where,
                                  "no object has the attribute '" + same.attribute + "'");
@@ -218,6 +260,8 @@ struct Labelling {
     SameLabel test = unlabelled(rule_context);
     for (std::size_t o = 0; o < test.label.size(); ++o)
       if (among[o]) test.label[o] = rule_context.model().objects[o].file;
+    for (const model::SourceFile& file : rule_context.model().files)
+      test.names.push_back(Numbers::name_of(file.label));
     return test;
   }
 
@@ -229,7 +273,7 @@ struct Labelling {
     const Hierarchy hierarchy(rule_context.model());
     const ConnectedReferences references(rule_context.model(), connected);
     Numbers texts;
-    clash::Linked test{{{0}, {}}, {{0}, {}}};
+    clash::Linked test{{{0}, {}}, {{0}, {}}, {}};
     for (std::uint32_t o = 0; o < rule_context.objects(); ++o) {
       const Object& object = rule_context.model().objects[o];
       std::vector<std::uint32_t> refers, answers;
@@ -240,13 +284,14 @@ struct Labelling {
       append(test.refers_to, std::move(refers));
       append(test.answers_to, std::move(answers));
     }
+    test.names = std::move(texts).names();
     if (test.refers_to.numbers.empty())
       rule_context.warn_no_match(rule.where, "no object has one of the attributes with a value");
     return test;
   }
 
   Test operator()(const EndsRule& ends) const {
-    clash::Linked test{{{0}, {}}, {{0}, {}}};
+    clash::Linked test{{{0}, {}}, {{0}, {}}, {}};
     std::vector<std::vector<std::uint32_t>> refers(rule_context.objects()), answers = refers;
     const std::vector<model::ObjectEnd> all = model::ends_of(rule_context.scene(), among);
     const auto joints = model::joints_of(all, std::llround(ends.within_mm * geometry::kGridPerMm),
@@ -257,6 +302,7 @@ struct Labelling {
     for (std::uint32_t joint = 0; joint < count; ++joint) {
       refers[(*joints)[joint].first].push_back(joint);
       answers[(*joints)[joint].second].push_back(joint);
+      test.names.push_back(joint_name((*joints)[joint].first, (*joints)[joint].second));
     }
     for (std::size_t o = 0; o < refers.size(); ++o) {
       append(test.refers_to, std::move(refers[o]));
@@ -267,6 +313,17 @@ struct Labelling {
           rule.where, all.empty() ? "no object has an end that is known"
                                   : "no two of " + std::to_string(all.size()) + " ends meet");
     return test;
+  }
+
+  /// Names a joint by the two objects that it is of.
+  [[nodiscard]] Hash128 joint_name(std::uint32_t first, std::uint32_t second) const {
+    Hasher name;
+    for (const std::uint32_t o : {first, second}) {
+      const Object& object = rule_context.model().objects[o];
+      name.add(std::string_view(rule_context.model().files[object.file].label))
+          .add(std::string_view(object.id));
+    }
+    return name.value();
   }
 
   static std::vector<std::uint32_t> names(const Object& object, const ConnectedRule& connected,

@@ -31,6 +31,8 @@ clash::Sets sets_by_file(const model::Model& model, bool self) {
   if (self || model.files.size() < 2) return sets;
   if (model.files.size() > 2) {
     for (const model::Object& object : model.objects) sets.group.push_back(object.file);
+    for (const model::SourceFile& file : model.files)
+      sets.group_names.push_back(Hasher().add(std::string_view(file.label)).value());
     sets.name_b = "* of another file";
     return sets;
   }

@@ -18,11 +18,15 @@ namespace strake::clash {
 /// Hashes of all that detect() sees. Two runs agree on a pair where `rules` and the signatures of
 /// its two objects are equal.
 struct Signatures {
-  Hash128 rules;                 ///< of the options, and of what rules say of no single object
-  std::vector<Hash128> objects;  ///< of each object: its bodies on the grid, sets, labels, levels
+  Hash128 rules;  ///< of options, rules and the program's version: what is said of no single object
+  /// Of each object: its file label and id, its bodies on the grid, and what sets and rules say of
+  /// it. Equal signatures of two runs say nothing where their `rules` differ.
+  std::vector<Hash128> objects;
 };
 
-/// Returns the signatures of one test. The numbers of objects do not show in them. Errors:
+/// Returns the signatures of one test. The numbers of objects, shapes and labels do not show in
+/// them; what stays the same of a label is its name (SameLabel::names), without which another first
+/// object of a label changes all that carry it. Errors: those of detect() for its inputs;
 /// cancelled.
 [[nodiscard]] Result<Signatures> signatures(const model::Scene& scene, const Sets& sets,
                                             const Options& options, const Policy& policy,
@@ -31,19 +35,29 @@ struct Signatures {
 /// An object that is gone, or has another signature now.
 inline constexpr std::uint32_t kChanged = 0xffffffffU;
 
-/// The report of an earlier run whose rules had the same signature.
+/// A run whose rules had the same signature, as detect() or detect_changes() reported it: nothing
+/// may have been taken out of the report since. With KeptForChanges all its numbers are within the
+/// lists that they refer to.
 struct EarlierRun {
-  const Report* report = nullptr;
+  Report report;
   /// For each object of that run, its number now; kChanged where there is none with the same
   /// identity and signature.
   std::span<const std::uint32_t> now;
 };
 
-/// Returns the report that detect() returns, but evaluates only pairs of objects that changed.
-/// Errors: those of detect(); usage for a mapping that does not fit.
+/// Returns the report that detect() returns, but evaluates only pairs of objects that changed,
+/// where both runs have EngineOptions::keep_for_changes.
+///
+/// 1. All but Report::counters and Report::log is equal bit for bit; these tell what this run did.
+///    KeptForChanges::box_pairs may be more than a full run counts.
+/// 2. Where very many pairs are near each other, or a quarter of the objects changed, it is a full
+///    run.
+/// 3. The cost is that of the changed pairs, one pass over the bodies and one over the pairs of the
+///    report; where nothing changed it is none.
+///
+/// Errors: those of detect(); usage for a mapping or a report that does not fit.
 [[nodiscard]] Result<Report> detect_changes(const model::Scene& scene, const Sets& sets,
                                             const Options& options, const Policy& policy,
-                                            const EarlierRun& earlier,
-                                            const parallel::Context& context);
+                                            EarlierRun earlier, const parallel::Context& context);
 
 }  // namespace strake::clash

@@ -61,6 +61,8 @@ struct EngineOptions {
   std::uint64_t most_regions = 8;
   /// Whether Report::log is filled.
   bool log_pairs = false;
+  /// Whether Report::kept is filled, from which detect_changes() follows a later change.
+  bool keep_for_changes = false;
   /// The most pairs of parts within reach of each other, some 300 bytes each; more are an error.
   std::uint64_t most_pairs = std::uint64_t{1} << 25U;
 

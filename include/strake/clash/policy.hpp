@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "strake/clash/clash.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/geometry/vec.hpp"
 
 /// Rules of a clash test, worked out per object, so that applying one to a pair costs the same for
@@ -18,6 +19,9 @@ namespace strake::clash {
 /// Two objects that carry the same label are no pair: a unit, an assembly, a file.
 struct SameLabel {
   std::vector<std::uint32_t> label;  ///< one entry per object; kNoLabel: it has none
+  /// What stays the same of each label from run to run, by label, no two equal; empty: each is
+  /// named by its first object.
+  std::vector<Hash128> names = {};
 };
 
 /// Two objects are no pair where one refers to what the other answers to: they are connected. What
@@ -28,6 +32,9 @@ struct Linked {
     std::vector<std::uint32_t> first, numbers;
   };
   Lists answers_to, refers_to;
+  /// As SameLabel::names, by number; two numbers may be called alike where the same objects answer
+  /// to both and the same refer to both. Empty: each is named by all these objects.
+  std::vector<Hash128> names = {};
 };
 
 /// An object of a and an object of b are no pair.

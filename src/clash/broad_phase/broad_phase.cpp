@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -70,17 +71,22 @@ class BoxPairs {
 
 /// Returns the pairs of boxes. Whether there are many is the same for any team and either broad
 /// phase, so the response to it is too.
-Result<std::vector<geometry::IndexPair>> box_pairs(const std::vector<geometry::BoxItem>& items,
-                                                   const ScenePartList& list,
-                                                   const SearchReach& reach, const Options& options,
-                                                   const parallel::Context& context) {
+Result<CandidatePairs> box_pairs(const std::vector<geometry::BoxItem>& items,
+                                 const ScenePartList& list, const SearchReach& reach,
+                                 const Options& options, const parallel::Context& context) {
   BoxPairs by_boxes(items, options, context);
-  auto pairs = by_boxes.find(std::min(options.engine.most_pairs, kManyPairs * items.size()));
-  if (pairs || pairs.error().code != ErrorCode::input) return pairs;
-  const auto framed = make_oriented_boxes(list, reach, context);
-  if (!framed) return framed.error();
-  return framed->frames.size() > 1 ? by_boxes.find(*framed)
-                                   : by_boxes.find(options.engine.most_pairs);
+  auto pairs = by_boxes.find(most_unframed_pairs(items.size(), options));
+  const bool many = !pairs && pairs.error().code == ErrorCode::input;
+  if (many) {
+    const auto framed = make_oriented_boxes(list, reach, context);
+    if (!framed) return framed.error();
+    pairs = framed->frames.size() > 1 ? by_boxes.find(*framed)
+                                      : by_boxes.find(options.engine.most_pairs);
+  }
+  if (!pairs) return pairs.error();
+  CandidatePairs found{std::move(*pairs), 0, many};
+  found.boxes = found.pairs.size();
+  return found;
 }
 
 /// Returns the pairs that lie in different groups.
@@ -127,7 +133,27 @@ Error too_many(const Options& options) {
           "objects at one place"};
 }
 
+/// Takes out the pairs within a group, and brings the others into the order of their objects.
+Status put_in_order(CandidatePairs& found, const ScenePartList& list, const Sets& sets,
+                    const parallel::Context& context) {
+  if (!sets.group.empty()) {
+    auto across = across_groups(found.pairs, list, sets, context);
+    if (!across) return across.error();
+    found.pairs = std::move(*across);
+  }
+  return gather_by_objects(found.pairs, list, context);
+}
+
+/// Whether one of two objects is in A and the other in B.
+bool are_compared(const Sets& sets, std::uint32_t x, std::uint32_t y) {
+  return (sets.in_a[x] && sets.in_b[y]) || (sets.in_a[y] && sets.in_b[x]);
+}
+
 }  // namespace
+
+std::uint64_t most_unframed_pairs(std::uint64_t parts, const Options& options) {
+  return std::min(options.engine.most_pairs, kManyPairs * parts);
+}
 
 geometry::Box3l inflated_box(const ScenePart& ref, double reach) {
   const double beyond = ref.placed.part->sag + static_cast<double>(ref.step);
@@ -186,23 +212,48 @@ geometry::Box3d common_box_mm(const ScenePart& a, const ScenePart& b, double rea
   return {geometry::to_mm(common.lo), geometry::to_mm(common.hi)};
 }
 
-Result<std::vector<geometry::IndexPair>> find_candidate_pairs(const ScenePartList& list,
-                                                              const Sets& sets,
-                                                              const SearchReach& reach,
-                                                              const Options& options,
-                                                              const parallel::Context& context) {
+Result<CandidatePairs> find_candidate_pairs(const ScenePartList& list, const Sets& sets,
+                                            const SearchReach& reach, const Options& options,
+                                            const parallel::Context& context) {
   const auto items = parallel::transform(
       context, {.name = "boxes", .n = list.parts.size(), .grain = kItemsPerBlock},
       [&](std::size_t i) { return item_of(list.parts[i], sets, reach); });
   if (!items) return items.error();
-  auto pairs = box_pairs(*items, list, reach, options, context);
-  if (!pairs) return pairs.error().code == ErrorCode::input ? too_many(options) : pairs.error();
-  if (!sets.group.empty()) {
-    pairs = across_groups(*pairs, list, sets, context);
-    if (!pairs) return pairs;
+  auto found = box_pairs(*items, list, reach, options, context);
+  if (!found) return found.error().code == ErrorCode::input ? too_many(options) : found.error();
+  if (const Status s = put_in_order(*found, list, sets, context); !s) return s.error();
+  return found;
+}
+
+Result<std::optional<CandidatePairs>> find_changed_pairs(const ScenePartList& list,
+                                                         const Sets& sets, const SearchReach& reach,
+                                                         std::span<const Change> change,
+                                                         std::uint64_t most,
+                                                         const parallel::Context& context) {
+  const auto items = parallel::transform(
+      context, {.name = "boxes", .n = list.parts.size(), .grain = kItemsPerBlock},
+      [&](std::size_t i) {
+        geometry::BoxItem item = item_of(list.parts[i], sets, reach);
+        // What has not changed is in one set, so that it makes no pairs of its own.
+        item.sets = change[item.owner] == Change::changed ? geometry::kSetA | geometry::kSetB
+                                                          : geometry::kSetB;
+        return item;
+      });
+  if (!items) return items.error();
+  const auto tree = geometry::SceneBvh::build(*items, context);
+  if (!tree) return tree.error();
+  auto pairs = geometry::overlapping_box_pairs(*tree, context, most);
+  if (!pairs) {
+    if (pairs.error().code == ErrorCode::input) return std::optional<CandidatePairs>();
+    return pairs.error();
   }
-  if (const Status s = gather_by_objects(*pairs, list, context); !s) return s.error();
-  return pairs;
+  CandidatePairs found;
+  for (const geometry::IndexPair& pair : *pairs)
+    if (are_compared(sets, list.parts[pair.first].object, list.parts[pair.second].object))
+      found.pairs.push_back(pair);
+  found.boxes = found.pairs.size();
+  if (const Status s = put_in_order(found, list, sets, context); !s) return s.error();
+  return std::optional(std::move(found));
 }
 
 Result<ObjectPairs> ObjectPairs::find(std::span<const geometry::IndexPair> pairs,

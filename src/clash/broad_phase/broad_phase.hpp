@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -70,12 +71,34 @@ struct SearchReach {
   }
 };
 
-/// Returns the pairs of parts of different objects whose boxes come within reach of each other, as
-/// indices into the list, by (objects, parts). Where these are very many, boxes along the parts'
-/// own faces have to come as near, too.
-[[nodiscard]] Result<std::vector<geometry::IndexPair>> find_candidate_pairs(
-    const ScenePartList& list, const Sets& sets, const SearchReach& reach, const Options& options,
-    const parallel::Context& context);
+/// Pairs of parts of different objects whose boxes come within reach of each other.
+struct CandidatePairs {
+  std::vector<geometry::IndexPair> pairs;  ///< indices into the list, by (objects, parts)
+  std::uint64_t boxes = 0;                 ///< pairs of boxes, within groups too
+  bool framed = false;  ///< they were so many that boxes along the parts' own faces came in
+};
+
+/// Returns the pairs of parts whose boxes come within reach of each other. Where these are very
+/// many, boxes along the parts' own faces have to come as near, too.
+[[nodiscard]] Result<CandidatePairs> find_candidate_pairs(const ScenePartList& list,
+                                                          const Sets& sets,
+                                                          const SearchReach& reach,
+                                                          const Options& options,
+                                                          const parallel::Context& context);
+
+/// Returns the most pairs of boxes that a test over so many parts may have without boxes along
+/// their faces.
+[[nodiscard]] std::uint64_t most_unframed_pairs(std::uint64_t parts, const Options& options);
+
+/// What became of each object since an earlier run.
+enum class Change : std::uint8_t { none, near, changed };
+
+/// Returns the pairs of find_candidate_pairs() of which one object at least has changed, where they
+/// need no boxes along faces; nothing where there are more than `most` pairs of boxes. `change` has
+/// an entry per object. Errors: cancelled.
+[[nodiscard]] Result<std::optional<CandidatePairs>> find_changed_pairs(
+    const ScenePartList& list, const Sets& sets, const SearchReach& reach,
+    std::span<const Change> change, std::uint64_t most, const parallel::Context& context);
 
 /// The pairs of objects behind pairs of parts; the pairs of parts of one pair of objects are
 /// neighbours, as find_candidate_pairs() lists them.

@@ -169,8 +169,10 @@ class ExactNarrowPhase {
   void collect_distance_requests(std::size_t objects, std::vector<DistanceRequest>& wanted) const {
     const std::size_t first = stage_.objects.begin(objects), end = stage_.objects.end(objects);
     bool meeting = false;
-    // Where a rule may allow the worst of them, each of the others counts.
-    const bool all = stage_.rules.may_allow(evaluated_.a(first).object, evaluated_.b(first).object);
+    // Where a rule may allow the worst of them, each of the others counts, and where pairs are
+    // reported for parts that are apart.
+    const bool all = stage_.options.reporting.relations.contains(Relation::separate) ||
+                     stage_.rules.may_allow(evaluated_.a(first).object, evaluated_.b(first).object);
     for (std::size_t i = first; i < end && !all; ++i) {
       const PartPairResult& answer = evaluated_.of(i).evaluation.answer;
       meeting = meeting || answer.classification.cls == Class::hit ||

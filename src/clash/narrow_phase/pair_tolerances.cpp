@@ -75,7 +75,8 @@ PairTolerances PairToleranceTable::of(const ScenePart& a, const ScenePart& b) co
 
 PairToleranceKey PairToleranceTable::settings(const ScenePart& a, const ScenePart& b) const {
   return {static_cast<std::uint32_t>(rules_.tolerances(a.object, b.object)),
-          std::max(band(a), band(b)), snap(a, b), rules_.added_clearance_mm(a.object, b.object)};
+          std::max(band(a), band(b)), snap(a, b), rules_.added_clearance_mm(a.object, b.object),
+          rules_.may_allow(a.object, b.object)};
 }
 
 Result<double> PairToleranceTable::widest_band(std::span<const ScenePart> parts,

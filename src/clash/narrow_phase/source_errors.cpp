@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -58,59 +60,61 @@ float vertices_moved(const model::Shape& shape, const geometry::Mat3d& linear) {
   return 0;
 }
 
-/// How far the snap moved the vertices of the first body of each shape of the model; most of the
-/// others share it.
-class VertexErrors {
- public:
-  explicit VertexErrors(const model::Model& model) : model_(model) {}
-
-  Status measure(const parallel::Context& context) {
-    first_.assign(model_.shapes.size(), kNone);
-    for (std::uint32_t b = 0; b < model_.bodies.size(); ++b) {
-      const std::size_t shape = index(model_.bodies[b].shape);
-      if (shape < first_.size() && first_[shape] == kNone) first_[shape] = b;
-    }
-    constexpr std::size_t kGrain = 64;
-    auto all = parallel::transform(
-        context, {.name = "vertices off the grid", .n = first_.size(), .grain = kGrain},
-        [&](std::size_t s) {
-          return first_[s] == kNone
-                     ? 0
-                     : vertices_moved(model_.shapes[s], model_.bodies[first_[s]].placement.linear);
-        });
-    if (!all) return all.error();
-    moved_ = std::move(*all);
-    return {};
-  }
-
-  [[nodiscard]] float of(const model::Body& body) const {
-    const std::size_t shape = index(body.shape);
-    return body.placement.linear == model_.bodies[first_[shape]].placement.linear
-               ? moved_[shape]
-               : vertices_moved(model_.shapes[shape], body.placement.linear);
-  }
-
- private:
-  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-
-  const model::Model& model_;
-  std::vector<std::uint32_t> first_;
-  std::vector<float> moved_;
-};
+constexpr std::uint32_t kNoBody = std::numeric_limits<std::uint32_t>::max();
 
 }  // namespace
 
+Result<SourceErrors> SourceErrors::measure(const model::Model& model,
+                                           std::optional<std::span<const std::uint32_t>> bodies,
+                                           const parallel::Context& context) {
+  SourceErrors errors(model);
+  std::vector<std::uint32_t>& first = errors.first_;
+  first.assign(model.shapes.size(), kNoBody);
+  const auto take = [&](std::uint32_t b) {
+    const std::size_t shape = index(model.bodies[b].shape);
+    if (shape < first.size() && first[shape] == kNoBody) first[shape] = b;
+  };
+  if (bodies) {
+    for (const std::uint32_t b : *bodies) take(b);
+  } else {
+    for (std::uint32_t b = 0; b < model.bodies.size(); ++b) take(b);
+  }
+  constexpr std::size_t kGrain = 64;
+  auto all = parallel::transform(
+      context, {.name = "vertices off the grid", .n = first.size(), .grain = kGrain},
+      [&](std::size_t s) {
+        return first[s] == kNoBody
+                   ? 0
+                   : vertices_moved(model.shapes[s], model.bodies[first[s]].placement.linear);
+      });
+  if (!all) return all.error();
+  errors.moved_ = std::move(*all);
+  return errors;
+}
+
+float SourceErrors::moved_by_snap(const model::Body& body) const {
+  const std::size_t shape = index(body.shape);
+  const float of_place = moved(body.placement.translation);
+  // Most bodies of a shape are placed alike.
+  return of_place + (body.placement.linear == model_->bodies[first_[shape]].placement.linear
+                         ? moved_[shape]
+                         : vertices_moved(model_->shapes[shape], body.placement.linear));
+}
+
 Status set_source_errors(const model::Scene& scene, const Options& options, ScenePartList& list,
                          const parallel::Context& context) {
-  VertexErrors vertices(*scene.model);
-  if (const Status s = vertices.measure(context); !s) return s;
+  std::vector<std::uint32_t> bodies;
+  bodies.reserve(list.parts.size());
+  for (const ScenePart& part : list.parts) bodies.push_back(part.body);
+  const auto errors = SourceErrors::measure(*scene.model, bodies, context);
+  if (!errors) return errors.error();
   constexpr std::size_t kGrain = 1024;
   return parallel::for_each(context,
                             {.name = "errors of sources", .n = list.parts.size(), .grain = kGrain},
                             [&](std::size_t i) {
                               ScenePart& part = list.parts[i];
                               const model::Body& body = scene.model->bodies[part.body];
-                              part.snap = moved(body.placement.translation) + vertices.of(body);
+                              part.snap = errors->moved_by_snap(body);
                               part.step = coarse_step(options, body.precision_um);
                             });
 }

@@ -30,6 +30,7 @@ Result<UniquePairs> find_unique_pairs(std::span<const geometry::IndexPair> pairs
         std::uint64_t h = mixed(0, (std::uint64_t{a(i).unique} << 32U) | b(i).unique);
         for (int k = 0; k < 3; ++k) h = mixed(h, static_cast<std::uint64_t>(at[k]));
         h = mixed(h, settings[i].tolerances);
+        h = mixed(h, settings[i].may_be_allowed ? 1 : 0);
         h = mixed(h, std::bit_cast<std::uint64_t>(settings[i].snap));
         h = mixed(h, std::bit_cast<std::uint64_t>(settings[i].added_clearance_mm));
         return mixed(h, std::bit_cast<std::uint64_t>(settings[i].contact_distance));

@@ -32,6 +32,8 @@ struct PairToleranceKey {
   double contact_distance = 0;
   double snap = 0;
   double added_clearance_mm = 0;  ///< by the objects of the pair
+  /// Whether a rule may allow the result: then regions farther apart are looked for, too.
+  bool may_be_allowed = false;
   friend bool operator==(const PairToleranceKey&, const PairToleranceKey&) = default;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -183,6 +184,14 @@ class RegionsOfPairs {
   std::uint64_t most_;
 };
 
+/// Appends how many regions of a pair each rule allows, by rule.
+void keep_counts(const Pair& pair, const std::vector<Region>& allowed,
+                 std::vector<AllowedRegionCount>& kept) {
+  std::map<std::uint32_t, std::uint32_t> by_rule;
+  for (const Region& region : allowed) ++by_rule[static_cast<std::uint32_t>(region.allowed)];
+  for (const auto& [rule, regions] : by_rule) kept.push_back({pair.a, pair.b, rule, regions});
+}
+
 }  // namespace
 
 Status aggregate_regions(const PartResults& results, const parallel::Context& context,
@@ -204,13 +213,15 @@ Status aggregate_regions(const PartResults& results, const parallel::Context& co
   for (const NotOne& other : *others) {
     const auto& [count, worst, allowed] = other.regions;
     Pair& pair = report.pairs[other.pair];
-    pair.first_region = static_cast<std::uint32_t>(report.regions.size());
-    report.regions.insert(report.regions.end(), worst.begin(), worst.end());
     const std::uint32_t listed = pair.allowed_regions_listed(report.options);
+    if (!worst.empty() || listed > 0)
+      pair.first_region = static_cast<std::uint32_t>(report.regions.size());
+    report.regions.insert(report.regions.end(), worst.begin(), worst.end());
     report.regions.insert(report.regions.end(), allowed.begin(),
                           allowed.begin() + static_cast<std::ptrdiff_t>(listed));
     for (const Region& region : allowed)
       ++report.allowed[static_cast<std::size_t>(region.allowed)].regions;
+    if (report.kept) keep_counts(pair, allowed, report.kept->allowed_regions);
     report.count_allowed_regions += allowed.size();
     if (found_regions && count == 0) ++report.counters.regions_given_up;
   }

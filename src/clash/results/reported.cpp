@@ -19,15 +19,6 @@ enum class Fate : std::uint8_t {
   by_volume,    ///< not reported
 };
 
-void count_by_class(const Pair& pair, NotReported::Counts& counts) {
-  if (pair.allowed >= 0)
-    ++counts.allowed;
-  else if (pair.cls == Class::hit)
-    ++counts.hit;
-  else
-    ++(pair.cls == Class::contact ? counts.contact : counts.clearance_violation);
-}
-
 class Reported {
  public:
   Reported(const PartResults& results, const Sets& sets, const Reporting& reporting)
@@ -52,6 +43,8 @@ class Reported {
     if (reporting_.relations.contains(pair.relation, forward, backward)) return true;
     const std::size_t first = pair.first_region;
     for (std::size_t i = first; i < results_.found.size() && results_.same_objects(first, i); ++i) {
+      // Regions other than the parts' worst say nothing of how the parts stand.
+      if (!results_.found[i].decides) continue;
       const PartPairResult& answer = *results_.found[i].answer;
       if (answer.classification.cls != Class::no_hit &&
           reporting_.relations.contains(answer.relation, forward, backward))
@@ -67,6 +60,12 @@ class Reported {
 
 }  // namespace
 
+std::uint64_t& count_of(NotReported::Counts& counts, Class cls, bool allowed) {
+  if (allowed) return counts.allowed;
+  if (cls == Class::hit) return counts.hit;
+  return cls == Class::contact ? counts.contact : counts.clearance_violation;
+}
+
 Status keep_reported(const PartResults& results, const Sets& sets, const parallel::Context& context,
                      Report& report) {
   constexpr std::size_t kGrain = 4096;
@@ -80,10 +79,13 @@ Status keep_reported(const PartResults& results, const Sets& sets, const paralle
   for (std::size_t i = 0; i < fates->size(); ++i) {
     Pair& pair = report.pairs[i];
     const Fate fate = (*fates)[i];
+    if (report.kept && (fate == Fate::by_relation || fate == Fate::by_volume))
+      report.kept->unreported.push_back(
+          {pair.a, pair.b, pair.cls, pair.allowed >= 0, fate == Fate::by_volume});
     if (fate == Fate::by_relation) {
-      count_by_class(pair, report.not_reported.by_relation);
+      ++count_of(report.not_reported.by_relation, pair.cls, pair.allowed >= 0);
     } else if (fate == Fate::by_volume) {
-      count_by_class(pair, report.not_reported.by_volume);
+      ++count_of(report.not_reported.by_volume, pair.cls, pair.allowed >= 0);
     } else {
       if (fate == Fate::volume_open) pair.flags |= kUncertain;
       kept.push_back(pair);

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "clash/results/object_results.hpp"
 
 namespace strake::clash {
+
+/// Returns the count that a result of a class is in.
+[[nodiscard]] std::uint64_t& count_of(NotReported::Counts& counts, Class cls, bool allowed);
 
 /// Takes out of a report's pairs what Options::reporting says that the test does not report, and
 /// counts it in `not_reported`. A hit of which the bracket of its volume leaves open whether it is

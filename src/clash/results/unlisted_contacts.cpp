@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clash/results/unlisted_contacts.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "clash/results/result_hash.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/reduce.hpp"
 
@@ -22,6 +25,26 @@ bool is_left_out(const Pair& pair) {
   return is_side_by_side(pair.relation) && pair.cls == Class::contact &&
          pair.severest <= Class::contact && (pair.flags & kUncertain) == 0 &&
          pair.allowed_regions == 0;
+}
+
+/// Keeps of the contacts that are not listed what detect_changes() needs.
+template <class IsUnlisted>
+Status keep_unlisted(const parallel::Context& context, const IsUnlisted& is_unlisted,
+                     Report& report) {
+  const std::vector<std::uint64_t>& elements = report.kept->elements;
+  auto contacts = parallel::collect<UnlistedContact>(
+      context, {.name = "contacts kept", .n = report.pairs.size(), .grain = kGrain},
+      [&](std::size_t i, std::vector<UnlistedContact>& out) {
+        const Pair& pair = report.pairs[i];
+        if (is_unlisted(pair))
+          out.push_back({pair.a, pair.b, pair.allowed,
+                         hash_of(pair, report, elements[index(pair.a)], elements[index(pair.b)])});
+      });
+  if (!contacts) return contacts.error();
+  report.kept->unlisted = std::move(*contacts);
+  for (const Pair& pair : report.pairs)
+    if (is_unlisted(pair) && pair.allowed >= 0) report.kept->allowed_contacts.push_back(pair);
+  return {};
 }
 
 }  // namespace
@@ -51,6 +74,8 @@ Status leave_out_contacts(const parallel::Context& context, Report& report,
         if (!is_unlisted(report.pairs[i])) out.push_back(report.pairs[i]);
       });
   if (!kept) return kept.error();
+  if (report.kept)
+    if (const Status s = keep_unlisted(context, is_unlisted, report); !s) return s;
   report.unlisted = *unlisted;
   report.pairs = std::move(*kept);
   return {};

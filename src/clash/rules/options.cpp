@@ -48,14 +48,23 @@ Status check(const Tolerances& t, std::size_t objects) {
   return {};
 }
 
+bool are_named(const std::vector<std::uint32_t>& numbers, const std::vector<Hash128>& names) {
+  return names.empty() || std::ranges::all_of(numbers, [&](std::uint32_t n) {
+           return n == kNoLabel || n < names.size();
+         });
+}
+
 Status check(const Options& o, const Sets& sets, std::size_t objects) {
   if (Status s = check(o.tolerances, objects); !s) return s;
   if (std::isnan(o.contact_distance_mm) || o.contact_distance_mm > kMaxToleranceMm)
     return bad("contact distance", "is not a length");
   if (sets.in_a.size() != objects || sets.in_b.size() != objects ||
-      (!sets.group.empty() && sets.group.size() != objects))
-    return Error{ErrorCode::usage, "the sets do not have one entry per object of the scene", "sets",
-                 "build them from the same scene"};
+      (!sets.group.empty() && sets.group.size() != objects) ||
+      !are_named(sets.group, sets.group_names))
+    return Error{
+        ErrorCode::usage,
+        "the sets do not have one entry per object of the scene, or do not name all groups", "sets",
+        "build them from the same scene"};
   if (std::isnan(o.reporting.min_volume_mm3) || o.reporting.min_volume_mm3 < 0)
     return Error{ErrorCode::usage, "the least volume is no volume", "min volume",
                  "give 0, or more cubic millimetres"};

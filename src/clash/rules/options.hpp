@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "strake/clash/clash.hpp"
+#include "strake/core/hash.hpp"
 
 namespace strake::clash {
 
@@ -13,6 +16,10 @@ namespace strake::clash {
 
 /// Returns a usage error for a tolerance that makes no sense or sets of the wrong size.
 [[nodiscard]] Status check(const Options& options, const Sets& sets, std::size_t objects);
+
+/// Whether each number has a name, or none has.
+[[nodiscard]] bool are_named(const std::vector<std::uint32_t>& numbers,
+                             const std::vector<Hash128>& names);
 
 /// Returns the contact distance δ in grid units of a body whose source has this precision.
 [[nodiscard]] double contact_distance(const Options& options, float precision_um);

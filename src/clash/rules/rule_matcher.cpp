@@ -7,7 +7,10 @@
 #include <utility>
 #include <variant>
 
+#include "clash/rules/options.hpp"
+#include "clash/rules/shadowed_rules.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/collect.hpp"
 #include "strake/parallel/reduce.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -53,9 +56,12 @@ Status check(const Policy& policy, std::size_t objects) {
   };
   bool good = true;
   for (const Exemption& e : policy.exemptions) {
-    if (const auto* const same = std::get_if<SameLabel>(&e.test)) good &= fits(same->label);
+    if (const auto* const same = std::get_if<SameLabel>(&e.test))
+      good &= fits(same->label) && are_named(same->label, same->names);
     if (const auto* const linked = std::get_if<Linked>(&e.test))
-      good &= listed(linked->answers_to) && listed(linked->refers_to);
+      good &= listed(linked->answers_to) && listed(linked->refers_to) &&
+              are_named(linked->answers_to.numbers, linked->names) &&
+              are_named(linked->refers_to.numbers, linked->names);
     if (const auto* const between = std::get_if<Between>(&e.test))
       good &= fits(between->a, between->b);
   }
@@ -149,12 +155,8 @@ using geometry::IndexPair;
 
 /// Pairs per block where results are counted.
 constexpr std::size_t kMatchesPerBlock = 65536;
-
-std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& options) {
-  std::vector<Tolerances> all{options.tolerances};
-  all.insert(all.end(), policy.tolerances.begin(), policy.tolerances.end());
-  return all;
-}
+/// Pairs per block where each has a rule or more of its own.
+constexpr std::size_t kPairsPerBlock = 4096;
 
 /// Returns the reach of tolerances where the objects of a pair add so much to its clearance.
 double reach_of(const Tolerances& t, double added_mm) {
@@ -167,30 +169,31 @@ std::size_t count_between(const Policy& policy) {
                     [](const Exemption& e) { return std::holds_alternative<Between>(e.test); }));
 }
 
-/// Finds for each idle rule the first of the rules that did its work before it; kNoLabel if none
-/// did. for_rules(pair, take) calls take(rule, by whom) for what concerns a pair.
-template <class ForRules>
-Result<std::vector<std::uint32_t>> first_before(const std::vector<bool>& idle, std::size_t pairs,
-                                                const parallel::Context& context,
-                                                ForRules&& for_rules) {
-  using Firsts = std::vector<std::uint32_t>;
-  const bool some = std::ranges::find(idle, true) != idle.end();
-  return parallel::reduce(
-      context, {.name = "shadowed rules", .n = some ? pairs : 0, .grain = kMatchesPerBlock},
-      Firsts(idle.size(), kNoLabel),
-      [&](Firsts& partial, std::size_t i) {
-        for_rules(i, [&](std::size_t rule, std::uint32_t by) {
-          if (idle[rule]) partial[rule] = std::min(partial[rule], by);
-        });
-      },
-      [](Firsts& into, const Firsts& partial) {
-        for (std::size_t r = 0; r < into.size(); ++r) into[r] = std::min(into[r], partial[r]);
-      });
-}
-
 }  // namespace
 
-RuleMatcher::RuleMatcher(const Policy& policy, const Options& options, const model::Model& model)
+std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& options) {
+  std::vector<Tolerances> all{options.tolerances};
+  all.insert(all.end(), policy.tolerances.begin(), policy.tolerances.end());
+  return all;
+}
+
+SearchReach search_reach(std::span<const Tolerances> all) {
+  double widest_mm = 0;
+  for (const Tolerances& t : all) widest_mm = std::max(widest_mm, reach_of(t, 0));
+  SearchReach reach{.of_all = search_margin(widest_mm * geometry::kGridPerMm)};
+  for (const Tolerances& t : all) {
+    if (!t.object_clearances) continue;
+    const std::vector<double>& mm = t.object_clearances->mm;
+    // Each box is rounded outward by itself: a unit more, so that no pair of own_reach() is lost.
+    reach.of_object.resize(mm.size(), 1);
+    for (std::size_t o = 0; o < mm.size(); ++o)
+      reach.of_object[o] = std::max(reach.of_object[o], mm[o] * geometry::kGridPerMm + 1);
+  }
+  return reach;
+}
+
+RuleMatcher::RuleMatcher(const Policy& policy, const Options& options, const model::Model& model,
+                         std::optional<std::span<const std::uint32_t>> only)
     : policy_(policy),
       model_(model),
       tolerances_(all_tolerances(policy, options)),
@@ -201,11 +204,11 @@ RuleMatcher::RuleMatcher(const Policy& policy, const Options& options, const mod
         one_reach_ && !t.object_clearances && reach_of(t, 0) == reach_of(tolerances_.front(), 0);
   for (std::uint32_t e = 0; e < policy.exemptions.size(); ++e)
     if (const auto* const test = std::get_if<Between>(&policy.exemptions[e].test)) {
-      between_.set(between_rule_.size(), test->a, test->b);
+      between_.set(between_rule_.size(), test->a, test->b, only);
       between_rule_.push_back(e);
     }
   for (std::size_t r = 0; r < policy.allowed.size(); ++r)
-    allowed_.set(r, policy.allowed[r].a, policy.allowed[r].b);
+    allowed_.set(r, policy.allowed[r].a, policy.allowed[r].b, only);
   number_level_rules();
 }
 
@@ -234,21 +237,6 @@ std::size_t RuleMatcher::tolerances(std::uint32_t a, std::uint32_t b) const {
 
 double RuleMatcher::added_clearance_mm(std::uint32_t a, std::uint32_t b) const {
   return tolerances_[tolerances(a, b)].added_clearance_mm(a, b);
-}
-
-SearchReach RuleMatcher::reach() const {
-  double widest_mm = 0;
-  for (const Tolerances& t : tolerances_) widest_mm = std::max(widest_mm, reach_of(t, 0));
-  SearchReach reach{.of_all = search_margin(widest_mm * geometry::kGridPerMm)};
-  for (const Tolerances& t : tolerances_) {
-    if (!t.object_clearances) continue;
-    const std::vector<double>& mm = t.object_clearances->mm;
-    // Each box is rounded outward by itself: a unit more, so that no pair of own_reach() is lost.
-    reach.of_object.resize(mm.size(), 1);
-    for (std::size_t o = 0; o < mm.size(); ++o)
-      reach.of_object[o] = std::max(reach.of_object[o], mm[o] * geometry::kGridPerMm + 1);
-  }
-  return reach;
 }
 
 Level RuleMatcher::level(const ScenePart& part) const {
@@ -315,18 +303,17 @@ RuleMatcher::Verdict RuleMatcher::verdict(const ScenePart& a, const ScenePart& b
 
 Status RuleMatcher::exempt(const ScenePartList& list, std::vector<IndexPair>& pairs,
                            const parallel::Context& context, Report& report) const {
-  constexpr std::size_t kPairs = 4096;
   const bool rules = policy_.matrix || !policy_.exemptions.empty() || policy_.levels;
   if (!rules && one_reach_) return {};
   const auto verdicts = parallel::transform(
-      context, {.name = "rules", .n = pairs.size(), .grain = kPairs}, [&](std::size_t i) {
+      context, {.name = "rules", .n = pairs.size(), .grain = kPairsPerBlock}, [&](std::size_t i) {
         return verdict(list.parts[pairs[i].first], list.parts[pairs[i].second]);
       });
   if (!verdicts) return verdicts.error();
-  if (const Status s = record_shadowed({list, pairs, *verdicts}, context, report); !s) return s;
   std::size_t kept = 0;
   // The rules that the current pair of objects counts for already.
   std::vector<std::uint32_t> counted_rules;
+  std::vector<ExemptedPair> exempted;
   const ScenePart *last_a = nullptr, *last_b = nullptr;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const ScenePart &a = list.parts[pairs[i].first], &b = list.parts[pairs[i].second];
@@ -344,50 +331,15 @@ Status RuleMatcher::exempt(const ScenePartList& list, std::vector<IndexPair>& pa
       continue;
     counted_rules.push_back(v.rule);
     ++report.exempted[v.rule].pairs;
-    if (policy_.list_exempted)
-      report.exempted_pairs.push_back(
-          {model::ObjectId{a.object}, model::ObjectId{b.object}, v.rule});
+    exempted.push_back({model::ObjectId{a.object}, model::ObjectId{b.object}, v.rule});
   }
   pairs.resize(kept);
-  std::sort(report.exempted_pairs.begin(), report.exempted_pairs.end(),
-            [](const ExemptedPair& x, const ExemptedPair& y) {
-              return std::tie(x.a, x.b, x.rule) < std::tie(y.a, y.b, y.rule);
-            });
-  return {};
-}
-
-Status RuleMatcher::record_shadowed(const Verdicts& all, const parallel::Context& context,
-                                    Report& report) const {
-  const std::uint32_t base = policy_.matrix ? 1 : 0;
-  std::vector<bool> idle(policy_.exemptions.size(), true);
-  for (const Verdict& v : all.verdicts)
-    if (v.rule != kNoLabel && v.rule >= base && v.rule - base < idle.size())
-      idle[v.rule - base] = false;
-  const auto for_each_idle_rule = [&](std::uint32_t a, std::uint32_t b, auto&& take) {
-    between_.each(a, b, [&](std::size_t k) {
-      take(between_rule_[k]);
-      return false;
-    });
-    for (std::uint32_t e = 0; e < idle.size(); ++e) {
-      if (!idle[e]) continue;
-      const auto* const same = std::get_if<SameLabel>(&policy_.exemptions[e].test);
-      const auto* const linked = std::get_if<Linked>(&policy_.exemptions[e].test);
-      if ((same != nullptr && exempts(*same, a, b)) ||
-          (linked != nullptr && exempts(*linked, a, b)))
-        take(e);
-    }
-  };
-  const auto first = first_before(idle, all.pairs.size(), context, [&](std::size_t i, auto&& take) {
-    const std::uint32_t by = all.verdicts[i].rule;
-    if (by == kNoLabel) return;
-    const geometry::IndexPair& pair = all.pairs[i];
-    for_each_idle_rule(all.list.parts[pair.first].object, all.list.parts[pair.second].object,
-                       [&](std::size_t e) { take(e, by); });
+  if (const Status s = record_shadowed_exemptions(policy_, exempted, context, report); !s) return s;
+  if (!policy_.list_exempted && !report.kept) return {};
+  std::sort(exempted.begin(), exempted.end(), [](const ExemptedPair& x, const ExemptedPair& y) {
+    return std::tie(x.a, x.b, x.rule) < std::tie(y.a, y.b, y.rule);
   });
-  if (!first) return first.error();
-  for (std::size_t e = 0; e < first->size(); ++e)
-    if ((*first)[e] != kNoLabel)
-      report.exempted[base + e].shadowed_by = static_cast<std::int32_t>((*first)[e]);
+  (policy_.list_exempted ? report.exempted_pairs : report.kept->exempted) = std::move(exempted);
   return {};
 }
 
@@ -423,6 +375,21 @@ Status RuleMatcher::count_candidates(const EvaluatedPairs& evaluated, const Obje
       });
   if (!counts) return counts.error();
   report.counters.allowed_pairs = counts->pairs;
+  if (report.kept) {
+    auto concerned = parallel::collect<ConcernedPair>(
+        context, {.name = "pairs that rules concern", .n = objects.size(), .grain = kPairsPerBlock},
+        [&](std::size_t k, std::vector<ConcernedPair>& out) {
+          const std::size_t first = objects.begin(k);
+          const std::uint32_t a = evaluated.a(first).object, b = evaluated.b(first).object;
+          allowed_.each(a, b, [&](std::size_t rule) {
+            out.push_back(
+                {model::ObjectId{a}, model::ObjectId{b}, static_cast<std::uint32_t>(rule)});
+            return false;
+          });
+        });
+    if (!concerned) return concerned.error();
+    report.kept->concerned = std::move(*concerned);
+  }
   for (std::size_t r = 0; r < report.allowed.size(); ++r)
     report.allowed[r].candidates = counts->by_rule[r];
   return {};
@@ -498,7 +465,8 @@ Status RuleMatcher::finish_report(const parallel::Context& context, Report& repo
       context, {.name = "count by class", .n = report.pairs.size(), .grain = kMatchesPerBlock},
       ClassTotals(policy_.allowed.size(), report.cells.size()),
       [&](ClassTotals& partial, std::size_t i) {
-        partial.add(report.pairs[i], cell_number(report.pairs[i]));
+        const Pair& pair = report.pairs[i];
+        partial.add(pair, cell_number(report, pair.a, pair.b));
       },
       [](ClassTotals& into, const ClassTotals& partial) { into.add(partial); });
   if (!totals) return totals.error();
@@ -516,37 +484,14 @@ Status RuleMatcher::finish_report(const parallel::Context& context, Report& repo
     cell.clearance_violation = counts.clearance_violation;
     cell.allowed = counts.allowed;
   }
-  return record_shadowed_allowances(context, report);
+  return record_shadowed_allowances(policy_, report.pairs, context, report);
 }
 
-Status RuleMatcher::record_shadowed_allowances(const parallel::Context& context,
-                                               Report& report) const {
-  std::vector<bool> idle;
-  for (const AllowedCount& rule : report.allowed)
-    idle.push_back(rule.pairs == 0 && rule.regions == 0);
-  const auto first =
-      first_before(idle, report.pairs.size(), context, [&](std::size_t i, auto&& take) {
-        const Pair& pair = report.pairs[i];
-        if (pair.allowed < 0) return;
-        allowed_.each(index(pair.a), index(pair.b), [&](std::size_t rule) {
-          if (idle[rule] && allows(policy_.allowed[rule], pair, 0))
-            take(rule, static_cast<std::uint32_t>(pair.allowed));
-          return false;
-        });
-      });
-  if (!first) return first.error();
-  for (std::size_t r = 0; r < first->size(); ++r)
-    if ((*first)[r] != kNoLabel)
-      report.allowed[r].shadowed_by = static_cast<std::int32_t>((*first)[r]);
-  return {};
-}
-
-std::size_t RuleMatcher::cell_number(const Pair& pair) const {
-  if (!policy_.matrix) return kNoCell;
-  const Matrix& m = *policy_.matrix;
-  const auto [a, b] = std::minmax(m.discipline[index(pair.a)], m.discipline[index(pair.b)]);
+std::size_t cell_number(const Report& report, model::ObjectId x, model::ObjectId y) {
+  if (report.discipline.empty()) return kNoCell;
+  const auto [a, b] = std::minmax(report.discipline[index(x)], report.discipline[index(y)]);
   if (b == kNoLabel) return kNoCell;
-  const std::size_t n = m.disciplines.size();
+  const std::size_t n = report.disciplines.size();
   return a * n - a * (a + std::size_t{1}) / 2 + b;
 }
 

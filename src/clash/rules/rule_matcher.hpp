@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,13 +28,20 @@ class RuleBitmasks {
   explicit RuleBitmasks(std::size_t objects, std::size_t rules)
       : words_((rules + kBits - 1) / kBits), bits_(objects * words_) {}
 
-  void set(std::size_t rule, const std::vector<bool>& a, const std::vector<bool>& b) {
+  /// Sets the bits of a rule, of some objects only where they are given.
+  void set(std::size_t rule, const std::vector<bool>& a, const std::vector<bool>& b,
+           std::optional<std::span<const std::uint32_t>> only) {
     const std::size_t word = rule / kBits;
     const std::uint64_t bit = std::uint64_t{1} << (rule % kBits);
-    for (std::size_t o = 0; o < a.size(); ++o) {
+    const auto set_of = [&](std::size_t o) {
       Bits& bits = bits_[o * words_ + word];
       if (a[o]) bits.a |= bit;
       if (b[o]) bits.b |= bit;
+    };
+    if (only) {
+      for (const std::uint32_t o : *only) set_of(o);
+    } else {
+      for (std::size_t o = 0; o < a.size(); ++o) set_of(o);
     }
   }
 
@@ -121,20 +129,30 @@ struct ClassTotals {
 /// Whether every point of a box lies within the rule's region and cavity.
 [[nodiscard]] bool contains_box(const Allowed& rule, const geometry::Box3d& box);
 
+/// Returns the tolerances of a test: its own first, then the policy's.
+[[nodiscard]] std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& options);
+
+/// Returns how far apart parts may be for a test with these tolerances to check them: as far as the
+/// widest reach, and for each object what it may add to a clearance.
+[[nodiscard]] SearchReach search_reach(std::span<const Tolerances> all);
+
+/// Returns the index of a pair's cell in Report::cells; kNoCell where it has none.
+[[nodiscard]] std::size_t cell_number(const Report& report, model::ObjectId x, model::ObjectId y);
+inline constexpr std::size_t kNoCell = ~std::size_t{0};
+
 /// The rules of a policy, prepared to be applied to pairs of objects.
 class RuleMatcher {
  public:
-  /// The policy must outlive this.
-  RuleMatcher(const Policy& policy, const Options& options, const model::Model& model);
+  /// The policy must outlive this. `only`: it is asked about pairs of these objects alone.
+  RuleMatcher(const Policy& policy, const Options& options, const model::Model& model,
+              std::optional<std::span<const std::uint32_t>> only = {});
 
   /// The tolerances of pairs: all() has the test's own first, then the policy's.
   [[nodiscard]] const std::vector<Tolerances>& all() const { return tolerances_; }
   [[nodiscard]] std::size_t tolerances(std::uint32_t a, std::uint32_t b) const;
   /// Returns what the two objects of a pair add to its clearance, mm.
   [[nodiscard]] double added_clearance_mm(std::uint32_t a, std::uint32_t b) const;
-  /// Returns how far apart parts may be for the test to check them: as far as the widest tolerances
-  /// reach, and for each object what it may add to a clearance.
-  [[nodiscard]] SearchReach reach() const;
+  [[nodiscard]] SearchReach reach() const { return search_reach(tolerances_); }
 
   [[nodiscard]] Level level(const ScenePart& part) const;
 
@@ -143,7 +161,8 @@ class RuleMatcher {
   [[nodiscard]] Status exempt(const ScenePartList& list, std::vector<geometry::IndexPair>& pairs,
                               const parallel::Context& context, Report& report) const;
 
-  /// Counts the pairs of objects that went on, for the rules that may allow them.
+  /// Counts the pairs of objects that went on, for the rules that may allow them, and keeps them
+  /// where the report does.
   [[nodiscard]] Status count_candidates(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
                                         const parallel::Context& context, Report& report) const;
   [[nodiscard]] bool may_allow(std::uint32_t a, std::uint32_t b) const;
@@ -173,12 +192,6 @@ class RuleMatcher {
     std::uint32_t rule = kNoLabel;  ///< the rule that exempts it; kNoLabel: none
     bool far = false;               ///< beyond the reach of its own tolerances
   };
-  /// Pairs of parts and their verdicts.
-  struct Verdicts {
-    const ScenePartList& list;
-    const std::vector<geometry::IndexPair>& pairs;
-    const std::vector<Verdict>& verdicts;
-  };
   [[nodiscard]] Verdict verdict(const ScenePart& a, const ScenePart& b) const;
   [[nodiscard]] std::uint32_t object_rule(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::uint32_t level_rule(Level a, Level b) const;
@@ -186,14 +199,6 @@ class RuleMatcher {
   [[nodiscard]] double own_reach(const ScenePart& a, const ScenePart& b) const;
   [[nodiscard]] bool within_own_reach(const ScenePart& a, const ScenePart& b) const;
   void number_level_rules();
-  // For rules that do nothing: whether that is because earlier ones have done it.
-  [[nodiscard]] Status record_shadowed(const Verdicts& all, const parallel::Context& context,
-                                       Report& report) const;
-  [[nodiscard]] Status record_shadowed_allowances(const parallel::Context& context,
-                                                  Report& report) const;
-  /// Returns the index of a pair's cell in Report::cells, or kNoCell.
-  [[nodiscard]] std::size_t cell_number(const Pair& pair) const;
-  static constexpr std::size_t kNoCell = ~std::size_t{0};
 
   const Policy& policy_;
   const model::Model& model_;

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "clash/broad_phase/broad_phase.hpp"
+#include "strake/clash/clash.hpp"
+#include "strake/clash/policy.hpp"
+
+namespace strake::clash {
+
+/// What a run over changed objects is about.
+struct ChangedObjects {
+  std::span<const Change> change;        ///< an entry per object
+  std::span<const std::uint32_t> asked;  ///< the objects that changed or are near, ascending
+  std::uint64_t most_box_pairs = 0;      ///< more are too many for a run without the others
+};
+
+/// Returns an error where sets, options and rules do not fit a scene.
+[[nodiscard]] Status check_inputs(const model::Scene& scene, const Sets& sets,
+                                  const Options& options, const Policy& policy);
+
+/// Returns the report of detect() about the pairs of which one object changed, and of it what is
+/// about pairs: sets and disciplines are those of all objects, what is said of single objects is of
+/// those asked about. Nothing where there are too many pairs. The inputs are checked already.
+[[nodiscard]] Result<std::optional<Report>> detect_among(const model::Scene& scene,
+                                                         const Sets& sets, const Options& options,
+                                                         const Policy& policy,
+                                                         const ChangedObjects& changed,
+                                                         const parallel::Context& context);
+
+/// Says how many objects the sets have, and that one has none.
+void describe_sets(Report& report);
+
+}  // namespace strake::clash

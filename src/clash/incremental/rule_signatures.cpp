@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/incremental/rule_signatures.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "clash/rules/rule_matcher.hpp"
+#include "clash/rules/tolerance_lengths.hpp"
+#include "strake/core/version.hpp"
+
+namespace strake::clash {
+namespace {
+
+void add_relations(WordHash& hash, const RelationSet& relations) {
+  std::uint64_t bits = 0;
+  for (const Relation relation : kRelations)
+    bits = (bits << 1U) | (relations.contains(relation) ? 1U : 0U);
+  hash.add(bits);
+}
+
+void add_tolerances(WordHash& hash, const Tolerances& t) {
+  for (const ToleranceLength& length : kToleranceLengths) hash.add(t.*length.value_mm);
+  hash.add(static_cast<std::uint8_t>(t.thickness_cap)).add(t.object_clearances != nullptr);
+  if (t.object_clearances) hash.add(std::string_view(t.object_clearances->attribute));
+}
+
+void add_engine(WordHash& hash, const EngineOptions& e) {
+  // The broad phase, the log and what is kept change no result.
+  hash.add(static_cast<std::uint8_t>(e.narrow_phase))
+      .add(e.most_spheres)
+      .add(static_cast<std::uint8_t>(e.volumes))
+      .add(static_cast<std::uint8_t>(e.curves))
+      .add(static_cast<std::uint8_t>(e.contacts))
+      .add(e.most_regions)
+      .add(e.most_pairs);
+}
+
+void add_matrix(WordHash& hash, const Matrix& matrix) {
+  hash.add(std::string_view(matrix.rule)).add(matrix.disciplines.size());
+  for (const std::string& name : matrix.disciplines) hash.add(std::string_view(name));
+  for (const std::uint32_t cell : matrix.cells) hash.add(cell);
+}
+
+void add_levels(WordHash& hash, const Levels& levels) {
+  hash.add(static_cast<std::uint8_t>(levels.obstruction_bodies));
+  hash.add(std::string_view(levels.no_obstruction_rule));
+  for (const auto& row : levels.left_out)
+    for (const std::string& rule : row) hash.add(std::string_view(rule));
+}
+
+void add_point(WordHash& hash, const geometry::Vec3d& p) { hash.add(p.x).add(p.y).add(p.z); }
+
+void add_limit(WordHash& hash, const std::optional<double>& limit) {
+  hash.add(limit.has_value()).add(limit.value_or(0));
+}
+
+void add_allowed(WordHash& hash, const Allowed& rule) {
+  hash.add(std::string_view(rule.rule)).add(rule.region_mm.has_value());
+  if (rule.region_mm) {
+    add_point(hash, rule.region_mm->lo);
+    add_point(hash, rule.region_mm->hi);
+  }
+  hash.add(rule.cavity.size());
+  for (const HalfSpace& side : rule.cavity) {
+    add_point(hash, side.point_mm);
+    add_point(hash, side.normal);
+  }
+  add_limit(hash, rule.max_depth_mm);
+  add_relations(hash, rule.relations);
+  add_limit(hash, rule.max_volume_mm3);
+}
+
+/// Names each number by its first object, which no other number has.
+std::vector<Hash128> named_by_first(const std::vector<std::uint32_t>& numbers,
+                                    const ElementHashes& elements) {
+  std::uint32_t most = 0;
+  for (const std::uint32_t n : numbers)
+    if (n != kNoLabel) most = std::max(most, n + 1);
+  std::vector<Hash128> names(most);
+  std::vector<bool> named(most, false);
+  for (std::uint32_t o = 0; o < numbers.size(); ++o) {
+    const std::uint32_t n = numbers[o];
+    if (n == kNoLabel || named[n]) continue;
+    named[n] = true;
+    names[n] = elements.of(o);
+  }
+  return names;
+}
+
+/// Adds to each number's name the objects of some lists.
+void name_by_holders(const Linked::Lists& lists, const ElementHashes& elements, std::uint64_t side,
+                     std::vector<Hash128>& names) {
+  for (std::uint32_t o = 0; o + 1 < lists.first.size(); ++o) {
+    if (lists.first[o] == lists.first[o + 1]) continue;
+    const Hash128 holder = WordHash().add(elements.of(o)).add(side).value();
+    for (std::uint32_t i = lists.first[o]; i < lists.first[o + 1]; ++i)
+      names[lists.numbers[i]] = sum(names[lists.numbers[i]], holder);
+  }
+}
+
+std::vector<Hash128> named_by_holders(const Linked& linked, const ElementHashes& elements) {
+  std::uint32_t most = 0;
+  for (const Linked::Lists* const lists : {&linked.answers_to, &linked.refers_to})
+    for (const std::uint32_t n : lists->numbers) most = std::max(most, n + 1);
+  std::vector<Hash128> names(most);
+  name_by_holders(linked.answers_to, elements, 1, names);
+  name_by_holders(linked.refers_to, elements, 2, names);
+  return names;
+}
+
+/// Returns a hash of an object's numbers by their names, in whatever order they are listed.
+Hash128 sum_of_names(const Linked::Lists& lists, const std::vector<Hash128>& names,
+                     std::uint32_t object) {
+  Hash128 all;
+  for (std::uint32_t i = lists.first[object]; i < lists.first[object + 1]; ++i)
+    all = sum(all, WordHash().add(names[lists.numbers[i]]).value());
+  return all;
+}
+
+}  // namespace
+
+Hash128 settings_signature(const model::Scene& scene, const Sets& sets, const Options& options,
+                           const Policy& policy) {
+  WordHash hash;
+  hash.add(version()).add(scene.sag_mm).add(scene.weld_mm);
+  hash.add(std::string_view(sets.name_a)).add(std::string_view(sets.name_b));
+  hash.add(sets.group.empty());
+  add_tolerances(hash, options.tolerances);
+  hash.add(options.contact_distance_mm);
+  add_engine(hash, options.engine);
+  add_relations(hash, options.reporting.relations);
+  hash.add(options.reporting.min_volume_mm3);
+  hash.add(policy.tolerances.size());
+  for (const Tolerances& t : policy.tolerances) add_tolerances(hash, t);
+  hash.add(policy.matrix.has_value());
+  if (policy.matrix) add_matrix(hash, *policy.matrix);
+  hash.add(policy.exemptions.size());
+  for (const Exemption& exemption : policy.exemptions)
+    hash.add(std::string_view(exemption.rule)).add(exemption.test.index());
+  hash.add(policy.levels.has_value());
+  if (policy.levels) add_levels(hash, *policy.levels);
+  hash.add(policy.allowed.size());
+  for (const Allowed& rule : policy.allowed) add_allowed(hash, rule);
+  return hash.add(policy.list_exempted).value();
+}
+
+RuleSignatures::RuleSignatures(const Sets& sets, const Options& options, const Policy& policy,
+                               const ElementHashes& elements)
+    : sets_(sets),
+      policy_(policy),
+      groups_(sets.group_names.empty() ? named_by_first(sets.group, elements) : sets.group_names),
+      names_(policy.exemptions.size()) {
+  for (const Tolerances& t : all_tolerances(policy, options))
+    if (t.object_clearances) clearances_.push_back(t.object_clearances.get());
+  for (std::size_t e = 0; e < policy.exemptions.size(); ++e) {
+    const auto& test = policy.exemptions[e].test;
+    if (const auto* const same = std::get_if<SameLabel>(&test))
+      names_[e] = same->names.empty() ? named_by_first(same->label, elements) : same->names;
+    if (const auto* const linked = std::get_if<Linked>(&test))
+      names_[e] = linked->names.empty() ? named_by_holders(*linked, elements) : linked->names;
+  }
+}
+
+void RuleSignatures::add(std::uint32_t object, WordHash& hash) const {
+  std::uint64_t bits = (sets_.in_a[object] ? 1U : 0U) | (sets_.in_b[object] ? 2U : 0U);
+  unsigned used = 2;
+  const auto add_bits = [&](bool a, bool b) {
+    if (used == 64) {
+      hash.add(bits);
+      bits = used = 0;
+    }
+    bits |= (std::uint64_t{a} | (std::uint64_t{b} << 1U)) << used;
+    used += 2;
+  };
+  for (const Allowed& rule : policy_.allowed) add_bits(rule.a[object], rule.b[object]);
+  for (std::size_t e = 0; e < policy_.exemptions.size(); ++e) {
+    const auto& test = policy_.exemptions[e].test;
+    if (const auto* const between = std::get_if<Between>(&test)) {
+      add_bits(between->a[object], between->b[object]);
+    } else if (const auto* const same = std::get_if<SameLabel>(&test)) {
+      const std::uint32_t label = same->label[object];
+      hash.add(label != kNoLabel).add(label == kNoLabel ? Hash128{} : names_[e][label]);
+    } else {
+      add_linked(object, *std::get_if<Linked>(&test), names_[e], hash);
+    }
+  }
+  hash.add(bits);
+  if (!sets_.group.empty()) hash.add(groups_[sets_.group[object]]);
+  if (policy_.matrix) hash.add(policy_.matrix->discipline[object]);
+  if (policy_.levels) hash.add(static_cast<std::uint8_t>(policy_.levels->object[object]));
+  for (const ObjectClearances* const clearances : clearances_) hash.add(clearances->mm[object]);
+}
+
+void RuleSignatures::add_linked(std::uint32_t object, const Linked& linked,
+                                const std::vector<Hash128>& names, WordHash& hash) const {
+  for (const Linked::Lists* const lists : {&linked.answers_to, &linked.refers_to})
+    hash.add(sum_of_names(*lists, names, object))
+        .add(lists->first[object + 1] - lists->first[object]);
+}
+
+}  // namespace strake::clash

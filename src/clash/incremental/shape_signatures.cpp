@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "clash/incremental/shape_signatures.hpp"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <variant>
+
+#include "core/word_hash.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::clash {
+namespace {
+
+using geometry::Part;
+
+/// Adds the values of a list, whose type has no padding, as they lie in memory.
+template <class List>
+void add_list(WordHash& hash, const List& list) {
+  hash.add(hash_bytes(std::as_bytes(std::span(list.data(), list.size())))).add(list.size());
+}
+
+void add_primitive(WordHash& hash, const geometry::Primitive& primitive) {
+  hash.add(primitive.index());
+  std::visit(
+      [&](const auto& p) {
+        using Lengths = std::array<double, sizeof(p) / sizeof(double)>;
+        for (const double length : std::bit_cast<Lengths>(p)) hash.add(length);
+      },
+      primitive);
+}
+
+void add_part(WordHash& hash, const Part& part) {
+  const geometry::PartFlags& flags = part.flags;
+  hash.add(static_cast<std::uint8_t>(part.kind));
+  for (const bool flag : {flags.inverted, flags.open, flags.non_manifold, flags.unknown_sag})
+    hash.add(flag);
+  add_list(hash, part.vertices);
+  add_list(hash, part.triangles);
+  add_list(hash, part.faces);
+  add_list(hash, part.shells);
+  add_list(hash, part.chain_first);
+  hash.add(part.shell_count).add(part.primitive.has_value());
+  if (part.primitive) add_primitive(hash, *part.primitive);
+  for (const double value : {part.sag, part.weld, part.volume, part.area}) hash.add(value);
+}
+
+}  // namespace
+
+Result<std::vector<Hash128>> shape_signatures(const model::Scene& scene,
+                                              const parallel::Context& context) {
+  constexpr std::size_t kGrain = 16;
+  return parallel::transform(
+      context, {.name = "signatures of shapes", .n = scene.shapes.size(), .grain = kGrain},
+      [&](std::size_t s) {
+        WordHash hash;
+        for (const Part& part : scene.shapes[s].parts) add_part(hash, part);
+        return hash.value();
+      });
+}
+
+}  // namespace strake::clash

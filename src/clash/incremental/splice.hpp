@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "clash/incremental/object_map.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
+
+/// Long lists of pairs that follow a change where they are: only what lies between the first and
+/// the last item that comes or goes is moved.
+namespace strake::clash {
+
+/// Some neighbouring items of a list: [first, last).
+struct ItemRun {
+  std::size_t first = 0, last = 0;
+};
+
+/// Returns ascending numbers as runs of neighbours.
+[[nodiscard]] inline std::vector<ItemRun> runs_of(std::span<const std::size_t> numbers) {
+  std::vector<ItemRun> runs;
+  for (const std::size_t n : numbers) {
+    if (runs.empty() || runs.back().last != n)
+      runs.push_back({n, n + 1});
+    else
+      ++runs.back().last;
+  }
+  return runs;
+}
+
+/// Returns the first item that is in no run and not before `item`, or the end of the list. The
+/// items outside the runs are ascending.
+template <class T, class Before>
+[[nodiscard]] std::size_t place_among(const std::vector<T>& list, std::span<const ItemRun> runs,
+                                      const T& item, const Before& before) {
+  // Returns i, or the end of the run that it lies in.
+  const auto beyond_run = [&](std::size_t i) {
+    const auto run = std::ranges::upper_bound(runs, i, {}, &ItemRun::last);
+    return run != runs.end() && run->first <= i ? run->last : i;
+  };
+  std::size_t low = 0, high = list.size();
+  while (low < high) {
+    const std::size_t middle = beyond_run(low + (high - low) / 2);
+    if (middle >= high)
+      high = low + (high - low) / 2;
+    else if (before(list[middle], item))
+      low = middle + 1;
+    else
+      high = low + (high - low) / 2;
+  }
+  return beyond_run(low);
+}
+
+/// Removes the runs from a list and puts ascending items in their places.
+template <class T, class Before>
+void splice(std::vector<T>& list, std::span<const ItemRun> runs, const std::vector<T>& added,
+            const Before& before) {
+  using Shift = std::ptrdiff_t;
+  struct Segment {
+    std::size_t first = 0, last = 0;
+    Shift shift = 0;
+  };
+  const std::size_t size = list.size();
+  std::vector<Segment> segments;
+  std::vector<std::size_t> places;  // where the added items go
+  std::size_t at = 0, run = 0;
+  Shift shift = 0;
+  const auto go_to = [&](std::size_t next) {
+    if (next > at) segments.push_back({at, next, shift});
+    at = next;
+  };
+  const auto drop_until = [&](std::size_t limit) {
+    for (; run < runs.size() && runs[run].first < limit; ++run) {
+      go_to(runs[run].first);
+      at = runs[run].last;
+      shift -= static_cast<Shift>(runs[run].last - runs[run].first);
+    }
+  };
+  for (const T& item : added) {
+    const std::size_t place = place_among(list, runs, item, before);
+    drop_until(place);
+    go_to(place);
+    places.push_back(static_cast<std::size_t>(static_cast<Shift>(place) + shift));
+    ++shift;
+  }
+  drop_until(size);
+  go_to(size);
+  const auto end = static_cast<std::size_t>(static_cast<Shift>(size) + shift);
+  list.reserve(end);
+  list.resize(std::max(size, end));
+  const auto item = [&](std::size_t i) { return list.begin() + static_cast<Shift>(i); };
+  // What moves down goes from the front, then what moves up from the back: neither is written over
+  // before it is read.
+  for (const Segment& s : segments)
+    if (s.shift < 0) std::move(item(s.first), item(s.last), item(s.first) + s.shift);
+  for (auto s = segments.rbegin(); s != segments.rend(); ++s)
+    if (s->shift > 0) std::move_backward(item(s->first), item(s->last), item(s->last) + s->shift);
+  for (std::size_t i = 0; i < added.size(); ++i) list[places[i]] = added[i];
+  list.resize(end);
+}
+
+/// Brings a list of pairs of objects, T::a and T::b, up to date: calls `gone(item)` for each that
+/// has a changed object, in their order and before anything is changed, removes them, gives the
+/// others the new numbers, and puts in `added`. Errors: cancelled.
+template <class T, class Gone>
+[[nodiscard]] Status follow(std::vector<T>& list, const std::vector<T>& added, const ObjectMap& map,
+                            const parallel::Context& context, const Gone& gone) {
+  constexpr std::size_t kGrain = 16384;
+  const auto dead = parallel::collect<std::size_t>(
+      context, {.name = "pairs of changed objects", .n = list.size(), .grain = kGrain},
+      [&](std::size_t i, std::vector<std::size_t>& out) {
+        if (map.now[index(list[i].a)] == kChanged || map.now[index(list[i].b)] == kChanged)
+          out.push_back(i);
+      });
+  if (!dead) return dead.error();
+  for (const std::size_t i : *dead) gone(list[i]);
+  if (map.renumbered) {
+    const Status done =
+        parallel::for_each(context, {.name = "pairs renumbered", .n = list.size(), .grain = kGrain},
+                           [&](std::size_t i) {
+                             list[i].a = model::ObjectId{map.now[index(list[i].a)]};
+                             list[i].b = model::ObjectId{map.now[index(list[i].b)]};
+                           });
+    if (!done) return done;
+  }
+  splice(list, std::span<const ItemRun>(runs_of(*dead)), added,
+         [](const T& x, const T& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
+  return {};
+}
+
+}  // namespace strake::clash

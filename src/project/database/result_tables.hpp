@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace strake::project {
+
+/// Tests, runs, clashes and what became of them. docs/statuses.md says what the statuses mean.
+///
+/// `clash.decision` is NULL while nobody has decided: such a clash is new in the run `new_run` and
+/// active from the next one on, so that a night on which nothing changes writes no rows. The view
+/// `clashes` shows it as people see it.
+inline constexpr const char* kResultTables = R"sql(
+CREATE TABLE run (
+  id INTEGER PRIMARY KEY,
+  started TEXT NOT NULL,            -- UTC, 2026-01-31T23:59:59Z
+  program TEXT NOT NULL,            -- its version
+  who TEXT NOT NULL,
+  seconds REAL NOT NULL
+) STRICT;
+
+CREATE TABLE test (
+  id INTEGER PRIMARY KEY,
+  name TEXT NOT NULL UNIQUE,        -- empty: the test of the command line
+  settings TEXT NOT NULL,           -- for people
+  run INTEGER NOT NULL REFERENCES run(id),  -- the last one
+  objects INTEGER NOT NULL,         -- of the model then
+  snapshot BLOB NOT NULL,           -- what the report was computed from
+  report BLOB NOT NULL,             -- all of it but pairs and regions
+  kept BLOB NOT NULL                -- what the next run needs besides (clash::KeptForChanges)
+) STRICT;
+
+CREATE TABLE report_part (          -- pairs and regions of a range of objects
+  test INTEGER NOT NULL REFERENCES test(id),
+  part INTEGER NOT NULL,
+  data BLOB NOT NULL,
+  PRIMARY KEY (test, part)
+) STRICT;
+
+CREATE TABLE run_test (             -- what a run did and found, for the trend
+  run INTEGER NOT NULL REFERENCES run(id),
+  test INTEGER NOT NULL REFERENCES test(id),
+  how TEXT NOT NULL CHECK (how IN ('full', 'changes', 'nothing')),
+  objects INTEGER NOT NULL, changed_objects INTEGER NOT NULL,
+  tested_pairs INTEGER NOT NULL, kept_results INTEGER NOT NULL,
+  hit INTEGER NOT NULL, contact INTEGER NOT NULL, clearance_violation INTEGER NOT NULL,
+  allowed INTEGER NOT NULL,
+  appeared INTEGER NOT NULL, gone INTEGER NOT NULL,
+  new INTEGER NOT NULL, active INTEGER NOT NULL, reviewed INTEGER NOT NULL,
+  approved INTEGER NOT NULL, resolved INTEGER NOT NULL, cannot_tell INTEGER NOT NULL,
+  PRIMARY KEY (run, test)
+) STRICT;
+
+CREATE TABLE clash (
+  id INTEGER PRIMARY KEY,
+  key TEXT NOT NULL UNIQUE,
+  test INTEGER NOT NULL REFERENCES test(id),
+  a_file TEXT NOT NULL, a_id TEXT NOT NULL, a_name TEXT NOT NULL,
+  b_file TEXT NOT NULL, b_id TEXT NOT NULL, b_name TEXT NOT NULL,
+  class TEXT NOT NULL CHECK (class IN ('HIT', 'CONTACT', 'CLEARANCE_VIOLATION')),
+  relation TEXT NOT NULL,
+  d_mm REAL NOT NULL, x_mm REAL NOT NULL, y_mm REAL NOT NULL, z_mm REAL NOT NULL,
+  regions INTEGER NOT NULL,
+  first_run INTEGER NOT NULL REFERENCES run(id),
+  new_run INTEGER NOT NULL REFERENCES run(id),  -- in which it was new last
+  gone_run INTEGER REFERENCES run(id),          -- the first that did not find it any more
+  unknown TEXT,                     -- why the last run cannot tell whether it is there
+  decision TEXT CHECK (decision IN ('active', 'reviewed', 'approved', 'resolved')),
+  decided_by TEXT, decided_at TEXT, comment TEXT, assignee TEXT,
+  decided_class TEXT, decided_d_mm REAL, decided_regions INTEGER  -- what was decided about
+) STRICT;
+CREATE INDEX clash_decided ON clash (test, decision) WHERE decision IS NOT NULL;
+CREATE INDEX clash_watched ON clash (test) WHERE gone_run IS NULL AND
+  (decision IS NOT NULL OR unknown IS NOT NULL OR comment IS NOT NULL OR assignee IS NOT NULL);
+CREATE INDEX clash_gone ON clash (test, gone_run) WHERE gone_run IS NOT NULL;
+
+CREATE TABLE event (                -- changes of status
+  id INTEGER PRIMARY KEY,
+  clash INTEGER NOT NULL REFERENCES clash(id),
+  run INTEGER REFERENCES run(id),   -- NULL: a person did it between runs
+  at TEXT NOT NULL,
+  who TEXT NOT NULL,                -- 'strake' where the program did it
+  before TEXT NOT NULL, after TEXT NOT NULL,
+  comment TEXT NOT NULL
+) STRICT;
+CREATE INDEX event_of_clash ON event (clash);
+
+CREATE VIEW clashes AS SELECT clash.*, test.name AS test_name,
+  CASE WHEN decision IS NOT NULL THEN decision
+       WHEN new_run = test.run THEN 'new' ELSE 'active' END AS status,
+  CASE WHEN gone_run IS NOT NULL OR unknown IS NOT NULL THEN NULL ELSE test.run END AS last_run
+  FROM clash JOIN test ON test.id = clash.test;
+)sql";
+
+}  // namespace strake::project

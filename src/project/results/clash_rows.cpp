@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/results/clash_rows.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+namespace strake::project {
+namespace {
+
+using report::DecisionStatus;
+
+constexpr std::array kClasses{clash::Class::clearance_violation, clash::Class::contact,
+                              clash::Class::hit};
+
+/// Finds the value that has a name.
+template <class Values>
+auto value_of(const Values& values, std::string_view word) {
+  const auto at = std::ranges::find_if(values, [&](auto value) { return name(value) == word; });
+  return at == std::end(values) ? std::nullopt : std::optional(*at);
+}
+
+std::uint32_t count_of(std::int64_t value) {
+  return static_cast<std::uint32_t>(
+      std::clamp<std::int64_t>(value, 0, std::numeric_limits<std::uint32_t>::max()));
+}
+
+ClashSide side_of(const Statement& at, int column) {
+  return {std::string(at.text(column)), std::string(at.text(column + 1)),
+          std::string(at.text(column + 2))};
+}
+
+/// Binds values to the parameters of a statement in their order.
+class Binder {
+ public:
+  explicit Binder(Statement& statement) : statement_(statement) {}
+
+  template <class T>
+  Binder& put(T value) {
+    statement_.bind(next_++, value);
+    return *this;
+  }
+  Binder& null() {
+    statement_.bind_null(next_++);
+    return *this;
+  }
+  Binder& text(std::string_view text) { return put(text); }
+  Binder& text_or_null(std::string_view text) { return text.empty() ? null() : put(text); }
+  Binder& count(std::uint32_t count) { return put(std::int64_t{count}); }
+
+ private:
+  Statement& statement_;
+  int next_ = 1;
+};
+
+/// Binds all columns but the id, in their order.
+Binder bind_row(Statement& statement, const ClashRow& row) {
+  Binder to(statement);
+  to.put(row.test).text(row.key);
+  for (const ClashSide* const side : {&row.a, &row.b})
+    to.text(side->file).text(side->id).text(side->name);
+  to.text(name(row.now.cls)).put(row.now.d_mm).count(row.now.regions).text(name(row.relation));
+  to.put(row.point_mm.x).put(row.point_mm.y).put(row.point_mm.z);
+  to.put(row.first_run).put(row.new_run);
+  row.gone_run ? to.put(*row.gone_run) : to.null();
+  to.text_or_null(row.unknown);
+  row.decision == DecisionStatus::undecided ? to.null() : to.text(name(row.decision));
+  for (const std::string* const text :
+       {&row.decided_by, &row.decided_at, &row.comment, &row.assignee})
+    to.text_or_null(*text);
+  if (!row.decided) return to.null().null().null();
+  return to.text(name(row.decided->cls)).put(row.decided->d_mm).count(row.decided->regions);
+}
+
+}  // namespace
+
+std::string utc_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
+Result<ClashRow> row_of(const Database& database, const Statement& at) {
+  ClashRow row;
+  row.id = at.integer(0);
+  row.test = at.integer(1);
+  row.key = at.text(2);
+  row.a = side_of(at, 3);
+  row.b = side_of(at, 6);
+  const auto cls = value_of(kClasses, at.text(9));
+  const auto relation = value_of(clash::kRelations, at.text(12));
+  if (!cls || !relation) return database.damaged("a clash is of no class or relation");
+  row.now = {*cls, at.real(10), count_of(at.integer(11))};
+  row.relation = *relation;
+  row.point_mm = {at.real(13), at.real(14), at.real(15)};
+  row.first_run = at.integer(16);
+  row.new_run = at.integer(17);
+  if (!at.is_null(18)) row.gone_run = at.integer(18);
+  row.unknown = at.text(19);
+  if (!at.is_null(20)) {
+    const auto status = value_of(report::kDecisionStatuses, at.text(20));
+    if (!status) return database.damaged("a clash has a status that is none");
+    row.decision = *status;
+  }
+  row.decided_by = at.text(21);
+  row.decided_at = at.text(22);
+  row.comment = at.text(23);
+  row.assignee = at.text(24);
+  if (at.is_null(25) || at.is_null(26)) return row;
+  const auto decided = value_of(kClasses, at.text(25));
+  if (!decided) return database.damaged("a clash was decided about as of no class");
+  row.decided = Measure{*decided, at.real(26), count_of(at.integer(27))};
+  return row;
+}
+
+ClashRows::ClashRows(Database& database, Statement by_id, Statement by_key, Statement insert,
+                     Statement update, Statement event)
+    : database_(&database),
+      by_id_(std::move(by_id)),
+      by_key_(std::move(by_key)),
+      insert_(std::move(insert)),
+      update_(std::move(update)),
+      event_(std::move(event)) {}
+
+Result<ClashRows> ClashRows::of(Database& database) {
+  const std::string_view columns = kClashColumns.substr(kClashColumns.find(',') + 1);
+  const auto count = static_cast<std::size_t>(std::ranges::count(columns, ',')) + 1;
+  std::string places = "?1";
+  for (std::size_t p = 2; p <= count; ++p) places += fmt::format(",?{}", p);
+  const std::string select = fmt::format("SELECT {} FROM clash WHERE ", kClashColumns);
+  Result<Statement> by_id = database.prepare(select + "id = ?1");
+  if (!by_id) return by_id.error();
+  Result<Statement> by_key = database.prepare(select + "key = ?1");
+  if (!by_key) return by_key.error();
+  Result<Statement> insert =
+      database.prepare(fmt::format("INSERT INTO clash ({}) VALUES ({})", columns, places));
+  if (!insert) return insert.error();
+  Result<Statement> update = database.prepare(
+      fmt::format("UPDATE clash SET ({}) = ({}) WHERE id = ?{}", columns, places, count + 1));
+  if (!update) return update.error();
+  Result<Statement> event = database.prepare(
+      "INSERT INTO event (clash, run, at, who, before, after, comment) "
+      "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
+  if (!event) return event.error();
+  return ClashRows(database, std::move(*by_id), std::move(*by_key), std::move(*insert),
+                   std::move(*update), std::move(*event));
+}
+
+Result<std::optional<ClashRow>> ClashRows::take(Statement& statement) {
+  const Result<bool> there = statement.step();
+  if (!there) return there.error();
+  if (!*there) {
+    statement.reset();
+    return std::optional<ClashRow>();
+  }
+  Result<ClashRow> row = row_of(*database_, statement);
+  statement.reset();
+  if (!row) return row.error();
+  return std::optional(std::move(*row));
+}
+
+Result<std::optional<ClashRow>> ClashRows::find(std::int64_t id) {
+  return take(by_id_.bind(1, id));
+}
+
+Result<std::optional<ClashRow>> ClashRows::find(std::string_view key) {
+  return take(by_key_.bind(1, key));
+}
+
+Status ClashRows::insert(ClashRow& row) {
+  bind_row(insert_, row);
+  if (const Status status = insert_.run(); !status) return status;
+  row.id = database_->last_insert_id();
+  return {};
+}
+
+Status ClashRows::update(const ClashRow& row) {
+  bind_row(update_, row).put(row.id);
+  return update_.run();
+}
+
+Status ClashRows::add(const ClashEvent& event) {
+  Binder to(event_);
+  to.put(event.clash);
+  event.run ? to.put(*event.run) : to.null();
+  to.text(event.at).text(event.who).text(name(event.before)).text(name(event.after));
+  to.text(event.comment);
+  return event_.run();
+}
+
+}  // namespace strake::project

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/results/coverage.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+
+#include "clash/rules/rule_matcher.hpp"
+
+namespace strake::project {
+namespace {
+
+std::string named(const SoughtObject& object) { return "'" + std::string(object.name) + "'"; }
+
+bool exempts(const clash::Exemption& exemption, std::uint32_t a, std::uint32_t b) {
+  if (const auto* const between = std::get_if<clash::Between>(&exemption.test))
+    return (between->a[a] && between->b[b]) || (between->a[b] && between->b[a]);
+  if (const auto* const label = std::get_if<clash::SameLabel>(&exemption.test))
+    return clash::exempts(*label, a, b);
+  return clash::exempts(std::get<clash::Linked>(exemption.test), a, b);
+}
+
+/// The cell of two objects in a matrix; the default where there is none.
+std::uint32_t cell_of(const clash::Policy& policy, std::uint32_t a, std::uint32_t b) {
+  if (!policy.matrix) return clash::Matrix::kDefault;
+  const clash::Matrix& matrix = *policy.matrix;
+  const std::uint32_t row = matrix.discipline[a], column = matrix.discipline[b];
+  if (row == clash::kNoLabel || column == clash::kNoLabel) return clash::Matrix::kDefault;
+  return matrix.cells[row * matrix.disciplines.size() + column];
+}
+
+/// Returns how far apart two objects may be and still be a result of a report.
+double reach_of(const clash::Tolerances& tolerances, std::uint32_t a, std::uint32_t b) {
+  return std::max(tolerances.clearance_mm + tolerances.added_clearance_mm(a, b),
+                  tolerances.touch_gap_mm);
+}
+
+bool has_same_lengths(const clash::Tolerances& x, const clash::Tolerances& y) {
+  return x.clearance_mm == y.clearance_mm && x.touch_gap_mm == y.touch_gap_mm;
+}
+
+/// Whether two runs of a test reach as far, whatever objects add to it: what is beyond that moved.
+bool has_same_lengths(const clash::Report& x, const clash::Report& y) {
+  return has_same_lengths(x.options.tolerances, y.options.tolerances) &&
+         std::ranges::equal(x.cells, y.cells,
+                            [](const clash::CellReport& p, const clash::CellReport& q) {
+                              return p.a == q.a && p.b == q.b && p.checked == q.checked &&
+                                     has_same_lengths(p.tolerances, q.tolerances);
+                            });
+}
+
+}  // namespace
+
+Coverage::Coverage(const model::Model& model, const clash::Sets& sets, const clash::Policy& policy,
+                   const clash::Report& report)
+    : model_(model), sets_(sets), policy_(policy), report_(report) {
+  for (const clash::NotCompared& n : report.not_compared)
+    lacks_.emplace(std::pair(n.a, n.b), n.code);
+}
+
+std::string Coverage::reason(const SoughtObject& a, const SoughtObject& b, const Measure& was,
+                             const clash::Report* earlier) const {
+  for (const SoughtObject* const object : {&a, &b})
+    if (!object->id) return named(*object) + " is not in the model";
+  if (std::string why = of_sets(a, b); !why.empty()) return why;
+  for (const SoughtObject* const object : {&a, &b})
+    if (std::string why = of_object(*object, earlier); !why.empty()) return why;
+  if (const auto at = lacks_.find({*a.id, b.id}); at != lacks_.end())
+    return "the pair could not be compared (" + std::string(at->second) + ")";
+  if (std::string why = of_exemptions(*a.id, *b.id); !why.empty()) return why;
+  if (std::string why = of_report(was); !why.empty()) return why;
+  return earlier == nullptr ? std::string() : of_settings(*a.id, *b.id, was, *earlier);
+}
+
+std::string Coverage::of_sets(const SoughtObject& a, const SoughtObject& b) const {
+  const std::uint32_t x = index(*a.id), y = index(*b.id);
+  for (const SoughtObject* const object : {&a, &b})
+    if (!sets_.in_a[index(*object->id)] && !sets_.in_b[index(*object->id)])
+      return named(*object) + " is in neither set";
+  if (!(sets_.in_a[x] && sets_.in_b[y]) && !(sets_.in_a[y] && sets_.in_b[x]))
+    return "both are in the same set";
+  if (!sets_.group.empty() && sets_.group[x] == sets_.group[y])
+    return "pairs within a file are not looked at";
+  return {};
+}
+
+std::string Coverage::of_object(const SoughtObject& object, const clash::Report* earlier) const {
+  const model::Object& now = model_.object(*object.id);
+  if (const auto at = lacks_.find({*object.id, std::nullopt}); at != lacks_.end())
+    return named(object) + " could not be compared whole (" + std::string(at->second) + ")";
+  if (now.incomplete) return named(object) + " could not be read whole";
+  const model::SourceFile& file = model_.files[now.file];
+  if (file.ends_early) return file.label + " ends early";
+  if (earlier == nullptr || !object.before || earlier->sheets.empty() || report_.sheets.empty())
+    return {};
+  if (report_.sheets[index(*object.id)] > earlier->sheets[index(*object.before)])
+    return named(object) + " has surfaces that enclose nothing beyond those of the earlier run";
+  return {};
+}
+
+std::string Coverage::of_exemptions(model::ObjectId a, model::ObjectId b) const {
+  const std::uint32_t x = index(a), y = index(b);
+  if (cell_of(policy_, x, y) == clash::Matrix::kNotChecked)
+    return "exempted by '" + policy_.matrix->rule + "'";
+  for (const clash::Exemption& exemption : policy_.exemptions)
+    if (exempts(exemption, x, y)) return "exempted by '" + exemption.rule + "'";
+  if (!policy_.levels) return {};
+  const clash::Level p = policy_.levels->object[x], q = policy_.levels->object[y];
+  if (p == clash::Level::none || q == clash::Level::none) return "exempted by its level";
+  const std::string& rule =
+      policy_.levels->left_out[static_cast<std::size_t>(p)][static_cast<std::size_t>(q)];
+  return rule.empty() ? std::string() : "exempted by '" + rule + "'";
+}
+
+std::string Coverage::of_report(const Measure& was) const {
+  if (was.cls == clash::Class::contact && report_.unlisted.contacts + report_.unlisted.allowed > 0)
+    return "it may be among the contacts, which are only counted";
+  if (report_.not_reported.by_relation.all() + report_.not_reported.by_volume.all() > 0)
+    return "it may be among the results that the test does not report";
+  return {};
+}
+
+std::string Coverage::of_settings(model::ObjectId a, model::ObjectId b, const Measure& was,
+                                  const clash::Report& earlier) const {
+  const bool curves = report_.options.engine.curves == clash::Curves::on;
+  if (!curves && earlier.options.engine.curves == clash::Curves::on)
+    return "lines are not checked any more";
+  if (has_same_lengths(report_, earlier)) return {};
+  const std::uint32_t cell = cell_of(policy_, index(a), index(b));
+  const clash::Tolerances& now =
+      cell < policy_.tolerances.size() ? policy_.tolerances[cell] : report_.options.tolerances;
+  const double reach = reach_of(now, index(a), index(b));
+  return was.d_mm > reach ? "the test does not reach as far as it did" : std::string();
+}
+
+}  // namespace strake::project

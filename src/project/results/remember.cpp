@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/results/remember.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "project/results/positional_rows.hpp"
+#include "project/results/test_memory.hpp"
+#include "strake/core/version.hpp"
+
+namespace strake::project {
+namespace {
+
+using report::DecisionStatus;
+
+/// Returns what a test asks, for people.
+std::string settings_text(const clash::Report& report) {
+  const clash::Tolerances& t = report.options.tolerances;
+  return fmt::format("a {}, b {}, clearance {:g} mm, touch gap {:g} mm, touch overlap {:g} mm",
+                     report.set_a, report.set_b, t.clearance_mm, t.touch_gap_mm,
+                     t.touch_overlap_mm);
+}
+
+Result<std::int64_t> add_run(Database& database, const RunFacts& facts) {
+  Result<Statement> insert =
+      database.prepare("INSERT INTO run (started, program, who, seconds) VALUES (?1, ?2, ?3, ?4)");
+  if (!insert) return insert.error();
+  insert->bind(1, std::string_view(facts.started)).bind(2, version());
+  insert->bind(3, std::string_view(facts.who)).bind(4, facts.seconds);
+  if (const Status status = insert->run(); !status) return status.error();
+  return database.last_insert_id();
+}
+
+/// Adds the row of a test that was never run; its results follow.
+Result<TestRow> add_test(Database& database, const std::string& name, std::int64_t run) {
+  Result<Statement> insert = database.prepare(
+      "INSERT INTO test (name, settings, run, objects, snapshot, report, kept) "
+      "VALUES (?1, '', ?2, 0, x'', x'', x'')");
+  if (!insert) return insert.error();
+  insert->bind(1, std::string_view(name)).bind(2, run);
+  if (const Status status = insert->run(); !status) return status.error();
+  return TestRow{database.last_insert_id(), run};
+}
+
+Result<std::uint64_t> count_resolved(Database& database, std::int64_t test) {
+  Result<Statement> select =
+      database.prepare("SELECT count(*) FROM clash WHERE test = ?1 AND decision = 'resolved'");
+  if (!select) return select.error();
+  const Result<bool> there = select->bind(1, test).step();
+  if (!there) return there.error();
+  return static_cast<std::uint64_t>(select->integer(0));
+}
+
+/// The decisions of a run, which reports take as those of a file.
+class DecidedBuilder {
+ public:
+  explicit DecidedBuilder(RememberedRun& run) : run_(run) {
+    // Every clash that nobody decided about and that is not new has this one.
+    report::Decision active;
+    active.status = DecisionStatus::active;
+    add(std::move(active));
+  }
+
+  void add_test(const clash::Report& report, const TestMemory& memory) {
+    std::vector<Entry>& entries = tests_.emplace_back();
+    auto at = memory.statuses().begin();
+    for (std::size_t i = 0; i < report.pairs.size(); ++i) {
+      const clash::Pair& pair = report.pairs[i];
+      const bool is_told = at != memory.statuses().end() && at->first == i;
+      const ResultStatus* const told = is_told ? &(at++)->second : nullptr;
+      if (told != nullptr && told->row)
+        entries.push_back({&pair, told->reopened, add(told_of(*told, report))});
+      else if (pair.allowed < 0 && (told == nullptr || !told->is_new))
+        entries.push_back({&pair, report::Reopened::no, 0});
+    }
+    for (const ClashRow& row : memory.not_found())
+      not_found_.push_back(add(decision_of(row, report.name)));
+    count(report, entries);
+  }
+
+  void finish(const std::string& name, double deeper_mm) {
+    run_.file = std::make_unique<report::DecisionFile>();
+    run_.file->name = name;
+    run_.file->decisions = std::move(decisions_);
+    report::DecidedResults& decided = run_.decided;
+    decided.file = run_.file.get();
+    decided.deeper_mm = deeper_mm;
+    for (const std::vector<Entry>& entries : tests_) {
+      std::vector<report::DecidedResult>& of_test = decided.tests.emplace_back();
+      of_test.reserve(entries.size());
+      for (const Entry& e : entries)
+        of_test.push_back({e.pair->a, e.pair->b, e.pair->cls, e.pair->allowed >= 0, e.reopened,
+                           false, &run_.file->decisions[e.decision]});
+    }
+    for (const std::size_t at : not_found_) decided.not_found.push_back(&run_.file->decisions[at]);
+  }
+
+ private:
+  struct Entry {
+    const clash::Pair* pair = nullptr;
+    report::Reopened reopened = report::Reopened::no;
+    std::size_t decision = 0;
+  };
+
+  std::size_t add(report::Decision decision) {
+    decisions_.push_back(std::move(decision));
+    return decisions_.size() - 1;
+  }
+
+  [[nodiscard]] static report::Decision told_of(const ResultStatus& told,
+                                                const clash::Report& report) {
+    report::Decision decision = decision_of(*told.row, report.name);
+    if (decision.status == DecisionStatus::undecided && !told.is_new)
+      decision.status = DecisionStatus::active;
+    return decision;
+  }
+
+  void count(const clash::Report& report, const std::vector<Entry>& entries) {
+    const auto counted = static_cast<std::uint64_t>(
+        std::ranges::count_if(report.pairs, [](const clash::Pair& p) { return p.allowed < 0; }));
+    std::uint64_t decided = 0;
+    for (const Entry& e : entries) {
+      if (e.pair->allowed >= 0) continue;
+      ++run_.decided.counts[static_cast<std::size_t>(decisions_[e.decision].status)];
+      ++decided;
+    }
+    run_.decided.counts[static_cast<std::size_t>(DecisionStatus::undecided)] += counted - decided;
+  }
+
+  RememberedRun& run_;
+  std::vector<report::Decision> decisions_;
+  std::vector<std::vector<Entry>> tests_;
+  std::vector<std::size_t> not_found_;
+};
+
+Status add_trend(Database& database, std::int64_t run, std::int64_t test, const TestedTest& tested,
+                 const TestTrend& trend, const std::array<std::uint64_t, 5>& statuses) {
+  Result<Statement> insert = database.prepare(
+      "INSERT INTO run_test (run, test, how, objects, changed_objects, tested_pairs, kept_results, "
+      "hit, contact, clearance_violation, allowed, appeared, gone, new, active, reviewed, "
+      "approved, resolved, cannot_tell) VALUES "
+      "(?1,?2,?3,?4,?5,?6,?7,?8,?9,?10,?11,?12,?13,?14,?15,?16,?17,?18,?19)");
+  if (!insert) return insert.error();
+  const clash::Report& report = *tested.report;
+  insert->bind(1, run).bind(2, test).bind(3, name(tested.work.how));
+  int p = 4;
+  for (const std::uint64_t value :
+       {tested.work.objects, tested.work.changed_objects, tested.work.tested_pairs,
+        tested.work.kept_results, report.count_hit, report.count_contact, report.count_clearance,
+        report.count_allowed, trend.appeared, trend.gone, statuses[0], statuses[1], statuses[2],
+        statuses[3], trend.resolved, trend.cannot_tell})
+    insert->bind(p++, static_cast<std::int64_t>(value));
+  return insert->run();
+}
+
+/// Remembers the tests of one run.
+class RunMemory {
+ public:
+  RunMemory(Database& database, ClashRows rows, const model::Model& model, const RunFacts& facts,
+            RememberedRun& run)
+      : database_(database),
+        rows_(std::move(rows)),
+        model_(model),
+        facts_(facts),
+        run_(run),
+        decided_(run) {}
+
+  Status add(const TestedTest& test, const parallel::Context& context) {
+    const std::string& name = test.report->name;
+    Result<std::optional<TestRow>> row = find_test(database_, name);
+    if (!row) return row.error();
+    if (!*row) {
+      Result<TestRow> added = add_test(database_, name, run_.number);
+      if (!added) return added.error();
+      return add(test, *added, nullptr, context);
+    }
+    if (test.before != nullptr && test.before->run == (**row).run)
+      return add(test, **row, test.before, context);
+    // Another process remembered a run meanwhile: this one follows that.
+    Result<std::optional<StoredTest>> before = read_test(database_, name, context);
+    if (!before) return before.error();
+    return add(test, **row, *before ? &**before : nullptr, context);
+  }
+
+  void finish() { decided_.finish(database_.file().filename().string(), facts_.deeper_mm); }
+
+ private:
+  Status add(const TestedTest& test, TestRow row, const StoredTest* before,
+             const parallel::Context& context) {
+    TestMemory memory(database_, rows_, model_, facts_, run_.number, test, row, before);
+    if (const Status status = memory.run(context); !status) return status;
+    const std::array<std::uint64_t, 5> counted = run_.decided.counts;
+    decided_.add_test(*test.report, memory);
+    std::array<std::uint64_t, 5> statuses = run_.decided.counts;
+    for (std::size_t s = 0; s < statuses.size(); ++s) statuses[s] -= counted[s];
+    const TestToWrite written{row.id,
+                              run_.number,
+                              settings_text(*test.report),
+                              *test.snapshot,
+                              {*test.report, memory.rows()}};
+    if (const Status status = write_test(database_, written, before, context); !status)
+      return status;
+    TestTrend trend = memory.trend();
+    const Result<std::uint64_t> resolved = count_resolved(database_, row.id);
+    if (!resolved) return resolved.error();
+    trend.resolved = *resolved;
+    run_.trends.push_back(trend);
+    return add_trend(database_, run_.number, row.id, test, trend, statuses);
+  }
+
+  Database& database_;
+  ClashRows rows_;
+  const model::Model& model_;
+  const RunFacts& facts_;
+  RememberedRun& run_;
+  DecidedBuilder decided_;
+};
+
+}  // namespace
+
+std::string_view name(Retested how) {
+  switch (how) {
+    case Retested::full:
+      return "full";
+    case Retested::changes:
+      return "changes";
+    case Retested::nothing:
+      break;
+  }
+  return "nothing";
+}
+
+Result<RememberedRun> remember(Database& database, const model::Model& model, const RunFacts& facts,
+                               std::span<const TestedTest> tests,
+                               const parallel::Context& context) {
+  Result<ClashRows> rows = ClashRows::of(database);
+  if (!rows) return rows.error();
+  RememberedRun run;
+  const Result<std::int64_t> number = add_run(database, facts);
+  if (!number) return number.error();
+  run.number = *number;
+  RunMemory memory(database, std::move(*rows), model, facts, run);
+  for (const TestedTest& test : tests)
+    if (const Status status = memory.add(test, context); !status) return status.error();
+  memory.finish();
+  return run;
+}
+
+}  // namespace strake::project

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "strake/clash/clash.hpp"
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
+
+/// Reports as bytes. The pairs of a range of objects are a part of their own, so that a run after a
+/// small change writes a small part of a large report again.
+namespace strake::project {
+
+/// The pairs of so many objects, as their a, are one part.
+inline constexpr std::uint32_t kObjectsPerPart = 1024;
+
+/// A report, and the row of the table `clash` for each of its pairs; 0: it has none.
+struct RememberedReport {
+  clash::Report report;
+  std::vector<std::int64_t> rows;
+};
+
+/// The same of a report that is somewhere else.
+struct ReportRows {
+  const clash::Report& report;
+  std::span<const std::int64_t> rows;
+
+  ReportRows(const clash::Report& of, std::span<const std::int64_t> its) : report(of), rows(its) {}
+  ReportRows(const RememberedReport& all)  // NOLINT(google-explicit-constructor): it is a view
+      : report(all.report), rows(all.rows) {}
+};
+
+/// The pairs of one part, and their regions, as ranges of a report.
+struct PartRange {
+  std::size_t first_pair = 0, last_pair = 0, first_region = 0, last_region = 0;
+};
+
+/// Returns the parts of a report over so many objects; an empty one for objects without pairs.
+[[nodiscard]] std::vector<PartRange> parts_of(const clash::Report& report, std::size_t objects);
+
+/// Whether a part of one report is the same as one of another, with the same rows.
+[[nodiscard]] bool is_same_part(const ReportRows& x, const PartRange& of_x, const ReportRows& y,
+                                const PartRange& of_y);
+
+/// Encode a report without its pairs, its regions and its log, and one part of these.
+[[nodiscard]] Result<std::vector<std::byte>> encode_head(const clash::Report& report);
+[[nodiscard]] Result<std::vector<std::byte>> encode_part(const ReportRows& report,
+                                                         const PartRange& range);
+
+/// A report as it is stored; the bytes must outlast decode_report().
+struct EncodedReport {
+  std::span<const std::byte> head;
+  std::vector<std::vector<std::byte>> parts;
+};
+
+/// Returns the report that was encoded, without a log. Errors: input for bytes that are no report
+/// over so many objects, cancelled; `what` is what errors call it.
+[[nodiscard]] Result<RememberedReport> decode_report(const EncodedReport& encoded,
+                                                     std::size_t objects, const std::string& what,
+                                                     const parallel::Context& context);
+
+}  // namespace strake::project

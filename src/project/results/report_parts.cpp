@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "project/codec/blob.hpp"
+#include "project/results/report_codec.hpp"
+#include "project/results/report_head.hpp"
+#include "project/results/value_columns.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::project {
+namespace {
+
+using clash::Pair;
+using clash::Region;
+
+auto members(const Pair& p) {
+  return std::tie(p.a, p.b, p.cls, p.relation, p.flags, p.d_mm, p.d_lower_mm, p.d_upper_mm,
+                  p.point_mm, p.on_a_mm, p.on_b_mm, p.away, p.deep_in_a, p.depth_complete,
+                  p.volume_mm3, p.part_a, p.part_b, p.level_a, p.level_b, p.allowed, p.severest,
+                  p.regions, p.allowed_regions);
+}
+
+auto members(const Region& r) {
+  return std::tie(r.cls, r.flags, r.d_mm, r.d_lower_mm, r.d_upper_mm, r.point_mm, r.box_mm.lo,
+                  r.box_mm.hi, r.part_a, r.part_b, r.allowed, r.depth_complete);
+}
+
+std::uint32_t listed(const Pair& pair, const clash::Options& options) {
+  return pair.regions_listed(options) + pair.allowed_regions_listed(options);
+}
+
+/// A pair knows its first region by its place in the part; 0: it has none.
+std::uint32_t first_region_in_part(const Pair& pair, std::uint32_t regions, std::size_t first) {
+  if (regions == 0 && pair.first_region == 0) return 0;
+  return pair.first_region - static_cast<std::uint32_t>(first) + 1;
+}
+
+void write_points(BlobWriter& out, std::span<const Pair> pairs) {
+  for (const auto member : {&Pair::point_mm, &Pair::on_a_mm, &Pair::on_b_mm, &Pair::away})
+    for (const int axis : {0, 1, 2})
+      write_column(out, pairs, [&](const Pair& p) { return (p.*member)[axis]; });
+}
+
+void write_pairs(BlobWriter& out, const ReportRows& all, const PartRange& range) {
+  const std::span<const Pair> pairs(all.report.pairs.data() + range.first_pair,
+                                    range.last_pair - range.first_pair);
+  const auto put = [&](const auto& value) { write_column(out, pairs, value); };
+  const auto byte = [](auto value) { return static_cast<std::uint8_t>(value); };
+  put([](const Pair& p) { return index(p.a); });
+  put([](const Pair& p) { return index(p.b); });
+  put([&](const Pair& p) { return byte(p.cls); });
+  put([&](const Pair& p) { return byte(p.relation); });
+  put([&](const Pair& p) { return byte(p.level_a); });
+  put([&](const Pair& p) { return byte(p.level_b); });
+  put([&](const Pair& p) { return byte(p.severest); });
+  for (const auto member : {&Pair::d_mm, &Pair::d_lower_mm, &Pair::d_upper_mm})
+    put([&](const Pair& p) { return p.*member; });
+  write_points(out, pairs);
+  for (const auto member : {&Pair::part_a, &Pair::part_b, &Pair::regions, &Pair::allowed_regions})
+    put([&](const Pair& p) { return p.*member; });
+  put([&](const Pair& p) {
+    return first_region_in_part(p, listed(p, all.report.options), range.first_region);
+  });
+  put([](const Pair& p) { return p.flags; });
+  put([](const Pair& p) { return p.allowed; });
+  put([](const Pair& p) { return p.deep_in_a; });
+  put([](const Pair& p) { return p.depth_complete; });
+  put([](const Pair& p) { return p.volume_mm3.has_value(); });
+  put([](const Pair& p) { return p.volume_mm3.value_or(0); });
+  out.column(all.rows.subspan(range.first_pair, pairs.size()));
+}
+
+void write_regions(BlobWriter& out, std::span<const Region> regions) {
+  const auto put = [&](const auto& value) { write_column(out, regions, value); };
+  put([](const Region& r) { return r.flags; });
+  put([](const Region& r) { return static_cast<std::uint8_t>(r.cls); });
+  for (const auto member : {&Region::d_mm, &Region::d_lower_mm, &Region::d_upper_mm})
+    put([&](const Region& r) { return r.*member; });
+  for (const int axis : {0, 1, 2}) {
+    put([&](const Region& r) { return r.point_mm[axis]; });
+    put([&](const Region& r) { return r.box_mm.lo[axis]; });
+    put([&](const Region& r) { return r.box_mm.hi[axis]; });
+  }
+  put([](const Region& r) { return r.part_a; });
+  put([](const Region& r) { return r.part_b; });
+  put([](const Region& r) { return r.allowed; });
+  put([](const Region& r) { return r.depth_complete; });
+}
+
+/// The pairs and regions of one part, with places of regions in the part.
+struct DecodedPart {
+  std::vector<Pair> pairs;
+  std::vector<Region> regions;
+  std::vector<std::int64_t> rows;
+};
+
+void read_pairs(BlobReader& in, DecodedPart& part) {
+  ColumnsInto<Pair> columns(in, part.pairs);
+  const auto real = [&](auto member) {
+    columns.next<double>([member](Pair& p, double value) { p.*member = value; });
+  };
+  const auto number = [&](auto member) {
+    columns.next<std::uint32_t>([member](Pair& p, std::uint32_t value) { p.*member = value; });
+  };
+  columns.first<std::uint32_t>([](Pair& p, std::uint32_t v) { p.a = model::ObjectId{v}; });
+  columns.next<std::uint32_t>([](Pair& p, std::uint32_t v) { p.b = model::ObjectId{v}; });
+  columns.next_enum(clash::Class::hit, [](Pair& p, clash::Class v) { p.cls = v; });
+  columns.next_enum(clash::Relation::cross, [](Pair& p, clash::Relation v) { p.relation = v; });
+  columns.next_enum(clash::Level::none, [](Pair& p, clash::Level v) { p.level_a = v; });
+  columns.next_enum(clash::Level::none, [](Pair& p, clash::Level v) { p.level_b = v; });
+  columns.next_enum(clash::Class::hit, [](Pair& p, clash::Class v) { p.severest = v; });
+  for (const auto member : {&Pair::d_mm, &Pair::d_lower_mm, &Pair::d_upper_mm}) real(member);
+  for (const auto member : {&Pair::point_mm, &Pair::on_a_mm, &Pair::on_b_mm, &Pair::away})
+    for (const int axis : {0, 1, 2})
+      columns.next<double>([&](Pair& p, double value) { (p.*member)[axis] = value; });
+  for (const auto member :
+       {&Pair::part_a, &Pair::part_b, &Pair::regions, &Pair::allowed_regions, &Pair::first_region})
+    number(member);
+  columns.next<std::uint16_t>([](Pair& p, std::uint16_t v) { p.flags = v; });
+  columns.next<std::int32_t>([](Pair& p, std::int32_t v) { p.allowed = v; });
+  columns.next<bool>([](Pair& p, bool v) { p.deep_in_a = v; });
+  columns.next<bool>([](Pair& p, bool v) { p.depth_complete = v; });
+  columns.next<bool>([](Pair& p, bool v) { p.volume_mm3 = v ? std::optional(0.0) : std::nullopt; });
+  columns.next<double>([](Pair& p, double v) {
+    if (p.volume_mm3) p.volume_mm3 = v;
+  });
+  part.rows = in.column<std::int64_t>();
+  if (part.rows.size() != part.pairs.size()) in.refuse("its columns differ in length");
+}
+
+void read_regions(BlobReader& in, std::vector<Region>& regions) {
+  ColumnsInto<Region> columns(in, regions);
+  columns.first<std::uint16_t>([](Region& r, std::uint16_t v) { r.flags = v; });
+  columns.next_enum(clash::Class::hit, [](Region& r, clash::Class v) { r.cls = v; });
+  for (const auto member : {&Region::d_mm, &Region::d_lower_mm, &Region::d_upper_mm})
+    columns.next<double>([&](Region& r, double v) { r.*member = v; });
+  for (const int axis : {0, 1, 2}) {
+    columns.next<double>([&](Region& r, double v) { r.point_mm[axis] = v; });
+    columns.next<double>([&](Region& r, double v) { r.box_mm.lo[axis] = v; });
+    columns.next<double>([&](Region& r, double v) { r.box_mm.hi[axis] = v; });
+  }
+  columns.next<std::uint32_t>([](Region& r, std::uint32_t v) { r.part_a = v; });
+  columns.next<std::uint32_t>([](Region& r, std::uint32_t v) { r.part_b = v; });
+  columns.next<std::int32_t>([](Region& r, std::int32_t v) { r.allowed = v; });
+  columns.next<bool>([](Region& r, bool v) { r.depth_complete = v; });
+}
+
+/// What the pairs of a part must fit.
+struct Limits {
+  const clash::Report& head;
+  std::size_t objects = 0, part = 0;
+};
+
+/// Returns what is wrong with a pair of a part; empty where nothing is.
+std::string_view fault_of(const Pair& pair, const DecodedPart& part, const Limits& limits) {
+  const std::size_t a = index(pair.a), b = index(pair.b);
+  if (a >= limits.objects || b >= limits.objects || a >= b) return "a pair is of no two objects";
+  if (a / kObjectsPerPart != limits.part) return "a pair is of another part";
+  if (pair.cls == clash::Class::no_hit) return "a pair is no result";
+  const auto rules = static_cast<std::int64_t>(limits.head.allowed.size());
+  if (pair.allowed < -1 || pair.allowed >= rules) return "a pair is allowed by no rule";
+  if (!std::isfinite(pair.d_mm) || !is_finite(pair.point_mm)) return "a pair is nowhere";
+  const std::size_t regions = listed(pair, limits.head.options);
+  if (regions == 0) return {};
+  const bool fits = pair.first_region > 0 && pair.first_region - 1 <= part.regions.size() &&
+                    regions <= part.regions.size() - (pair.first_region - 1);
+  return fits ? std::string_view() : "a pair has regions that are not there";
+}
+
+void check_part(BlobReader& in, const DecodedPart& part, const Limits& limits) {
+  if (in.failed()) return;
+  for (std::size_t i = 0; i < part.pairs.size(); ++i) {
+    const Pair& pair = part.pairs[i];
+    if (const std::string_view fault = fault_of(pair, part, limits); !fault.empty())
+      return in.refuse(fault);
+    if (i > 0 && std::pair(part.pairs[i - 1].a, part.pairs[i - 1].b) >= std::pair(pair.a, pair.b))
+      return in.refuse("its pairs are not in order");
+    if (part.rows[i] < 0) return in.refuse("a pair has a row that is none");
+  }
+  const auto rules = static_cast<std::int64_t>(limits.head.allowed.size());
+  for (const Region& region : part.regions)
+    if (region.allowed < -1 || region.allowed >= rules || !is_finite(region.point_mm))
+      return in.refuse("a region is allowed by no rule, or nowhere");
+}
+
+Result<DecodedPart> decode_part(std::span<const std::byte> bytes, const Limits& limits,
+                                const std::string& what) {
+  DecodedPart part;
+  if (bytes.empty()) return part;
+  Result<BlobReader> in = BlobReader::open(bytes, what);
+  if (!in) return in.error();
+  read_pairs(*in, part);
+  read_regions(*in, part.regions);
+  check_part(*in, part, limits);
+  if (const Status status = in->finish(); !status) return status.error();
+  return part;
+}
+
+void append(DecodedPart part, RememberedReport& all) {
+  const auto first = static_cast<std::uint32_t>(all.report.regions.size());
+  for (Pair& pair : part.pairs)
+    if (pair.first_region > 0) pair.first_region += first - 1;
+  const auto add = [](auto& to, const auto& values) {
+    to.insert(to.end(), values.begin(), values.end());
+  };
+  add(all.report.pairs, part.pairs);
+  add(all.report.regions, part.regions);
+  add(all.rows, part.rows);
+}
+
+}  // namespace
+
+std::vector<PartRange> parts_of(const clash::Report& report, std::size_t objects) {
+  std::vector<PartRange> parts((objects + kObjectsPerPart - 1) / kObjectsPerPart);
+  std::size_t pair = 0, region = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    parts[k].first_pair = pair;
+    parts[k].first_region = region;
+    for (; pair < report.pairs.size() && index(report.pairs[pair].a) / kObjectsPerPart == k; ++pair)
+      if (const std::uint32_t count = listed(report.pairs[pair], report.options); count > 0)
+        region = std::size_t{report.pairs[pair].first_region} + count;
+    // Regions of contacts that are only counted lie behind those of the pairs before them.
+    if (k + 1 == parts.size()) region = report.regions.size();
+    parts[k].last_pair = pair;
+    parts[k].last_region = region;
+  }
+  return parts;
+}
+
+bool is_same_part(const ReportRows& x, const PartRange& of_x, const ReportRows& y,
+                  const PartRange& of_y) {
+  const std::size_t pairs = of_x.last_pair - of_x.first_pair,
+                    regions = of_x.last_region - of_x.first_region;
+  if (pairs != of_y.last_pair - of_y.first_pair || regions != of_y.last_region - of_y.first_region)
+    return false;
+  for (std::size_t i = 0; i < pairs; ++i) {
+    const std::size_t at_x = of_x.first_pair + i, at_y = of_y.first_pair + i;
+    const Pair &p = x.report.pairs[at_x], &q = y.report.pairs[at_y];
+    const std::uint32_t of_p = listed(p, x.report.options), of_q = listed(q, y.report.options);
+    if (x.rows[at_x] != y.rows[at_y] || members(p) != members(q) || of_p != of_q ||
+        first_region_in_part(p, of_p, of_x.first_region) !=
+            first_region_in_part(q, of_q, of_y.first_region))
+      return false;
+  }
+  for (std::size_t i = 0; i < regions; ++i)
+    if (members(x.report.regions[of_x.first_region + i]) !=
+        members(y.report.regions[of_y.first_region + i]))
+      return false;
+  return true;
+}
+
+Result<std::vector<std::byte>> encode_part(const ReportRows& report, const PartRange& range) {
+  BlobWriter out;
+  write_pairs(out, report, range);
+  write_regions(out, {report.report.regions.data() + range.first_region,
+                      range.last_region - range.first_region});
+  return out.finish();
+}
+
+Result<RememberedReport> decode_report(const EncodedReport& encoded, std::size_t objects,
+                                       const std::string& what, const parallel::Context& context) {
+  RememberedReport all;
+  Result<clash::Report> head = decode_head(encoded.head, objects, what);
+  if (!head) return head.error();
+  all.report = std::move(*head);
+  Result<std::vector<DecodedPart>> parts =
+      parallel::transform(context, {.name = "decode results", .n = encoded.parts.size()},
+                          [&](std::size_t k) -> Result<DecodedPart> {
+                            return decode_part(encoded.parts[k], {all.report, objects, k},
+                                               what + ", part " + std::to_string(k));
+                          });
+  if (!parts) return parts.error();
+  for (DecodedPart& part : *parts) append(std::move(part), all);
+  return all;
+}
+
+}  // namespace strake::project

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/results/stored_tests.hpp"
+
+#include <span>
+#include <utility>
+
+#include "project/codec/blob.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::project {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+/// The last part of a result over as many objects as a model may have.
+constexpr std::int64_t kMostParts = 0xffffffffU / kObjectsPerPart;
+
+Bytes copy_of(std::span<const std::byte> bytes) { return {bytes.begin(), bytes.end()}; }
+
+std::string called(const std::string& test) {
+  return test.empty() ? std::string("the result") : "the result of test '" + test + "'";
+}
+
+Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test) {
+  Result<Statement> select =
+      database.prepare("SELECT part, data FROM report_part WHERE test = ?1 ORDER BY part");
+  if (!select) return select.error();
+  select->bind(1, test);
+  std::vector<Bytes> parts;
+  for (;;) {
+    const Result<bool> there = select->step();
+    if (!there) return there.error();
+    if (!*there) return parts;
+    const std::int64_t part = select->integer(0);
+    if (part < static_cast<std::int64_t>(parts.size()) || part > kMostParts)
+      return database.damaged("a result has a part that none has");
+    parts.resize(static_cast<std::size_t>(part) + 1);
+    parts.back() = copy_of(select->bytes(1));
+  }
+}
+
+Result<Snapshot> decode_snapshot(const Bytes& bytes, const std::string& what) {
+  Result<BlobReader> in = BlobReader::open(bytes, what);
+  if (!in) return in.error();
+  Snapshot snapshot = read_snapshot(*in);
+  if (const Status status = in->finish(); !status) return status.error();
+  return snapshot;
+}
+
+Result<Bytes> encode_snapshot(const Snapshot& snapshot) {
+  BlobWriter out;
+  write(out, snapshot);
+  return out.finish();
+}
+
+/// Returns the numbers of the parts that differ from those stored.
+std::vector<std::size_t> changed_parts(const TestToWrite& test, const StoredTest* before,
+                                       const std::vector<PartRange>& parts) {
+  const std::vector<PartRange> stored =
+      before == nullptr ? std::vector<PartRange>()
+                        : parts_of(before->results.report, before->snapshot.identities.size());
+  std::vector<std::size_t> changed;
+  for (std::size_t k = 0; k < parts.size(); ++k)
+    if (k >= stored.size() || !is_same_part(before->results, stored[k], test.results, parts[k]))
+      changed.push_back(k);
+  return changed;
+}
+
+Status write_snapshot(Database& database, std::int64_t test, const Snapshot& snapshot) {
+  const Result<Bytes> bytes = encode_snapshot(snapshot);
+  if (!bytes) return bytes.error();
+  Result<Statement> update = database.prepare("UPDATE test SET snapshot = ?2 WHERE id = ?1");
+  if (!update) return update.error();
+  return update->bind(1, test).bind(2, std::span<const std::byte>(*bytes)).run();
+}
+
+Status write_parts(Database& database, const TestToWrite& test, const StoredTest* before,
+                   const parallel::Context& context) {
+  const std::vector<PartRange> parts =
+      parts_of(test.results.report, test.snapshot.identities.size());
+  const std::vector<std::size_t> changed = changed_parts(test, before, parts);
+  const Result<std::vector<Bytes>> encoded = parallel::transform(
+      context, {.name = "encode results", .n = changed.size()},
+      [&](std::size_t i) { return encode_part(test.results, parts[changed[i]]); });
+  if (!encoded) return encoded.error();
+  Result<Statement> remove =
+      database.prepare("DELETE FROM report_part WHERE test = ?1 AND part >= ?2");
+  if (!remove) return remove.error();
+  remove->bind(1, test.id).bind(2, static_cast<std::int64_t>(parts.size()));
+  if (const Status status = remove->run(); !status) return status;
+  Result<Statement> put =
+      database.prepare("INSERT OR REPLACE INTO report_part (test, part, data) VALUES (?1, ?2, ?3)");
+  if (!put) return put.error();
+  for (std::size_t i = 0; i < changed.size(); ++i) {
+    put->bind(1, test.id).bind(2, static_cast<std::int64_t>(changed[i]));
+    put->bind(3, std::span<const std::byte>((*encoded)[i]));
+    if (const Status status = put->run(); !status) return status;
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> test_names(Database& database) {
+  Result<Statement> select = database.prepare("SELECT name FROM test ORDER BY id");
+  if (!select) return select.error();
+  std::vector<std::string> names;
+  for (;;) {
+    const Result<bool> there = select->step();
+    if (!there) return there.error();
+    if (!*there) return names;
+    names.emplace_back(select->text(0));
+  }
+}
+
+Result<std::optional<TestRow>> find_test(Database& database, const std::string& name) {
+  Result<Statement> select = database.prepare("SELECT id, run FROM test WHERE name = ?1");
+  if (!select) return select.error();
+  const Result<bool> there = select->bind(1, std::string_view(name)).step();
+  if (!there) return there.error();
+  if (!*there) return std::optional<TestRow>();
+  return std::optional(TestRow{select->integer(0), select->integer(1)});
+}
+
+Result<std::optional<StoredTest>> read_test(Database& database, const std::string& name,
+                                            const parallel::Context& context) {
+  Result<Statement> select =
+      database.prepare("SELECT id, run, snapshot, report FROM test WHERE name = ?1");
+  if (!select) return select.error();
+  const Result<bool> there = select->bind(1, std::string_view(name)).step();
+  if (!there) return there.error();
+  if (!*there) return std::optional<StoredTest>();
+  StoredTest test{select->integer(0), select->integer(1), name, {}, {}};
+  const Bytes snapshot = copy_of(select->bytes(2)), head = copy_of(select->bytes(3));
+  select->reset();
+  const std::string what = called(name);
+  Result<Snapshot> then = decode_snapshot(snapshot, what);
+  if (!then) return then.error();
+  test.snapshot = std::move(*then);
+  Result<std::vector<Bytes>> parts = read_parts(database, test.id);
+  if (!parts) return parts.error();
+  Result<RememberedReport> results =
+      decode_report({head, std::move(*parts)}, test.snapshot.identities.size(), what, context);
+  if (!results) return results.error();
+  test.results = std::move(*results);
+  return std::optional(std::move(test));
+}
+
+Status write_test(Database& database, const TestToWrite& test, const StoredTest* before,
+                  const parallel::Context& context) {
+  const Result<Bytes> head = encode_head(test.results.report);
+  if (!head) return head.error();
+  Result<Statement> update = database.prepare(
+      "UPDATE test SET settings = ?2, run = ?3, objects = ?4, report = ?5 WHERE id = ?1");
+  if (!update) return update.error();
+  update->bind(1, test.id).bind(2, std::string_view(test.settings)).bind(3, test.run);
+  update->bind(4, static_cast<std::int64_t>(test.snapshot.identities.size()));
+  update->bind(5, std::span<const std::byte>(*head));
+  if (const Status status = update->run(); !status) return status;
+  if (before == nullptr || before->snapshot != test.snapshot)
+    if (const Status status = write_snapshot(database, test.id, test.snapshot); !status)
+      return status;
+  return write_parts(database, test, before, context);
+}
+
+}  // namespace strake::project

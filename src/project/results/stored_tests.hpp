@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "project/database/database.hpp"
+#include "project/results/report_codec.hpp"
+#include "project/snapshot/snapshot.hpp"
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::project {
+
+/// What a project remembers of a test: its last result, and what that was computed from.
+struct StoredTest {
+  std::int64_t id = 0;
+  std::int64_t run = 0;  ///< the last one
+  std::string name;
+  Snapshot snapshot;
+  RememberedReport results;
+};
+
+/// Returns the names of the tests that were run, in the order of their first runs.
+[[nodiscard]] Result<std::vector<std::string>> test_names(Database& database);
+
+/// Returns the id and the last run of a test; nothing where it was never run.
+struct TestRow {
+  std::int64_t id = 0, run = 0;
+};
+[[nodiscard]] Result<std::optional<TestRow>> find_test(Database& database, const std::string& name);
+
+/// Reads a test; nothing where it was never run. Errors: input for a damaged project, cancelled.
+[[nodiscard]] Result<std::optional<StoredTest>> read_test(Database& database,
+                                                          const std::string& name,
+                                                          const parallel::Context& context);
+
+/// What is to be written of a test.
+struct TestToWrite {
+  std::int64_t id = 0, run = 0;
+  std::string settings;  ///< for people
+  const Snapshot& snapshot;
+  ReportRows results;
+};
+
+/// Writes a test over `before`, which is null where there is none: of the parts of its report those
+/// that differ. The row is there already.
+[[nodiscard]] Status write_test(Database& database, const TestToWrite& test,
+                                const StoredTest* before, const parallel::Context& context);
+
+}  // namespace strake::project

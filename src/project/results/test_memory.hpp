@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "project/results/clash_rows.hpp"
+#include "project/results/coverage.hpp"
+#include "project/results/match_reports.hpp"
+#include "project/results/remember.hpp"
+
+namespace strake::project {
+
+/// What the clash of a result is, for reports; of one that nobody decided about, nothing.
+struct ResultStatus {
+  bool is_new = false;
+  report::Reopened reopened = report::Reopened::no;
+  std::optional<ClashRow> row;  ///< where somebody wrote into it, or it came back
+};
+
+/// A row that was not found by its key, and why this run cannot tell about it.
+struct WaitingRow {
+  ClashRow row;
+  std::string why;
+};
+
+/// Takes the results of one test into the table `clash`: each result has a row, and each row is
+/// told what this run says of it.
+class TestMemory {
+ public:
+  /// What it is given must outlive it; `before` is null where the test was never run.
+  TestMemory(Database& database, ClashRows& rows, const model::Model& model, const RunFacts& facts,
+             std::int64_t run, const TestedTest& test, TestRow row, const StoredTest* before);
+
+  [[nodiscard]] Status run(const parallel::Context& context);
+
+  /// Returns the row of each result, 0 where a rule allows it and it has none.
+  [[nodiscard]] const std::vector<std::int64_t>& rows() const { return match_.rows; }
+  [[nodiscard]] const TestTrend& trend() const { return trend_; }
+  /// Returns what there is to be said of results, by their numbers.
+  [[nodiscard]] const std::map<std::size_t, ResultStatus>& statuses() const { return statuses_; }
+  /// Returns decided clashes that this run did not find and cannot tell about.
+  [[nodiscard]] const std::vector<ClashRow>& not_found() const { return not_found_; }
+
+ private:
+  [[nodiscard]] Status take_match();
+  [[nodiscard]] Status take_positional();
+  [[nodiscard]] Status take_watched();
+  [[nodiscard]] Status appear(std::size_t pair);
+  [[nodiscard]] Status add(std::size_t pair);
+  [[nodiscard]] Status see(ClashRow row, std::size_t pair);
+  [[nodiscard]] Status miss(ClashRow row);
+  [[nodiscard]] Status apply(const ClashRow& before, ClashRow& row, const Seen& seen,
+                             std::optional<std::size_t> pair);
+  [[nodiscard]] Status park(ClashRow& row);
+  [[nodiscard]] Result<std::vector<ClashRow>> watched();
+  [[nodiscard]] Result<ClashRow> existing(std::int64_t id);
+  void wait(ClashRow row, std::string why);
+  void describe(ClashRow& row, const clash::Pair& pair) const;
+  [[nodiscard]] std::string key_of(const clash::Pair& pair) const;
+  [[nodiscard]] bool is_positional(const clash::Pair& pair) const;
+  [[nodiscard]] SoughtObject sought(const ClashSide& side) const;
+
+  Database& database_;
+  ClashRows& table_;
+  const model::Model& model_;
+  const RunFacts& facts_;
+  std::int64_t run_;
+  const TestedTest& test_;
+  const clash::Report& report_;
+  TestRow row_;
+  const StoredTest* before_;
+  Coverage coverage_;
+  ReportMatch match_;
+  std::vector<std::size_t> positional_results_;  ///< whose ids are positions, to be found by place
+  std::vector<WaitingRow> waiting_;              ///< and the rows that they may be
+  std::set<std::int64_t> handled_;  ///< rows that this run has dealt with, or that wait
+  TestTrend trend_;
+  std::map<std::size_t, ResultStatus> statuses_;
+  std::vector<ClashRow> not_found_;
+};
+
+}  // namespace strake::project
