@@ -174,8 +174,8 @@ struct Counters {
   std::uint64_t exact_fallbacks = 0;
   std::uint64_t crossing_pairs = 0;  ///< pairs of parts searched for intersections, equal ones once
   std::uint64_t crossing_tests = 0;  ///< tests of two triangles, for those pairs
-  /// Pieces that were absorbed or made points, see Options::keep_specks; without hidden pieces those
-  /// of edges that are seen in part.
+  /// Pieces that were absorbed or made points, see Options::keep_specks; without hidden pieces
+  /// those of edges that are seen in part.
   std::uint64_t specks = 0;
   std::uint64_t left_out = 0;  ///< edges with hidden pieces that were dropped, see Options::hidden
   std::uint64_t seams = 0;     ///< edges without their flush seams: see Options::flush_seams
