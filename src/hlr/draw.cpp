@@ -30,7 +30,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   Options adjusted = options;
   // The baseline knows no culling.
   if (options.solver == Solver::push) adjusted.culling = false;
-  const Result<ViewJob> job = prepare_view(scene, drawn, view, adjusted, context);
+  const Result<ViewJob> job = prepare_view({scene, drawn, view, adjusted}, context);
   if (!job) return job.error();
   Drawing drawing;
   drawing.view = view;
@@ -41,6 +41,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.counters = job->counters;
   drawing.diagnostics = job->diagnostics;
   drawing.origin = view.perspective ? view.perspective->target : job->origin;
+  drawing.counted.resize(scene.model->objects.size());
   if (!options.hidden) drawing.left_out.resize(scene.model->objects.size());
   if (const Status status = solve(*job, context, drawing); !status) return status.error();
   leave_out_hidden_objects(drawing);
@@ -54,7 +55,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   if (!options.flush_seams)
     if (const Status status = leave_out_flush_seams(*job, context, drawing); !status)
       return status.error();
-  for (const std::uint32_t edges : drawing.left_out) drawing.counters.left_out += edges;
+  sum_up_lines(drawing);
   report_defects(*job->scene->model, drawing.account, drawing.diagnostics);
   return drawing;
 }
@@ -62,7 +63,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
 Result<BruteForceWork> brute_force_work(const model::Scene& scene, const std::vector<bool>& drawn,
                                         const View& view, const Options& options,
                                         const parallel::Context& context) {
-  const Result<ViewJob> job = prepare_view(scene, drawn, view, options, context);
+  const Result<ViewJob> job = prepare_view({scene, drawn, view, options}, context);
   if (!job) return job.error();
   return count_brute_force_work(*job, context);
 }

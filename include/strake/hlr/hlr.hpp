@@ -174,7 +174,9 @@ struct Counters {
   std::uint64_t exact_fallbacks = 0;
   std::uint64_t crossing_pairs = 0;  ///< pairs of parts searched for intersections, equal ones once
   std::uint64_t crossing_tests = 0;  ///< tests of two triangles, for those pairs
-  std::uint64_t specks = 0;  ///< pieces that were absorbed or made points: see Options::keep_specks
+  /// Pieces that were absorbed or made points, see Options::keep_specks; without hidden pieces
+  /// those of edges that are seen in part.
+  std::uint64_t specks = 0;
   std::uint64_t left_out = 0;  ///< edges with hidden pieces that were dropped, see Options::hidden
   std::uint64_t seams = 0;     ///< edges without their flush seams: see Options::flush_seams
   std::uint64_t uncut_objects = 0;  ///< objects that sections left whole: see Options::uncut
@@ -236,6 +238,13 @@ struct Curves {
   std::vector<CurvedEdge> edges;  ///< sorted by (object, edge)
 };
 
+/// The lines of one object, counted: what Counters sum up.
+struct LineCount {
+  std::uint32_t edges = 0;   ///< as Counters::feature_edges
+  std::uint32_t specks = 0;  ///< as Counters::specks
+  friend bool operator==(const LineCount&, const LineCount&) = default;
+};
+
 struct Drawing {
   View view;
   Options options;
@@ -246,6 +255,7 @@ struct Drawing {
   Curves curves;
   /// By object, how many edges had hidden pieces left out, see Options::hidden. Empty: none had.
   std::vector<std::uint32_t> left_out;
+  std::vector<LineCount> counted;  ///< by object
   /// A reference point, grid units: the middle of all that is drawn; in perspective the target.
   geometry::Vec3l origin;
   Counters counters;

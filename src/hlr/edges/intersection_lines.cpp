@@ -147,6 +147,11 @@ class Finder {
            contact(i) == contact(j) && is_joint(i) == is_joint(j);
   }
 
+  /// Returns whether the lines that are drawn with the object of a part are wanted.
+  [[nodiscard]] bool is_asked(std::size_t i) const {
+    return rule_.asked.empty() || rule_.asked[model::index(object(surfaces_.placed[i]))];
+  }
+
   /// Returns a number that is equal for parts that are not to be paired, as far as each alone
   /// decides that.
   [[nodiscard]] std::uint32_t owner(std::size_t i) const {
@@ -262,7 +267,8 @@ class Finder {
       if (only_touch((*items)[pair.first].box, (*items)[pair.second].box)) continue;
       for (const std::uint32_t x : stacks->of(pair.first))
         for (const std::uint32_t y : stacks->of(pair.second))
-          if (owner(x) != owner(y) && is_requested(surfaces_.placed[x], surfaces_.placed[y]))
+          if (owner(x) != owner(y) && is_requested(surfaces_.placed[x], surfaces_.placed[y]) &&
+              is_asked(std::min(x, y)))
             pairs_.push_back({std::min(x, y), std::max(x, y)});
     }
     if (stacks->size() < surfaces_.placed.size()) std::ranges::sort(pairs_);

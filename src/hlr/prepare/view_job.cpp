@@ -16,7 +16,6 @@
 #include "hlr/sections/uncut_objects.hpp"
 #include "hlr/view/projection.hpp"
 #include "hlr/view/view_frustum.hpp"
-#include "model/scene/view_tessellation.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::hlr {
@@ -128,13 +127,6 @@ Status check(const View& view, const Options& options) {
   return check_perspective(view);
 }
 
-std::int64_t contact_of(const model::Body& body, const Options& options) {
-  if (options.contact_distance_mm >= 0)
-    return std::llround(options.contact_distance_mm * geometry::kGridPerMm);
-  return static_cast<std::int64_t>(std::ceil(
-      std::min(model::contact_distance(body.precision_um), kMaxContactMm * geometry::kGridPerMm)));
-}
-
 void fill_bodies(ViewJob& job) {
   const model::Scene& scene = *job.scene;
   job.opaque.resize(scene.bodies.size());
@@ -180,7 +172,7 @@ void place_limits(ViewJob& job, const Box3l& box) {
   job.limits = limits;
 }
 
-double longest_side(const ViewJob& job) {
+double longest_side_of(const ViewJob& job) {
   std::int64_t side = 0;
   for (const model::GridBody& body : job.scene->bodies) {
     const geometry::Box3i& box = job.scene->shapes[body.grid_shape].box;
@@ -191,7 +183,7 @@ double longest_side(const ViewJob& job) {
   return static_cast<double>(side);
 }
 
-Status place_eye(ViewJob& job, const Box3l& box) {
+Status place_eye(ViewJob& job, const Box3l& box, double longest_side) {
   job.origin = job.view.perspective->eye;
   double reach = 0;
   for (int k = 0; k < 3; ++k)
@@ -200,7 +192,7 @@ Status place_eye(ViewJob& job, const Box3l& box) {
   if (reach > kMaxFromEye)
     return Error{ErrorCode::input, "the eye is more than 1,000 km away from what is drawn", "view",
                  "move the eye nearer, draw fewer objects, or use an orthographic view"};
-  if (job.view.limits && reach * longest_side(job) > kMaxSideFromEye)
+  if (job.view.limits && reach * longest_side > kMaxSideFromEye)
     return Error{ErrorCode::input, "the eye is too far away from objects of this size for limits",
                  "view", "move the eye nearer, draw fewer objects, or leave out the limits"};
   return {};
@@ -220,19 +212,42 @@ Status place_middle(ViewJob& job, const Box3l& box) {
   return {};
 }
 
-Status place(ViewJob& job) {
-  const Box3l box = drawn_box(job);
+Status place(ViewJob& job, const WholeView* whole) {
+  const Box3l box = whole != nullptr ? whole->box : drawn_box(job);
   if (box.empty()) return {};
-  const Status placed = job.view.perspective ? place_eye(job, box) : place_middle(job, box);
+  const double longest_side = whole != nullptr ? whole->longest_side : longest_side_of(job);
+  const Status placed =
+      job.view.perspective ? place_eye(job, box, longest_side) : place_middle(job, box);
   if (placed) place_limits(job, box);
   return placed;
 }
 
 }  // namespace
 
-Result<ViewJob> prepare_view(const model::Scene& scene, const std::vector<bool>& drawn,
-                             const View& view, const Options& options,
-                             const parallel::Context& context) {
+std::int64_t contact_of(const model::Body& body, const Options& options) {
+  if (options.contact_distance_mm >= 0)
+    return std::llround(options.contact_distance_mm * geometry::kGridPerMm);
+  return static_cast<std::int64_t>(std::ceil(
+      std::min(model::contact_distance(body.precision_um), kMaxContactMm * geometry::kGridPerMm)));
+}
+
+Result<model::ViewTessellationOptions> tessellation_of(const View& view, const Options& options) {
+  const auto planes = section_planes(view.sections);
+  if (!planes) return planes.error();
+  model::ViewTessellationOptions seen_by{.sag_mm = options.sag_mm};
+  // Contours for a direction are no contours for an eye.
+  if (!view.perspective) seen_by.towards = in_lowest_terms(view.direction);
+  // A margin for tessellation and the grid.
+  constexpr std::int64_t kRoom = 2000;
+  // What is left whole may reach beyond the planes.
+  const ViewVolume shown(
+      view, options.uncut.empty() ? std::span(*planes) : std::span<const SectionPlane>());
+  seen_by.shows = [shown](const Box3l& box) { return shown.meets(box.inflated(kRoom)); };
+  return seen_by;
+}
+
+Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& context) {
+  const auto& [scene, drawn, view, options, whole] = input;
   if (const Status status = check(view, options); !status) return status.error();
   const auto planes = section_planes(view.sections);
   if (!planes) return planes.error();
@@ -247,23 +262,20 @@ Result<ViewJob> prepare_view(const model::Scene& scene, const std::vector<bool>&
   job.cos_sharp = cosine_of_degrees(options.sharp_angle_deg);
   job.window = window(view);
   job.drawn = drawn.empty() ? std::vector<bool>(scene.model->objects.size(), true) : drawn;
-  // Contours for a direction are no contours for an eye.
-  const auto towards = view.perspective ? std::nullopt : std::optional(job.direction());
-  // What is left whole may reach beyond the planes.
-  const ViewVolume shown(
-      view, options.uncut.empty() ? std::span(*planes) : std::span<const SectionPlane>());
-  // A margin for tessellation and the grid.
-  constexpr std::int64_t kRoom = 2000;
-  const auto shows = [&](const Box3l& box) { return shown.meets(box.inflated(kRoom)); };
-  auto own =
-      model::tessellate_for_view(scene, job.drawn, {towards, options.sag_mm, shows}, context);
+  if (whole != nullptr) job.asked = whole->asked;
+  const auto seen_by = tessellation_of(view, options);
+  if (!seen_by) return seen_by.error();
+  auto own = whole != nullptr ? model::tessellate_for_view(scene, job.drawn, *seen_by,
+                                                           whole->tessellation, context)
+                              : model::tessellate_for_view(scene, job.drawn, *seen_by, context);
   if (!own) return own.error();
   if (*own) job.own = std::make_unique<model::Scene>(std::move(**own));
   job.scene = job.own ? job.own.get() : &scene;
   fill_bodies(job);
-  if (const Status status = place(job); !status) return status.error();
-  const auto crossings = find_intersection_lines(*job.scene, job.drawn, job.contact,
-                                                 {options.intersections, job.cos_sharp}, context);
+  if (const Status status = place(job, whole); !status) return status.error();
+  const auto crossings =
+      find_intersection_lines(*job.scene, job.drawn, job.contact,
+                              {options.intersections, job.cos_sharp, job.asked}, context);
   if (!crossings) return crossings.error();
   job.counters.crossing_pairs = crossings->pairs;
   job.counters.crossing_tests = crossings->tests;

@@ -13,6 +13,7 @@
 #include "hlr/edges/intersection_lines.hpp"
 #include "hlr/sections/section_planes.hpp"
 #include "hlr/sections/sectioned_shapes.hpp"
+#include "model/scene/view_tessellation.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
@@ -70,6 +71,7 @@ struct ViewJob {
   geometry::Vec3l origin;
   std::optional<geometry::Box3l> limits;  ///< relative to origin, clipped to what is drawn
   std::vector<bool> drawn;                ///< per object
+  std::vector<bool> asked;                ///< as WholeView::asked; or empty
   std::vector<bool> opaque;               ///< per body: is drawn, and hides what lies behind it
   std::vector<std::int64_t> contact;      ///< per body: contact distance in grid units
   double contact_distance_mm = 0;         ///< the largest contact distance
@@ -82,6 +84,10 @@ struct ViewJob {
   [[nodiscard]] const geometry::Vec3l& direction() const { return viewer.direction; }
   [[nodiscard]] geometry::Vec3l offset(const model::GridBody& body) const {
     return body.origin - origin;
+  }
+  /// Returns whether the lines of a drawn object are wanted.
+  [[nodiscard]] bool asks_for(std::uint32_t object) const {
+    return asked.empty() || asked[object];
   }
   /// Returns whether the object of an edge of this kind hides nothing of it, see
   /// Options::own_polylines.
@@ -110,12 +116,36 @@ struct ViewJob {
   }
 };
 
+/// What the preparation of a part of what is drawn takes from the whole, so that what it says of the
+/// part is what the whole would say. Of views without sections.
+struct WholeView {
+  geometry::Box3l box = geometry::empty_box<std::int64_t>();  ///< of all that is drawn
+  double longest_side = 0;                                    ///< of the boxes of its bodies
+  model::ViewTessellation tessellation;                       ///< for the shapes of the part
+  /// By object: its lines are wanted. What else is drawn of the part only hides.
+  std::vector<bool> asked;
+};
+
+/// What is to be drawn, and how; all outlives the job.
+struct ViewInput {
+  const model::Scene& scene;
+  const std::vector<bool>& drawn;  ///< by object; empty: all
+  const View& view;
+  const Options& options;
+  const WholeView* whole = nullptr;  ///< null: the scene is all there is
+};
+
 /// Prepares a job: checks view and options, fixes contact distances, reduces the direction, finds
 /// the origin and the intersection lines, and cuts shapes by the section planes.
-[[nodiscard]] Result<ViewJob> prepare_view(const model::Scene& scene,
-                                           const std::vector<bool>& drawn, const View& view,
-                                           const Options& options,
+[[nodiscard]] Result<ViewJob> prepare_view(const ViewInput& input,
                                            const parallel::Context& context);
+
+/// Returns how a view has the primitives of a scene tessellated. Errors: those of section_planes().
+[[nodiscard]] Result<model::ViewTessellationOptions> tessellation_of(const View& view,
+                                                                     const Options& options);
+
+/// Returns the contact distance of a body, grid units, before sections widen it.
+[[nodiscard]] std::int64_t contact_of(const model::Body& body, const Options& options);
 
 /// Returns whether a piece in this state stays in the drawing.
 [[nodiscard]] inline bool keeps(const Options& options, State state) {

@@ -78,7 +78,7 @@ std::vector<std::uint32_t> first_bodies(const ViewJob& job) {
   const model::Scene& scene = *job.scene;
   std::vector<std::uint32_t> first(job.seen.all.size(), kNone);
   for (std::size_t o = 0; o + 1 < scene.first_body.size(); ++o) {
-    if (!job.drawn[o]) continue;
+    if (!job.drawn[o] || !job.asks_for(static_cast<std::uint32_t>(o))) continue;
     bool matters = false;
     for (std::uint32_t b = scene.first_body[o + 1]; b-- > scene.first_body[o];) {
       matters = matters || is_round(job.sectioned_shape_of(b));
@@ -108,7 +108,8 @@ Result<Curves> find_curves(const ViewJob& job, const parallel::Context& context)
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
     const model::GridBody& body = scene.bodies[b];
     if (b == scene.first_body[model::index(body.object)]) number = 0;
-    if (!job.drawn[model::index(body.object)]) continue;
+    const std::uint32_t object = model::index(body.object);
+    if (!job.drawn[object] || !job.asks_for(object)) continue;
     const ShapeCurves& shape = (*shapes)[job.seen.of[b]];
     const auto before = static_cast<std::uint32_t>(curves.all.size());
     const geometry::Vec3l origin = body.origin - job.sectioned_shape_of(b).source->base;

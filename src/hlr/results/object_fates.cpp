@@ -117,6 +117,16 @@ Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& d
   return account;
 }
 
+void sum_up_lines(Drawing& drawing) {
+  Counters& counters = drawing.counters;
+  counters.feature_edges = counters.specks = counters.left_out = 0;
+  for (const LineCount& count : drawing.counted) {
+    counters.feature_edges += count.edges;
+    counters.specks += count.specks;
+  }
+  for (const std::uint32_t edges : drawing.left_out) counters.left_out += edges;
+}
+
 void report_defects(const model::Model& model, const Account& account, Diagnostics& diagnostics) {
   for (std::size_t d = 0; d < account.defects.size();) {
     const model::ObjectId id = account.defects[d].object;

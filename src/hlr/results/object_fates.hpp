@@ -21,6 +21,9 @@ void leave_out_hidden_objects(Drawing& drawing);
 [[nodiscard]] Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& drawn,
                                          const Drawing& drawing, const parallel::Context& context);
 
+/// Fills the counters that are sums over objects: feature edges, specks, edges left out.
+void sum_up_lines(Drawing& drawing);
+
 /// Adds a warning for each object that is degenerate, failed, or drawn without some of its
 /// geometry, but not for wires that are seen end-on.
 void report_defects(const model::Model& model, const Account& account, Diagnostics& diagnostics);

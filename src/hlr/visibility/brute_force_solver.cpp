@@ -435,9 +435,9 @@ Status solve_brute_force(const ViewJob& job, const parallel::Context& context, D
     const ObjectLines& one = (*lines)[i];
     if (!drawing.left_out.empty()) drawing.left_out[i] = one.left_out;
     drawing.pieces.insert(drawing.pieces.end(), one.pieces.begin(), one.pieces.end());
-    drawing.counters.feature_edges += one.edges;
+    drawing.counted[i] = {static_cast<std::uint32_t>(one.edges),
+                          static_cast<std::uint32_t>(one.specks)};
     drawing.counters.face_tests += one.tests;
-    drawing.counters.specks += one.specks;
   }
   return {};
 }

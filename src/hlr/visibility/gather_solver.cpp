@@ -30,11 +30,14 @@ constexpr std::int64_t kFine = std::int64_t{1} << 30;
 }  // namespace
 
 void add(Counters& counters, const SolverWork& work) {
-  counters.feature_edges += work.edges;
   counters.covered_edges += work.covered;
   counters.face_tests += work.tests;
   counters.exact_fallbacks += work.wide_tests;
-  counters.specks += work.specks;
+}
+
+void add(LineCount& lines, const SolverWork& work) {
+  lines.edges += static_cast<std::uint32_t>(work.edges);
+  lines.specks += static_cast<std::uint32_t>(work.specks);
 }
 
 void OccluderGatherer::start(const EdgeRange& item) {
@@ -570,10 +573,11 @@ Status solve_gather(const ViewJob& job, const parallel::Context& context, Drawin
   if (!pieces) return pieces.error();
   drawing.pieces = std::move(pieces).value();
   for (std::size_t i = 0; i < work.size(); ++i) {
+    const std::uint32_t object = visibility.placed[visibility.items[i].body].object;
     add(drawing.counters, work[i]);
+    add(drawing.counted[object], work[i]);
     if (work[i].left_out > 0)
-      drawing.left_out[visibility.placed[visibility.items[i].body].object] +=
-          static_cast<std::uint32_t>(work[i].left_out);
+      drawing.left_out[object] += static_cast<std::uint32_t>(work[i].left_out);
   }
   return {};
 }

@@ -227,6 +227,7 @@ Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing&
   if (!pieces) return pieces.error();
   drawing.pieces = std::move(pieces).value();
   for (const SolverWork& w : work) add(drawing.counters, w);
+  for (std::size_t o = 0; o < objects.size(); ++o) add(drawing.counted[o], work[o]);
   return {};
 }
 

@@ -105,11 +105,16 @@ class EdgeSpecks {
   }
 
   std::size_t absorb() {
+    const bool any_seen =
+        std::ranges::find(pieces_, State::visible, &EdgePiece::state) != pieces_.end();
     std::vector<Span> seen = spans(0, pieces_.size(), [](const EdgePiece& p) {
       return static_cast<std::uint8_t>(is_hidden(p.state) ? 1 : 0);
     });
     std::size_t specks = Absorber(rule_, longest_, seen).run();
     for (const Span& span : seen) show(span);
+    // What hides pieces that are left out depends on the order in which it was found, and whether
+    // an edge that is hidden wholly has pieces at all.
+    if (!rule_.keeps_hidden()) return any_seen ? specks : 0;
     for (std::size_t first = 0; first < pieces_.size();) {
       std::size_t last = first;
       while (last < pieces_.size() && is_hidden(pieces_[last].state)) ++last;
@@ -251,6 +256,7 @@ SpeckRule::SpeckRule(const ViewJob& job)
     : viewer_(job.viewer),
       origin_(job.origin),
       direction_length_(geometry::length(job.direction().as<double>())),
+      keeps_hidden_(job.options.hidden),
       longest_(job.drawn.size()) {
   if (job.options.keep_specks) return;
   for (std::size_t b = 0; b < job.contact.size(); ++b) {
@@ -326,7 +332,7 @@ Status dot_lone_specks(const ViewJob& job, const parallel::Context& context, Dra
     for (const std::size_t s : of_object) {
       if (!clusters.is_lone(s)) continue;
       lines[s].state = State::projecting;
-      ++drawing.counters.specks;
+      ++drawing.counted[model::index(object)].specks;
     }
   }
   return {};

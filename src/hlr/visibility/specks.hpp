@@ -38,11 +38,14 @@ class SpeckRule {
                             std::int64_t longest) const;
   /// Returns the length in the plane of the view, or in perspective in a plane parallel to it.
   [[nodiscard]] double length(const geometry::Vec3l& a, const geometry::Vec3l& b) const;
+  /// Returns whether hidden pieces stay in the drawing.
+  [[nodiscard]] bool keeps_hidden() const { return keeps_hidden_; }
 
  private:
   Viewer viewer_;
   geometry::Vec3l origin_;
   double direction_length_ = 1;
+  bool keeps_hidden_ = true;
   std::vector<std::int64_t> longest_;  ///< by object
 };
 
@@ -58,7 +61,7 @@ bool leave_out_unwanted(const Options& options, std::size_t first, std::vector<E
 
 /// Makes visible specks that join nothing, of those that absorb_specks() left, points on paper:
 /// specks of an object that hang together by their ends within the length of a speck, with no more
-/// than one end on other visible lines. Counts them in drawing.counters. Errors: cancelled.
+/// than one end on other visible lines. Counts them in drawing.counted. Errors: cancelled.
 [[nodiscard]] Status dot_lone_specks(const ViewJob& job, const parallel::Context& context,
                                      Drawing& drawing);
 

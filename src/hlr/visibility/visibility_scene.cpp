@@ -170,7 +170,9 @@ void mark_shared_self_occlusion(VisibilityScene& visibility) {
   std::vector<std::uint32_t> first(shapes.all.size(), kNoShape);
   for (std::uint32_t b = 0; b < visibility.placed.size(); ++b) {
     BodyInstance& placed = visibility.placed[b];
-    if (placed.shape == nullptr || !placed.opaque || placed.cut) continue;
+    if (placed.shape == nullptr || !placed.opaque || placed.cut ||
+        !visibility.job.asks_for(placed.object))
+      continue;
     std::uint32_t& one = first[shapes.of[b]];
     if (one == kNoShape) {
       one = b;
@@ -208,8 +210,8 @@ void make_items(VisibilityScene& visibility) {
   };
   std::size_t first_item = 0;
   for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    if (visibility.placed[b].shape == nullptr) continue;
     const std::uint32_t object = visibility.placed[b].object;
+    if (visibility.placed[b].shape == nullptr || !visibility.job.asks_for(object)) continue;
     if (b == scene.first_body[object]) {
       number = 0;
       first_item = visibility.items.size();

@@ -33,16 +33,28 @@ const geometry::Primitive* primitive_of(const Scene& scene, std::uint32_t shape)
 /// seen.
 std::vector<bool> finer_shapes(const Scene& scene, const std::vector<bool>& drawn,
                                const ViewTessellationOptions& seen_by) {
-  std::vector<bool> finer(scene.shapes.size());
-  if (!(seen_by.sag_mm > 0 && seen_by.sag_mm < scene.sag_mm)) return finer;
+  if (!(seen_by.sag_mm > 0 && seen_by.sag_mm < scene.sag_mm)) return {};
+  std::vector<bool> finer(scene.shapes.size()), curved(scene.shapes.size());
+  for (std::uint32_t s = 0; s < curved.size(); ++s) {
+    const geometry::Primitive* const primitive = primitive_of(scene, s);
+    curved[s] = primitive != nullptr && geometry::is_curved(*primitive);
+  }
   for (const GridBody& body : scene.bodies) {
-    if (finer[body.grid_shape] || (!drawn.empty() && !drawn[index(body.object)])) continue;
-    const geometry::Primitive* const primitive = primitive_of(scene, body.grid_shape);
-    if (primitive == nullptr || !geometry::is_curved(*primitive)) continue;
+    if (!curved[body.grid_shape] || finer[body.grid_shape] ||
+        (!drawn.empty() && !drawn[index(body.object)]))
+      continue;
     const geometry::Box3l box = body.box(scene.shapes[body.grid_shape]);
     finer[body.grid_shape] = !box.empty() && (!seen_by.shows || seen_by.shows(box));
   }
   return finer;
+}
+
+/// Returns whether a shape is made anew where it is drawn.
+bool changes(const Scene& scene, std::uint32_t shape, const ViewTessellationOptions& seen_by,
+             const ViewTessellation& plan) {
+  if (plan.is_finer(shape)) return true;
+  const geometry::Primitive* const primitive = primitive_of(scene, shape);
+  return seen_by.towards && primitive != nullptr && geometry::is_round(*primitive);
 }
 
 /// Makes a shape anew, or keeps it as it was where the new one does not fit the grid.
@@ -57,20 +69,32 @@ GridShape made_for(const Scene& scene, std::uint32_t shape, const geometry::Mat3
 
 }  // namespace
 
+ViewTessellation plan_view_tessellation(const Scene& scene, const std::vector<bool>& drawn,
+                                        const ViewTessellationOptions& seen_by) {
+  ViewTessellation plan;
+  if (scene.model == nullptr || !(scene.sag_mm > 0)) return plan;
+  plan.finer = finer_shapes(scene, drawn, seen_by);
+  for (const GridBody& body : scene.bodies) {
+    if (!drawn.empty() && !drawn[index(body.object)]) continue;
+    plan.any = changes(scene, body.grid_shape, seen_by, plan);
+    if (plan.any) break;
+  }
+  return plan;
+}
+
 Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::vector<bool>& drawn,
                                                  const ViewTessellationOptions& seen_by,
                                                  const parallel::Context& context) {
-  if (scene.model == nullptr || !(scene.sag_mm > 0)) return std::optional<Scene>();
-  const std::vector<std::uint32_t> first = first_bodies(scene, drawn);
-  const std::vector<bool> finer = finer_shapes(scene, drawn, seen_by);
-  const auto changes = [&](std::uint32_t s) {
-    const geometry::Primitive* const primitive = primitive_of(scene, s);
-    return finer[s] || (seen_by.towards && primitive != nullptr && geometry::is_round(*primitive));
-  };
-  bool any = false;
-  for (std::uint32_t s = 0; s < first.size() && !any; ++s) any = first[s] != kNone && changes(s);
-  if (!any) return std::optional<Scene>();
+  return tessellate_for_view(scene, drawn, seen_by, plan_view_tessellation(scene, drawn, seen_by),
+                             context);
+}
 
+Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::vector<bool>& drawn,
+                                                 const ViewTessellationOptions& seen_by,
+                                                 const ViewTessellation& plan,
+                                                 const parallel::Context& context) {
+  if (!plan.any) return std::optional<Scene>();
+  const std::vector<std::uint32_t> first = first_bodies(scene, drawn);
   constexpr std::size_t kGrain = 16;
   auto shapes = parallel::transform_with(
       context, {.name = "shapes of the view", .n = first.size(), .grain = kGrain},
@@ -83,8 +107,8 @@ Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::
           empty.base = scene.shapes[s].base;
           return empty;
         }
-        if (!changes(s)) return scene.shapes[s];
-        GridShapeOptions wanted{.sag_mm = finer[s] ? seen_by.sag_mm : scene.sag_mm};
+        if (!changes(scene, s, seen_by, plan)) return scene.shapes[s];
+        GridShapeOptions wanted{.sag_mm = plan.is_finer(s) ? seen_by.sag_mm : scene.sag_mm};
         if (seen_by.towards) wanted.towards = seen_by.towards->as<double>();
         const Body& body = scene.model->bodies[scene.bodies[first[s]].body];
         return made_for(scene, s, body.placement.linear, wanted, builder);

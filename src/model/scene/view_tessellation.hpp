@@ -3,6 +3,7 @@
 
 // Decision 0027 says why every view tessellates round primitives along their contours.
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -25,6 +26,20 @@ struct ViewTessellationOptions {
   std::function<bool(const geometry::Box3l&)> shows = {};
 };
 
+/// What a view tessellates anew of a scene.
+struct ViewTessellation {
+  /// By shape: as fine as the view asks for, since a body of it may be seen. Empty: none.
+  std::vector<bool> finer;
+  bool any = false;  ///< something changes: the view has meshes of its own
+
+  [[nodiscard]] bool is_finer(std::uint32_t shape) const { return !finer.empty() && finer[shape]; }
+};
+
+/// Returns what tessellate_for_view() makes anew.
+[[nodiscard]] ViewTessellation plan_view_tessellation(const Scene& scene,
+                                                      const std::vector<bool>& drawn,
+                                                      const ViewTessellationOptions& seen_by);
+
 /// Returns a scene as a view sees it: its primitives are tessellated anew where that changes them,
 /// once per shape and rotation as in `scene`. All else stays, with bodies in their order. `drawn`
 /// says which objects are asked for (empty: all); shapes that none of them uses are left empty. It
@@ -35,5 +50,11 @@ struct ViewTessellationOptions {
 [[nodiscard]] Result<std::optional<Scene>> tessellate_for_view(
     const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& seen_by,
     const parallel::Context& context);
+
+/// Does the same as a plan says, which may be that of more than is drawn here: then `shows` is not
+/// asked.
+[[nodiscard]] Result<std::optional<Scene>> tessellate_for_view(
+    const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& seen_by,
+    const ViewTessellation& plan, const parallel::Context& context);
 
 }  // namespace strake::model

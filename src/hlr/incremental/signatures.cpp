@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "hlr/incremental/extents.hpp"
+#include "hlr/incremental/shape_hash.hpp"
+#include "hlr/prepare/drawn_objects.hpp"
+#include "hlr/prepare/view_job.hpp"
+#include "hlr/view/projection.hpp"
+#include "strake/geometry/part.hpp"
+#include "strake/geometry/primitive.hpp"
+#include "strake/hlr/incremental.hpp"
+#include "strake/parallel/transform.hpp"
+
+namespace strake::hlr {
+namespace {
+
+using geometry::Vec3l;
+
+constexpr std::size_t kObjectsPerBlock = 1024;
+/// To be raised when the same scene and view give another drawing than before.
+constexpr std::uint32_t kRulesOfDrawing = 1;
+
+void add(Hasher& hasher, const Vec3l& v) { hasher.add(v.x).add(v.y).add(v.z); }
+
+void add(Hasher& hasher, const View& view) {
+  add(hasher, view.direction);
+  add(hasher, view.up);
+  hasher.add(view.limits ? 1U : 0U);
+  if (view.limits) {
+    add(hasher, view.limits->lo);
+    add(hasher, view.limits->hi);
+  }
+  hasher.add(std::uint64_t{view.sections.size()});
+  for (const Section& section : view.sections) {
+    add(hasher, section.normal);
+    add(hasher, section.point);
+  }
+  hasher.add(view.perspective ? 1U : 0U);
+  if (!view.perspective) return;
+  add(hasher, view.perspective->eye);
+  add(hasher, view.perspective->target);
+  hasher.add(view.perspective->near_mm).add(view.perspective->field_of_view_deg);
+}
+
+void add(Hasher& hasher, const Options& options) {
+  hasher.add(static_cast<std::uint32_t>(options.stage))
+      .add(options.sharp_angle_deg)
+      .add(static_cast<std::uint32_t>(options.smooth))
+      .add(options.contact_distance_mm)
+      .add(static_cast<std::uint32_t>(options.intersections))
+      .add(static_cast<std::uint32_t>(options.own_polylines))
+      .add(options.flush_seams ? 1U : 0U)
+      .add(options.sag_mm)
+      .add(options.hidden ? 1U : 0U)
+      .add(options.keep_specks ? 1U : 0U)
+      .add(options.hatch_spacing_mm);
+}
+
+/// What a drawing sees of objects, as words that are hashed.
+class ObjectWords {
+ public:
+  ObjectWords(const model::Scene& scene, const View& view, const Options& options,
+              std::span<const Hash128> shapes, const model::ViewTessellation& plan)
+      : scene_(scene),
+        options_(options),
+        shapes_(shapes),
+        plan_(plan),
+        sees_colours_(!options.flush_seams || !view.sections.empty()) {}
+
+  void add(std::vector<std::uint64_t>& words, std::uint32_t object) const {
+    const model::ObjectId id{object};
+    words.push_back(scene_.model->object(id).body_count > 0 ? 1 : 0);
+    add_lacking(words, id);
+    add_section_rules(words, object);
+    for (const model::GridBody& body : scene_.bodies_of(id)) add(words, body);
+  }
+
+ private:
+  void add_lacking(std::vector<std::uint64_t>& words, model::ObjectId id) const {
+    const auto lacking =
+        std::ranges::equal_range(scene_.lacking, id, {}, &model::IncompleteObject::object);
+    words.push_back(lacking.size());
+    for (const model::IncompleteObject& one : lacking) {
+      const Hash128 code = hash_bytes(std::as_bytes(std::span(one.code)));
+      words.insert(words.end(), {code.high, code.low});
+    }
+  }
+
+  void add_section_rules(std::vector<std::uint64_t>& words, std::uint32_t object) const {
+    words.push_back(!options_.uncut.empty() && options_.uncut[object] ? 1 : 0);
+    const Hatch hatch = object < options_.hatches.size() ? options_.hatches[object] : Hatch();
+    words.push_back(std::bit_cast<std::uint64_t>(hatch.angle_deg));
+    words.push_back(std::bit_cast<std::uint64_t>(hatch.spacing_mm));
+  }
+
+  void add(std::vector<std::uint64_t>& words, const model::GridBody& body) const {
+    const model::Body& placed = scene_.model->bodies[body.body];
+    const model::GridShape& shape = scene_.shapes[body.grid_shape];
+    const Hash128& hash = shapes_[body.grid_shape];
+    const Vec3l at =
+        shape.box.empty() ? body.origin : body.origin + shape.box.lo.as<std::int64_t>();
+    const model::Color& color = placed.color;
+    const std::uint64_t ink =
+        sees_colours_ ? std::uint64_t{color.red} << 16U | std::uint64_t{color.green} << 8U |
+                            std::uint64_t{color.blue} | std::uint64_t{color.alpha} << 24U
+                      : std::uint64_t{color.alpha == 255};
+    words.insert(words.end(), {hash.high, hash.low, static_cast<std::uint64_t>(at.x),
+                               static_cast<std::uint64_t>(at.y), static_cast<std::uint64_t>(at.z),
+                               static_cast<std::uint64_t>(contact_of(placed, options_)), ink});
+    const bool curved = std::ranges::any_of(shape.parts, [](const geometry::Part& part) {
+      return part.primitive && geometry::is_curved(*part.primitive);
+    });
+    if (curved) add_tessellation(words, body, placed);
+  }
+
+  /// The view makes the mesh from the primitive, as fine as the other bodies of the shape ask for.
+  void add_tessellation(std::vector<std::uint64_t>& words, const model::GridBody& body,
+                        const model::Body& placed) const {
+    words.push_back((plan_.is_finer(body.grid_shape) ? 1U : 0U) | (plan_.any ? 2U : 0U));
+    const Vec3l& base = scene_.shapes[body.grid_shape].base;
+    words.insert(words.end(),
+                 {static_cast<std::uint64_t>(base.x), static_cast<std::uint64_t>(base.y),
+                  static_cast<std::uint64_t>(base.z)});
+    for (const geometry::Vec3d& row : placed.placement.linear.row)
+      for (int k = 0; k < 3; ++k) words.push_back(std::bit_cast<std::uint64_t>(row[k] + 0.0));
+  }
+
+  const model::Scene& scene_;
+  const Options& options_;
+  std::span<const Hash128> shapes_;
+  const model::ViewTessellation& plan_;
+  bool sees_colours_;
+};
+
+}  // namespace
+
+Result<Signatures> signatures(const model::Scene& scene, const std::vector<bool>& drawn,
+                              const View& view, const Options& options,
+                              const parallel::Context& context) {
+  if (const Status status = check_drawn(scene, drawn); !status) return status.error();
+  if (const Status status = check_drawn(scene, options.uncut); !status) return status.error();
+  const auto seen_by = tessellation_of(view, options);
+  if (!seen_by) return seen_by.error();
+  Signatures result;
+  Hasher hasher;
+  hasher.add(kRulesOfDrawing).add(scene.sag_mm).add(scene.weld_mm);
+  add(hasher, view);
+  add(hasher, options);
+  result.view = hasher.value();
+  const model::ViewTessellation plan = plan_view_tessellation(scene, drawn, *seen_by);
+  const auto extents = shape_extents(scene, context);
+  if (!extents) return extents.error();
+  auto boxes = object_extents(scene, drawn, *extents, context);
+  if (!boxes) return boxes.error();
+  result.boxes = std::move(*boxes);
+  const auto shapes = hash_shapes(scene, context);
+  if (!shapes) return shapes.error();
+  const ObjectWords all(scene, view, options, *shapes, plan);
+  auto objects = parallel::transform_with(
+      context,
+      {.name = "signatures: objects", .n = scene.model->objects.size(), .grain = kObjectsPerBlock},
+      [] { return std::vector<std::uint64_t>(); },
+      [&](std::vector<std::uint64_t>& words, std::size_t o) {
+        words.clear();
+        if (drawn.empty() || drawn[o]) all.add(words, static_cast<std::uint32_t>(o));
+        return hash_bytes(std::as_bytes(std::span(words)));
+      });
+  if (!objects) return objects.error();
+  result.objects = std::move(*objects);
+  return result;
+}
+
+}  // namespace strake::hlr
