@@ -19,7 +19,6 @@
 #include "cli/verbs/draw/view_settings.hpp"
 #include "project/snapshot/snapshot.hpp"
 #include "project/views/drawing_codec.hpp"
-#include "project/views/object_boxes.hpp"
 #include "project/views/stored_views.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/hlr/incremental.hpp"
@@ -94,17 +93,22 @@ Result<ViewOfProject> view_to_draw(const DrawOptions& given, OpenedProject& open
   return view;
 }
 
-/// Returns what the lines of a view are a function of, and what is remembered is compared with.
-Result<project::Snapshot> snapshot_of(Session& session, const DrawRequest& request,
-                                      const PreparedView& prepared, const model::Scene& scene) {
+/// What the lines of a view are a function of.
+struct ViewState {
+  project::Snapshot snapshot;
+  std::vector<geometry::Box3l> boxes;  ///< hlr::Signatures::boxes
+};
+
+Result<ViewState> state_of(Session& session, const DrawRequest& request,
+                           const PreparedView& prepared, const model::Scene& scene) {
   const auto timer = session.step("signatures");
   auto signatures =
       hlr::signatures(scene, prepared.drawn, request.view, prepared.options, session.context());
   if (!signatures) return signatures.error();
   auto identities = project::identities(*scene.model, session.context());
   if (!identities) return identities.error();
-  return project::Snapshot{signatures->view, std::move(*identities),
-                           std::move(signatures->objects)};
+  return ViewState{{signatures->view, std::move(*identities), std::move(signatures->objects)},
+                   std::move(signatures->boxes)};
 }
 
 /// Returns the drawing that is remembered, if any of it may serve. What is damaged serves nobody:
@@ -133,8 +137,11 @@ Result<SolvedView> solve_changes(Session& session, const DrawRequest& request,
                                  const PreparedView& prepared, const model::Scene& scene,
                                  project::StoredDrawing stored, const project::Snapshot& now) {
   SolvedView solved;
-  if (stored.made_from == now) {
+  // Reports have names of objects, which signatures do not see.
+  if (stored.made_from == now && stored.drawing.diagnostics.counts().empty()) {
     solved.drawing = std::move(stored.drawing);
+    solved.drawing.view = request.view;
+    solved.drawing.options = prepared.options;
     return solved;
   }
   const auto now_of = [&] {
@@ -147,7 +154,7 @@ Result<SolvedView> solve_changes(Session& session, const DrawRequest& request,
   const auto begin = std::chrono::steady_clock::now();
   Result<hlr::Redrawn> redrawn =
       hlr::draw_changes(scene, prepared.drawn, request.view, prepared.options,
-                        {&stored.drawing, *now_of, stored.boxes}, session.context());
+                        {std::move(stored.drawing), *now_of, stored.boxes}, session.context());
   if (!redrawn) return redrawn.error();
   solved.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   solved.drawing = std::move(redrawn->drawing);
@@ -209,7 +216,7 @@ class StoredRun {
     Result<PreparedView> prepared = prepare_view(session_, request_, loaded_.scene);
     if (!prepared) return prepared.error();
     prepared_ = std::move(*prepared);
-    Result<project::Snapshot> now = snapshot_of(session_, request_, prepared_, loaded_.scene);
+    Result<ViewState> now = state_of(session_, request_, prepared_, loaded_.scene);
     if (!now) return now.error();
     now_ = std::move(*now);
     Result<SolvedView> solved = solved_view(opened);
@@ -241,14 +248,10 @@ class StoredRun {
     view.name = view_.name;
     const std::string settings = settings_text(given_);
     if (!given_.save.empty()) view.settings = settings;
-    std::vector<geometry::Box3l> boxes;
     if (!kept_) {
-      auto of_objects = project::object_boxes(loaded_.scene, session_.context());
-      if (!of_objects) return of_objects.error();
-      boxes = std::move(*of_objects);
       view.drawing = &solved_.drawing;
-      view.made_from = &now_;
-      view.boxes = &boxes;
+      view.made_from = &now_.snapshot;
+      view.boxes = &now_.boxes;
       view.edges_solved = solved_.edges_solved;
       view.seconds = solved_.seconds;
     }
@@ -261,13 +264,14 @@ class StoredRun {
   Result<SolvedView> solved_view(OpenedProject& opened) {
     if (given_.full)
       return solve_in_full(session_, request_, prepared_, loaded_.scene, "in full, as asked");
-    auto stored = remembered(session_, opened, view_.name, now_);
+    auto stored = remembered(session_, opened, view_.name, now_.snapshot);
     if (!stored) return stored.error();
     if (!*stored)
       return solve_in_full(session_, request_, prepared_, loaded_.scene,
                            "nothing is remembered of it that holds now");
-    kept_ = (*stored)->made_from == now_;
-    return solve_changes(session_, request_, prepared_, loaded_.scene, std::move(**stored), now_);
+    kept_ = (*stored)->made_from == now_.snapshot;
+    return solve_changes(session_, request_, prepared_, loaded_.scene, std::move(**stored),
+                         now_.snapshot);
   }
 
   /// Solves everything, and takes that where it is another drawing.
@@ -301,7 +305,7 @@ class StoredRun {
   const DrawRequest& request_;
   const Loaded& loaded_;
   PreparedView prepared_;
-  project::Snapshot now_;
+  ViewState now_;
   SolvedView solved_;
   bool kept_ = false;     ///< the lines are those that are stored
   bool differs_ = false;  ///< from the drawing in full

@@ -22,6 +22,7 @@ namespace {
 using geometry::Vec3l;
 
 constexpr std::uint64_t kDrawingForm = 1;
+constexpr std::size_t kMostOf32Bits = std::size_t{1} << 32U;
 
 /// Columns of pieces: three of their ends, that of their objects, edges and others.
 constexpr std::size_t kPieceColumns = 6;
@@ -85,7 +86,7 @@ class PieceMaker {
     const std::int64_t object = columns_[3][i], edge = columns_[4][i];
     if (kinds_[i] > static_cast<std::uint8_t>(hlr::EdgeKind::smooth) ||
         states_[i] > static_cast<std::uint8_t>(hlr::State::clipped) ||
-        !is_number(object, objects_) || !is_number(edge, std::size_t{1} << 32U))
+        !is_number(object, objects_) || !is_number(edge, kMostOf32Bits))
       return false;
     const std::int64_t apart = columns_[5][i];
     if (apart < -object || !is_number(object + std::min(apart, std::int64_t{1} << 32U), objects_))
@@ -206,6 +207,31 @@ hlr::Curves read_curves(BlobReader& in, std::size_t objects) {
   return curves;
 }
 
+void write_lines(BlobWriter& out, const hlr::Drawing& drawing) {
+  out.column(std::span<const std::uint32_t>(drawing.left_out));
+  const std::span<const hlr::LineCount> counted = drawing.counted;
+  write_column(out, counted, 2, [](const hlr::LineCount& count, std::size_t k) {
+    return static_cast<std::int64_t>(k == 0 ? count.edges : count.specks);
+  });
+  write_curves(out, drawing.curves);
+  write_pieces(out, drawing.pieces);
+}
+
+std::vector<hlr::LineCount> read_line_counts(BlobReader& in, std::size_t objects) {
+  const std::vector<std::int64_t> values = NumberColumn::read(in, objects * 2).values();
+  std::vector<hlr::LineCount> counts;
+  counts.reserve(values.size() / 2);
+  for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
+    if (!is_number(values[i], kMostOf32Bits) || !is_number(values[i + 1], kMostOf32Bits)) {
+      in.refuse("an object has a number of lines that is none");
+      return {};
+    }
+    counts.push_back(
+        {static_cast<std::uint32_t>(values[i]), static_cast<std::uint32_t>(values[i + 1])});
+  }
+  return counts;
+}
+
 }  // namespace
 
 void write(BlobWriter& out, const hlr::Drawing& drawing) {
@@ -219,9 +245,7 @@ void write(BlobWriter& out, const hlr::Drawing& drawing) {
   write(out, drawing.counters);
   write(out, drawing.account);
   write(out, drawing.diagnostics);
-  out.column(std::span<const std::uint32_t>(drawing.left_out));
-  write_curves(out, drawing.curves);
-  write_pieces(out, drawing.pieces);
+  write_lines(out, drawing);
 }
 
 Result<hlr::Drawing> read_drawing(BlobReader& in, const parallel::Context& context) {
@@ -242,6 +266,7 @@ Result<hlr::Drawing> read_drawing(BlobReader& in, const parallel::Context& conte
   drawing.left_out = in.column<std::uint32_t>();
   if (!drawing.left_out.empty() && drawing.left_out.size() != objects)
     in.refuse("columns are not of one length");
+  drawing.counted = read_line_counts(in, objects);
   drawing.curves = read_curves(in, objects);
   Result<std::vector<hlr::EdgePiece>> pieces = read_pieces(in, objects, context);
   if (!pieces) return pieces.error();
@@ -267,9 +292,7 @@ Result<std::vector<std::byte>> bytes_of_result(const hlr::Drawing& drawing) {
   write(out, drawing.origin);
   write(out, drawing.account);
   write(out, drawing.diagnostics);
-  out.column(std::span<const std::uint32_t>(drawing.left_out));
-  write_curves(out, drawing.curves);
-  write_pieces(out, drawing.pieces);
+  write_lines(out, drawing);
   return out.finish();
 }
 

@@ -44,7 +44,7 @@ struct StoredView {
 struct StoredDrawing {
   hlr::Drawing drawing;
   Snapshot made_from;
-  std::vector<geometry::Box3l> boxes;  ///< of each object then, grid units; empty without bodies
+  std::vector<geometry::Box3l> boxes;  ///< hlr::Signatures::boxes then
 };
 
 /// Returns the drawing of a view that was solved under the signature `whole` by this version of the
