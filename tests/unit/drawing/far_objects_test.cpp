@@ -20,8 +20,10 @@ PlaneBox square(double x, double y, double side = 10) { return {x, x + side, y, 
 /// A field of so many squares of 10 x 10, 20 apart, ten in a row.
 std::vector<PlaneBox> field(std::size_t count) {
   std::vector<PlaneBox> boxes;
-  for (std::size_t i = 0; i < count; ++i)
-    boxes.push_back(square(20 * static_cast<double>(i % 10), 20 * static_cast<double>(i / 10)));
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t row = i / 10;
+    boxes.push_back(square(20 * static_cast<double>(i % 10), 20 * static_cast<double>(row)));
+  }
   return boxes;
 }
 
