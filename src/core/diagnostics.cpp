@@ -41,6 +41,11 @@ void Diagnostics::remove(std::string_view code) {
   std::erase_if(counts_, [&](const Count& c) { return c.code == code; });
 }
 
+void Diagnostics::count_more(std::string_view code, std::uint64_t more) {
+  for (Count& c : counts_)
+    if (c.code == code && c.count >= kMaxPerCode) c.count += more;
+}
+
 std::uint64_t Diagnostics::count(std::string_view code) const {
   for (const Count& c : counts_)
     if (c.code == code) return c.count;

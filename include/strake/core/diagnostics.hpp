@@ -40,6 +40,8 @@ class Diagnostics {
   void append(const Diagnostics& other);
   /// Takes out all of one code.
   void remove(std::string_view code);
+  /// Counts more of a code of which as many as may be are kept word for word; of others, none.
+  void count_more(std::string_view code, std::uint64_t more);
 
   [[nodiscard]] const std::vector<Diagnostic>& kept() const { return kept_; }
   /// Returns one entry per code, in order of first appearance.
