@@ -133,7 +133,12 @@ strake_component(project
   MODULES project
   DEPENDS parallel geometry model clash drawing report
   PACKAGES sqlite3 zstd
-  HEADERS project/project.hpp)
+  HEADERS
+    project/check.hpp
+    project/listing.hpp
+    project/project.hpp
+    project/summary.hpp
+    project/update.hpp)
 
 strake_component(generate
   MODULES generate

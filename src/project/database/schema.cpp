@@ -11,6 +11,7 @@
 
 #include "project/database/model_tables.hpp"
 #include "project/database/result_tables.hpp"
+#include "project/database/revision_tables.hpp"
 #include "project/database/view_tables.hpp"
 
 namespace strake::project {
@@ -50,7 +51,7 @@ Result<std::unique_ptr<Database>> empty_tables() {
 }  // namespace
 
 std::string all_tables() {
-  return fmt::format("{}\n{}\n{}", kModelTables, kResultTables, kViewTables);
+  return fmt::format("{}\n{}\n{}\n{}", kModelTables, kRevisionTables, kResultTables, kViewTables);
 }
 
 std::span<const MigrationStep> migration_steps() { return {}; }
