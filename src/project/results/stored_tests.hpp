@@ -43,6 +43,7 @@ struct TestToWrite {
   std::string settings;  ///< for people
   const Snapshot& snapshot;
   ReportRows results;
+  bool is_unchanged = false;  ///< the report is the one that is stored
 };
 
 /// Writes a test over `before`, which is null where there is none: of the parts of its report those
