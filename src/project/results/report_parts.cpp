@@ -203,6 +203,24 @@ bool is_same_part(const ReportRows& x, const PartRange& of_x, const ReportRows& 
   return true;
 }
 
+Result<bool> is_same_result(const clash::Report& x, const clash::Report& y) {
+  if (x.in_a.size() != y.in_a.size() || x.pairs.size() != y.pairs.size()) return false;
+  const std::vector<std::int64_t> no_rows(x.pairs.size());
+  const std::vector<PartRange> of_x = parts_of(x, x.in_a.size()), of_y = parts_of(y, y.in_a.size());
+  for (std::size_t k = 0; k < of_x.size(); ++k)
+    if (!is_same_part({x, no_rows}, of_x[k], {y, no_rows}, of_y[k])) return false;
+  const auto head = [](const clash::Report& report) {
+    clash::Report without_pairs = report;
+    without_pairs.pairs.clear();
+    without_pairs.counters = {};
+    return encode_head(without_pairs);
+  };
+  const Result<std::vector<std::byte>> head_x = head(x), head_y = head(y);
+  if (!head_x) return head_x.error();
+  if (!head_y) return head_y.error();
+  return *head_x == *head_y;
+}
+
 Result<std::vector<std::byte>> encode_part(const ReportRows& report, const PartRange& range) {
   BlobWriter out;
   write_pairs(out, report, range);

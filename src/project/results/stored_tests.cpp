@@ -67,14 +67,6 @@ std::vector<std::size_t> changed_parts(const TestToWrite& test, const StoredTest
   return changed;
 }
 
-Status write_snapshot(Database& database, std::int64_t test, const Snapshot& snapshot) {
-  const Result<Bytes> bytes = encode_snapshot(snapshot);
-  if (!bytes) return bytes.error();
-  Result<Statement> update = database.prepare("UPDATE test SET snapshot = ?2 WHERE id = ?1");
-  if (!update) return update.error();
-  return update->bind(1, test).bind(2, std::span<const std::byte>(*bytes)).run();
-}
-
 Status write_report(Database& database, const TestToWrite& test) {
   const Result<Bytes> head = encode_head(test.results.report);
   if (!head) return head.error();
@@ -133,6 +125,25 @@ Result<std::optional<TestRow>> find_test(Database& database, const std::string& 
   if (!there) return there.error();
   if (!*there) return std::optional<TestRow>();
   return std::optional(TestRow{select->integer(0), select->integer(1)});
+}
+
+Status write_snapshot(Database& database, std::int64_t test, const Snapshot& snapshot) {
+  const Result<Bytes> bytes = encode_snapshot(snapshot);
+  if (!bytes) return bytes.error();
+  Result<Statement> update = database.prepare("UPDATE test SET snapshot = ?2 WHERE id = ?1");
+  if (!update) return update.error();
+  return update->bind(1, test).bind(2, std::span<const std::byte>(*bytes)).run();
+}
+
+Result<std::optional<StoredSnapshot>> read_snapshot(Database& database, const std::string& test) {
+  Result<Statement> select = database.prepare("SELECT id, snapshot FROM test WHERE name = ?1");
+  if (!select) return select.error();
+  const Result<bool> there = select->bind(1, std::string_view(test)).step();
+  if (!there) return there.error();
+  if (!*there) return std::optional<StoredSnapshot>();
+  Result<Snapshot> snapshot = decode_snapshot(copy_of(select->bytes(1)), called(test));
+  if (!snapshot) return snapshot.error();
+  return std::optional(StoredSnapshot{select->integer(0), std::move(*snapshot)});
 }
 
 Result<std::optional<StoredTest>> read_test(Database& database, const std::string& name,
