@@ -22,6 +22,7 @@
 #include "cli/verbs/clash/clash_hint.hpp"
 #include "cli/verbs/clash/clash_output.hpp"
 #include "cli/verbs/clash/clash_profile.hpp"
+#include "cli/verbs/clash/clash_project.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/clash/clash_sets.hpp"
 #include "cli/verbs/verb.hpp"
@@ -47,6 +48,7 @@ struct ClashOptions {
   ClashResultInput result;
   ClashOutputInput output;
   DecisionInput decisions;
+  ClashProjectInput project;
   std::vector<std::string> outputs;
 };
 
@@ -177,6 +179,7 @@ struct ClashRequest {
   model::SceneOptions scene;
   ClashOutput output;
   std::optional<DecisionRequest> decisions;
+  double deeper_mm = report::DecisionRules{}.deeper_mm;  ///< for the decisions of a project
 };
 
 /// Returns what the rules say of files.
@@ -234,6 +237,12 @@ Result<ClashRequest> request_of(const ClashOptions& given, bool json) {
   Result<std::optional<DecisionRequest>> decisions = decision_request(given.decisions);
   if (!decisions) return decisions.error();
   request.decisions = std::move(*decisions);
+  if (const Status status = length_option(request.deeper_mm, given.decisions.deeper, "--deeper");
+      !status)
+    return status.error();
+  if (!given.decisions.deeper.empty() && !request.decisions && !given.project.is_given())
+    return Error{ErrorCode::usage, "there are no decisions", "--deeper",
+                 "add --decisions FILE or -p PROJECT"};
   return request;
 }
 
@@ -278,19 +287,25 @@ Result<clash::Findings> find(Session& session, const Loaded& loaded, rules::Plan
   return findings;
 }
 
+/// `project` is null where files are tested.
 Result<clash::Findings> findings_of(Session& session, const Loaded& loaded,
-                                    const ClashRequest& request, bool list_exempted) {
+                                    const ClashRequest& request, bool list_exempted,
+                                    ProjectClashes* project) {
   Result<rules::Plan> plan = plan_of(session, loaded, request);
   if (!plan) return plan.error();
+  if (project != nullptr) return project->find(session, loaded, std::move(*plan), list_exempted);
   return find(session, loaded, std::move(*plan), list_exempted);
 }
 
 /// Checks every file that the run writes, each once.
 Status check_files(const ClashOptions& given) {
-  if (given.input.files.empty())
+  if (const Status status = check_project_options(given.project.project, given.input); !status)
+    return status;
+  if (given.input.files.empty() && !given.project.is_given())
     return Error{
         ErrorCode::usage, "no model file is given", {}, "'strake clash --help' tells more"};
   std::vector<std::string> others = given.input.files;
+  if (given.project.is_given()) others.push_back(given.project.project.file);
   if (!given.rules.empty()) others.push_back(given.rules);
   if (given.decisions.write)
     if (const Status status = check_other_output("--decisions", given.decisions.file, {".csv"},
@@ -360,38 +375,87 @@ bool lists_contacts(const ClashRequest& request) {
   return request.decisions && !request.decisions->file.decisions.empty();
 }
 
+/// What a run works with: files, or a project.
+struct ClashSource {
+  std::optional<ProjectClashes> project;
+  Loaded loaded;
+};
+
+Result<ClashSource> source_of(Session& session, const ClashOptions& given,
+                              const ClashRequest& request) {
+  if (!given.project.is_given()) {
+    Result<Loaded> loaded = load(session, given.input, request.scene, files_of(request));
+    if (!loaded) return loaded.error();
+    return ClashSource{{}, std::move(*loaded)};
+  }
+  Result<ProjectClashes> project = ProjectClashes::open(session, given.project);
+  if (!project) return project.error();
+  Result<Loaded> loaded = project->load(session, request.scene);
+  if (!loaded) return loaded.error();
+  return ClashSource{std::move(*project), std::move(*loaded)};
+}
+
+/// Looks up what was decided about findings, in a file or in the project, which remembers them.
+/// `from_file` holds what a file says.
+Result<const report::DecidedResults*> decided_of(Session& session, const ClashOptions& given,
+                                                 const ClashRequest& request, ClashSource& source,
+                                                 clash::Findings& findings,
+                                                 std::optional<report::DecidedResults>& from_file) {
+  if (source.project) {
+    const Status status =
+        source.project->remember(session, source.loaded, findings, request.deeper_mm);
+    if (!status) return status.error();
+    return source.project->decided();
+  }
+  Result<std::optional<report::DecidedResults>> looked_up =
+      decide(session, given.decisions, request.decisions, findings, *source.loaded.model,
+             given.contacts == "count" && lists_contacts(request));
+  if (!looked_up) return looked_up.error();
+  from_file = std::move(*looked_up);
+  const report::DecidedResults* const decided = from_file ? &*from_file : nullptr;
+  return decided;
+}
+
 Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   Result<ClashRequest> request = request_of(given, session.json());
   if (!request) return request.error();
   // A decision may be about a contact: which are only counted is known when they are looked up.
   if (lists_contacts(*request)) request->test.options.engine.contacts = clash::Contacts::list;
+  // A project follows what changed, of which no log of all pairs can come.
   request->test.options.engine.log_pairs =
-      !given.result.log_pairs.empty() || session.has_stats_option();
+      !given.result.log_pairs.empty() || (session.has_stats_option() && !given.project.is_given());
   if (const Status status = check(given.result); !status) return status.error();
   if (const Status status = check_contacts(given, request->output); !status) return status.error();
   if (const Status status = check_files(given); !status) return status.error();
-  const Result<Loaded> loaded = load(session, given.input, request->scene, files_of(*request));
-  if (!loaded) return loaded.error();
-  Result<clash::Findings> findings = findings_of(session, *loaded, *request, given.list_exempted);
+  Result<ClashSource> source = source_of(session, given, *request);
+  if (!source) return source.error();
+  const Loaded& loaded = source->loaded;
+  ProjectClashes* const project = source->project ? &*source->project : nullptr;
+  Result<clash::Findings> findings =
+      findings_of(session, loaded, *request, given.list_exempted, project);
   if (!findings) return findings.error();
-  findings->diagnostics.append(idle_file_settings(files_of(*request), given.input.files));
-  findings->diagnostics.append(check_columns(request->output.columns, *loaded->model));
-  tell(session, *findings, *loaded->model);
-  const Result<std::optional<report::DecidedResults>> looked_up =
-      decide(session, given.decisions, request->decisions, *findings, *loaded->model,
-             given.contacts == "count" && lists_contacts(*request));
-  if (!looked_up) return looked_up.error();
-  const report::DecidedResults* const decided = *looked_up ? &**looked_up : nullptr;
-  const FailingPairs failing = failing_pairs(*findings, given.fail_on, decided);
-  if (const Status status = put_out(session, given, *request, *loaded, decided, *findings); !status)
+  if (project == nullptr)
+    findings->diagnostics.append(idle_file_settings(files_of(*request), given.input.files));
+  findings->diagnostics.append(check_columns(request->output.columns, *loaded.model));
+  tell(session, *findings, *loaded.model);
+  std::optional<report::DecidedResults> from_file;
+  const Result<const report::DecidedResults*> decided =
+      decided_of(session, given, *request, *source, *findings, from_file);
+  if (!decided) return decided.error();
+  const FailingPairs failing = failing_pairs(*findings, given.fail_on, *decided);
+  if (const Status status = put_out(session, given, *request, loaded, *decided, *findings); !status)
     return status.error();
+  // Only what was told is remembered: a run that ended before is found again by the next one.
+  if (project != nullptr)
+    if (const Status status = project->commit(session); !status) return status.error();
   const bool first_look = !request->rules && given.profile.empty() && given.result.group_by.empty();
   if (session.console().narrates() && !session.json() && first_look && request->output.classes.hit)
-    if (const std::string hint = concentration_hint(*findings, *loaded->model, decided);
+    if (const std::string hint = concentration_hint(*findings, *loaded.model, *decided);
         !hint.empty())
       session.console().note(hint);
-  return clash_exit_code(*findings, failing, given.fail_on, given.input, *loaded,
-                         session.console());
+  const ExitCode code =
+      clash_exit_code(*findings, failing, given.fail_on, given.input, loaded, session.console());
+  return project != nullptr && project->differs() ? ExitCode::check_failed : code;
 }
 
 /// Adds --rules and --profile; this comes after the options that --rules excludes.
@@ -462,6 +526,8 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   add_result_options(*command, options->result);
   add_clash_output_options(*command, options->output);
   add_decision_options(*command, options->decisions);
+  add_clash_project_options(*command, options->project);
+  command->get_option("--project")->excludes(command->get_option("--decisions"));
   add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
              "How near pairs are found; the result is the same (default tree)")
       ->group("Running");
@@ -502,6 +568,8 @@ Examples:
   strake clash hvac.rvm steel.rvm --profile plant --group-by assembly
   strake clash ship.glb --class hit --decisions decided.csv --write-decisions --fail-on hit
   strake clash ship.glb --log-pairs pairs.csv --stats
+  strake clash -p ship.strake --rules project.toml --fail-on hit -o today.json
+  strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --status approved --comment 'as agreed'
   strake clash diff monday.json tuesday.json
   strake clash ship.glb --a 'PIP*' --b 'type = mesh and not PIP*' -o pipes.csv
   strake clash hvac.rvm steel.rvm piping.rvm --rules project.toml --list-exempted -o all.json

@@ -83,8 +83,7 @@ void add_decision_options(CLI::App& command, DecisionInput& options) {
                   "An approved clash that is deeper or nearer than it was by more than this is "
                   "listed again, as is one of a severer class (default 1mm)")
       ->type_name("LENGTH")
-      ->group(kGroup)
-      ->needs(file);
+      ->group(kGroup);
   add_match_files_option(command, options.match_files)->group(kGroup)->needs(file);
 }
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "project/results/clash_rows.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <limits>
 #include <utility>
 
@@ -78,11 +76,6 @@ Binder bind_row(Statement& statement, const ClashRow& row) {
 }
 
 }  // namespace
-
-std::string utc_now() {
-  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
-}
 
 Result<ClashRow> row_of(const Database& database, const Statement& at) {
   ClashRow row;

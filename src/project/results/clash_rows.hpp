@@ -89,7 +89,4 @@ class ClashRows {
   Statement by_id_, by_key_, insert_, update_, event_;
 };
 
-/// Returns the time as UTC, 2026-01-31T23:59:59Z.
-[[nodiscard]] std::string utc_now();
-
 }  // namespace strake::project

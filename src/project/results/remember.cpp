@@ -200,7 +200,8 @@ class RunMemory {
                               run_.number,
                               settings_text(*test.report),
                               *test.snapshot,
-                              {*test.report, memory.rows()}};
+                              {*test.report, memory.rows()},
+                              memory.is_unchanged()};
     if (const Status status = write_test(database_, written, before, context); !status)
       return status;
     TestTrend trend = memory.trend();

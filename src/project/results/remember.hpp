@@ -53,7 +53,7 @@ struct TestTrend {
 };
 
 struct RunFacts {
-  std::string started;  ///< as utc_now() tells it
+  std::string started;  ///< UTC, as 2026-01-31T23:59:59Z
   std::string who;
   double seconds = 0;
   double deeper_mm = 1;  ///< an approved clash that is deeper by more comes back

@@ -46,6 +46,9 @@ struct PartRange {
 [[nodiscard]] bool is_same_part(const ReportRows& x, const PartRange& of_x, const ReportRows& y,
                                 const PartRange& of_y);
 
+/// Whether two reports over one model say the same, bit for bit; what the runs took does not count.
+[[nodiscard]] Result<bool> is_same_result(const clash::Report& x, const clash::Report& y);
+
 /// Encode a report without its pairs, its regions and its log, and one part of these.
 [[nodiscard]] Result<std::vector<std::byte>> encode_head(const clash::Report& report);
 [[nodiscard]] Result<std::vector<std::byte>> encode_part(const ReportRows& report,

@@ -208,6 +208,7 @@ class Head {
     io_.word(engine.contacts, clash::Contacts::count);
     io_.number(engine.most_regions);
     io_.flag(engine.log_pairs);
+    io_.flag(engine.keep_for_changes);
     io_.number(engine.most_pairs);
     io_.relations(o.reporting.relations);
     io_.real(o.reporting.min_volume_mm3);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "project/codec/blob.hpp"
+#include "project/results/pair_columns.hpp"
 #include "project/results/report_codec.hpp"
 #include "project/results/report_head.hpp"
 #include "project/results/value_columns.hpp"
@@ -38,38 +39,13 @@ std::uint32_t first_region_in_part(const Pair& pair, std::uint32_t regions, std:
   return pair.first_region - static_cast<std::uint32_t>(first) + 1;
 }
 
-void write_points(BlobWriter& out, std::span<const Pair> pairs) {
-  for (const auto member : {&Pair::point_mm, &Pair::on_a_mm, &Pair::on_b_mm, &Pair::away})
-    for (const int axis : {0, 1, 2})
-      write_column(out, pairs, [&](const Pair& p) { return (p.*member)[axis]; });
-}
-
 void write_pairs(BlobWriter& out, const ReportRows& all, const PartRange& range) {
   const std::span<const Pair> pairs(all.report.pairs.data() + range.first_pair,
                                     range.last_pair - range.first_pair);
-  const auto put = [&](const auto& value) { write_column(out, pairs, value); };
-  const auto byte = [](auto value) { return static_cast<std::uint8_t>(value); };
-  put([](const Pair& p) { return index(p.a); });
-  put([](const Pair& p) { return index(p.b); });
-  put([&](const Pair& p) { return byte(p.cls); });
-  put([&](const Pair& p) { return byte(p.relation); });
-  put([&](const Pair& p) { return byte(p.level_a); });
-  put([&](const Pair& p) { return byte(p.level_b); });
-  put([&](const Pair& p) { return byte(p.severest); });
-  for (const auto member : {&Pair::d_mm, &Pair::d_lower_mm, &Pair::d_upper_mm})
-    put([&](const Pair& p) { return p.*member; });
-  write_points(out, pairs);
-  for (const auto member : {&Pair::part_a, &Pair::part_b, &Pair::regions, &Pair::allowed_regions})
-    put([&](const Pair& p) { return p.*member; });
-  put([&](const Pair& p) {
+  write_pairs(out, pairs);
+  write_column(out, pairs, [&](const Pair& p) {
     return first_region_in_part(p, listed(p, all.report.options), range.first_region);
   });
-  put([](const Pair& p) { return p.flags; });
-  put([](const Pair& p) { return p.allowed; });
-  put([](const Pair& p) { return p.deep_in_a; });
-  put([](const Pair& p) { return p.depth_complete; });
-  put([](const Pair& p) { return p.volume_mm3.has_value(); });
-  put([](const Pair& p) { return p.volume_mm3.value_or(0); });
   out.column(all.rows.subspan(range.first_pair, pairs.size()));
 }
 
@@ -98,34 +74,9 @@ struct DecodedPart {
 };
 
 void read_pairs(BlobReader& in, DecodedPart& part) {
-  ColumnsInto<Pair> columns(in, part.pairs);
-  const auto real = [&](auto member) {
-    columns.next<double>([member](Pair& p, double value) { p.*member = value; });
-  };
-  const auto number = [&](auto member) {
-    columns.next<std::uint32_t>([member](Pair& p, std::uint32_t value) { p.*member = value; });
-  };
-  columns.first<std::uint32_t>([](Pair& p, std::uint32_t v) { p.a = model::ObjectId{v}; });
-  columns.next<std::uint32_t>([](Pair& p, std::uint32_t v) { p.b = model::ObjectId{v}; });
-  columns.next_enum(clash::Class::hit, [](Pair& p, clash::Class v) { p.cls = v; });
-  columns.next_enum(clash::Relation::cross, [](Pair& p, clash::Relation v) { p.relation = v; });
-  columns.next_enum(clash::Level::none, [](Pair& p, clash::Level v) { p.level_a = v; });
-  columns.next_enum(clash::Level::none, [](Pair& p, clash::Level v) { p.level_b = v; });
-  columns.next_enum(clash::Class::hit, [](Pair& p, clash::Class v) { p.severest = v; });
-  for (const auto member : {&Pair::d_mm, &Pair::d_lower_mm, &Pair::d_upper_mm}) real(member);
-  for (const auto member : {&Pair::point_mm, &Pair::on_a_mm, &Pair::on_b_mm, &Pair::away})
-    for (const int axis : {0, 1, 2})
-      columns.next<double>([&](Pair& p, double value) { (p.*member)[axis] = value; });
-  for (const auto member :
-       {&Pair::part_a, &Pair::part_b, &Pair::regions, &Pair::allowed_regions, &Pair::first_region})
-    number(member);
-  columns.next<std::uint16_t>([](Pair& p, std::uint16_t v) { p.flags = v; });
-  columns.next<std::int32_t>([](Pair& p, std::int32_t v) { p.allowed = v; });
-  columns.next<bool>([](Pair& p, bool v) { p.deep_in_a = v; });
-  columns.next<bool>([](Pair& p, bool v) { p.depth_complete = v; });
-  columns.next<bool>([](Pair& p, bool v) { p.volume_mm3 = v ? std::optional(0.0) : std::nullopt; });
-  columns.next<double>([](Pair& p, double v) {
-    if (p.volume_mm3) p.volume_mm3 = v;
+  read_pairs(in, part.pairs);
+  ColumnsInto<Pair>(in, part.pairs).next<std::uint32_t>([](Pair& p, std::uint32_t v) {
+    p.first_region = v;
   });
   part.rows = in.column<std::int64_t>();
   if (part.rows.size() != part.pairs.size()) in.refuse("its columns differ in length");
@@ -250,6 +201,24 @@ bool is_same_part(const ReportRows& x, const PartRange& of_x, const ReportRows& 
         members(y.report.regions[of_y.first_region + i]))
       return false;
   return true;
+}
+
+Result<bool> is_same_result(const clash::Report& x, const clash::Report& y) {
+  if (x.in_a.size() != y.in_a.size() || x.pairs.size() != y.pairs.size()) return false;
+  const std::vector<std::int64_t> no_rows(x.pairs.size());
+  const std::vector<PartRange> of_x = parts_of(x, x.in_a.size()), of_y = parts_of(y, y.in_a.size());
+  for (std::size_t k = 0; k < of_x.size(); ++k)
+    if (!is_same_part({x, no_rows}, of_x[k], {y, no_rows}, of_y[k])) return false;
+  const auto head = [](const clash::Report& report) {
+    clash::Report without_pairs = report;
+    without_pairs.pairs.clear();
+    without_pairs.counters = {};
+    return encode_head(without_pairs);
+  };
+  const Result<std::vector<std::byte>> head_x = head(x), head_y = head(y);
+  if (!head_x) return head_x.error();
+  if (!head_y) return head_y.error();
+  return *head_x == *head_y;
 }
 
 Result<std::vector<std::byte>> encode_part(const ReportRows& report, const PartRange& range) {

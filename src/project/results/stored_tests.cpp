@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "project/codec/blob.hpp"
+#include "project/results/kept_codec.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::project {
@@ -66,12 +67,16 @@ std::vector<std::size_t> changed_parts(const TestToWrite& test, const StoredTest
   return changed;
 }
 
-Status write_snapshot(Database& database, std::int64_t test, const Snapshot& snapshot) {
-  const Result<Bytes> bytes = encode_snapshot(snapshot);
-  if (!bytes) return bytes.error();
-  Result<Statement> update = database.prepare("UPDATE test SET snapshot = ?2 WHERE id = ?1");
+Status write_report(Database& database, const TestToWrite& test) {
+  const Result<Bytes> head = encode_head(test.results.report);
+  if (!head) return head.error();
+  const Result<Bytes> kept = encode_kept(test.results.report.kept);
+  if (!kept) return kept.error();
+  Result<Statement> update =
+      database.prepare("UPDATE test SET report = ?2, kept = ?3 WHERE id = ?1");
   if (!update) return update.error();
-  return update->bind(1, test).bind(2, std::span<const std::byte>(*bytes)).run();
+  update->bind(1, test.id).bind(2, std::span<const std::byte>(*head));
+  return update->bind(3, std::span<const std::byte>(*kept)).run();
 }
 
 Status write_parts(Database& database, const TestToWrite& test, const StoredTest* before,
@@ -122,16 +127,36 @@ Result<std::optional<TestRow>> find_test(Database& database, const std::string& 
   return std::optional(TestRow{select->integer(0), select->integer(1)});
 }
 
+Status write_snapshot(Database& database, std::int64_t test, const Snapshot& snapshot) {
+  const Result<Bytes> bytes = encode_snapshot(snapshot);
+  if (!bytes) return bytes.error();
+  Result<Statement> update = database.prepare("UPDATE test SET snapshot = ?2 WHERE id = ?1");
+  if (!update) return update.error();
+  return update->bind(1, test).bind(2, std::span<const std::byte>(*bytes)).run();
+}
+
+Result<std::optional<StoredSnapshot>> read_snapshot(Database& database, const std::string& test) {
+  Result<Statement> select = database.prepare("SELECT id, snapshot FROM test WHERE name = ?1");
+  if (!select) return select.error();
+  const Result<bool> there = select->bind(1, std::string_view(test)).step();
+  if (!there) return there.error();
+  if (!*there) return std::optional<StoredSnapshot>();
+  Result<Snapshot> snapshot = decode_snapshot(copy_of(select->bytes(1)), called(test));
+  if (!snapshot) return snapshot.error();
+  return std::optional(StoredSnapshot{select->integer(0), std::move(*snapshot)});
+}
+
 Result<std::optional<StoredTest>> read_test(Database& database, const std::string& name,
                                             const parallel::Context& context) {
   Result<Statement> select =
-      database.prepare("SELECT id, run, snapshot, report FROM test WHERE name = ?1");
+      database.prepare("SELECT id, run, snapshot, report, kept FROM test WHERE name = ?1");
   if (!select) return select.error();
   const Result<bool> there = select->bind(1, std::string_view(name)).step();
   if (!there) return there.error();
   if (!*there) return std::optional<StoredTest>();
   StoredTest test{select->integer(0), select->integer(1), name, {}, {}};
-  const Bytes snapshot = copy_of(select->bytes(2)), head = copy_of(select->bytes(3));
+  const Bytes snapshot = copy_of(select->bytes(2)), head = copy_of(select->bytes(3)),
+              kept = copy_of(select->bytes(4));
   select->reset();
   const std::string what = called(name);
   Result<Snapshot> then = decode_snapshot(snapshot, what);
@@ -143,23 +168,26 @@ Result<std::optional<StoredTest>> read_test(Database& database, const std::strin
       decode_report({head, std::move(*parts)}, test.snapshot.identities.size(), what, context);
   if (!results) return results.error();
   test.results = std::move(*results);
+  Result<std::optional<clash::KeptForChanges>> for_changes =
+      decode_kept(kept, test.results.report, test.snapshot.identities.size(), what);
+  if (!for_changes) return for_changes.error();
+  test.results.report.kept = std::move(*for_changes);
   return std::optional(std::move(test));
 }
 
 Status write_test(Database& database, const TestToWrite& test, const StoredTest* before,
                   const parallel::Context& context) {
-  const Result<Bytes> head = encode_head(test.results.report);
-  if (!head) return head.error();
-  Result<Statement> update = database.prepare(
-      "UPDATE test SET settings = ?2, run = ?3, objects = ?4, report = ?5 WHERE id = ?1");
+  Result<Statement> update =
+      database.prepare("UPDATE test SET settings = ?2, run = ?3, objects = ?4 WHERE id = ?1");
   if (!update) return update.error();
   update->bind(1, test.id).bind(2, std::string_view(test.settings)).bind(3, test.run);
   update->bind(4, static_cast<std::int64_t>(test.snapshot.identities.size()));
-  update->bind(5, std::span<const std::byte>(*head));
   if (const Status status = update->run(); !status) return status;
   if (before == nullptr || before->snapshot != test.snapshot)
     if (const Status status = write_snapshot(database, test.id, test.snapshot); !status)
       return status;
+  if (test.is_unchanged) return {};
+  if (const Status status = write_report(database, test); !status) return status;
   return write_parts(database, test, before, context);
 }
 

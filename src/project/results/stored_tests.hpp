@@ -26,11 +26,22 @@ struct StoredTest {
 /// Returns the names of the tests that were run, in the order of their first runs.
 [[nodiscard]] Result<std::vector<std::string>> test_names(Database& database);
 
-/// Returns the id and the last run of a test; nothing where it was never run.
+/// A test and its last run.
 struct TestRow {
   std::int64_t id = 0, run = 0;
 };
+/// Returns nothing where the test was never run.
 [[nodiscard]] Result<std::optional<TestRow>> find_test(Database& database, const std::string& name);
+
+/// What the last result of a test was computed from, with the id of the test.
+struct StoredSnapshot {
+  std::int64_t id = 0;
+  Snapshot snapshot;
+};
+[[nodiscard]] Result<std::optional<StoredSnapshot>> read_snapshot(Database& database,
+                                                                  const std::string& test);
+[[nodiscard]] Status write_snapshot(Database& database, std::int64_t test,
+                                    const Snapshot& snapshot);
 
 /// Reads a test; nothing where it was never run. Errors: input for a damaged project, cancelled.
 [[nodiscard]] Result<std::optional<StoredTest>> read_test(Database& database,
@@ -43,6 +54,7 @@ struct TestToWrite {
   std::string settings;  ///< for people
   const Snapshot& snapshot;
   ReportRows results;
+  bool is_unchanged = false;  ///< the report is the one that is stored
 };
 
 /// Writes a test over `before`, which is null where there is none: of the parts of its report those

@@ -2,6 +2,7 @@
 #include "project/results/test_memory.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
@@ -68,10 +69,16 @@ TestMemory::TestMemory(Database& database, ClashRows& rows, const model::Model& 
       report_(*test.report),
       row_(row),
       before_(before),
+      is_unchanged_(before != nullptr && before == test.before &&
+                    test.work.how == Retested::nothing),
       coverage_(model, *test.sets, *test.policy, *test.report) {}
 
 Status TestMemory::run(const parallel::Context& context) {
-  if (before_ != nullptr) {
+  if (is_unchanged_) {
+    match_.rows = before_->results.rows;
+    match_.before_of.resize(model_.objects.size());
+    std::iota(match_.before_of.begin(), match_.before_of.end(), 0U);
+  } else if (before_ != nullptr) {
     Result<ReportMatch> match = match_reports(*before_, *test_.snapshot, report_, context);
     if (!match) return match.error();
     match_ = std::move(*match);
@@ -203,7 +210,9 @@ Status TestMemory::miss(ClashRow row) {
   SoughtObject a = sought(row.a), b = sought(row.b);
   a.before = before_of(a);
   b.before = before_of(b);
-  const clash::Report* const earlier = before_ == nullptr ? nullptr : &before_->results.report;
+  const clash::Report* const earlier = is_unchanged_        ? &report_
+                                       : before_ == nullptr ? nullptr
+                                                            : &before_->results.report;
   std::string why = coverage_.reason(a, b, row.now, earlier);
   const auto is_place = [&](const SoughtObject& object) {
     return !object.id || model_.object(*object.id).positional_id;

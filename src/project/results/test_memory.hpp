@@ -40,6 +40,8 @@ class TestMemory {
 
   /// Returns the row of each result, 0 where a rule allows it and it has none.
   [[nodiscard]] const std::vector<std::int64_t>& rows() const { return match_.rows; }
+  /// Whether the results are those stored, all of them.
+  [[nodiscard]] bool is_unchanged() const { return is_unchanged_; }
   [[nodiscard]] const TestTrend& trend() const { return trend_; }
   /// Returns what there is to be said of results, by their numbers.
   [[nodiscard]] const std::map<std::size_t, ResultStatus>& statuses() const { return statuses_; }
@@ -74,6 +76,7 @@ class TestMemory {
   const clash::Report& report_;
   TestRow row_;
   const StoredTest* before_;
+  bool is_unchanged_;
   Coverage coverage_;
   ReportMatch match_;
   std::vector<std::size_t> positional_results_;  ///< whose ids are positions, to be found by place

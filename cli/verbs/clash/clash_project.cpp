@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/verbs/clash/clash_project.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <string_view>
+#include <utility>
+
+#include "cli/run/person.hpp"
+#include "cli/run/utc_time.hpp"
+#include "core/text_encoding.hpp"
+#include "project/results/report_codec.hpp"
+#include "strake/clash/incremental.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+double now_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Whether no object changed, came, went or has another number.
+bool is_same(const std::vector<std::uint32_t>& now_of, std::size_t objects) {
+  if (now_of.size() != objects) return false;
+  for (std::size_t o = 0; o < objects; ++o)
+    if (now_of[o] != o) return false;
+  return true;
+}
+
+std::string called(std::string_view test) {
+  return test.empty() ? std::string() : "test " + in_quotes(test) + ": ";
+}
+
+/// Returns what was tested again, in one line.
+std::string told(std::string_view test, const project::TestWork& work) {
+  switch (work.how) {
+    case project::Retested::nothing:
+      return fmt::format("{}nothing changed, {} results kept", called(test), work.kept_results);
+    case project::Retested::changes:
+      return fmt::format("{}{} of {} objects changed, {} pairs tested again, {} results kept",
+                         called(test), work.changed_objects, work.objects, work.tested_pairs,
+                         work.kept_results);
+    case project::Retested::full:
+      break;
+  }
+  return fmt::format("{}all of {} objects tested", called(test), work.objects);
+}
+
+/// Counts the results of the earlier run whose objects are as they were.
+std::uint64_t count_kept(const clash::Report& report, const std::vector<std::uint32_t>& now_of) {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(report.pairs, [&](const clash::Pair& pair) {
+        return now_of[index(pair.a)] != project::kGone && now_of[index(pair.b)] != project::kGone;
+      }));
+}
+
+}  // namespace
+
+void add_clash_project_options(CLI::App& command, ClashProjectInput& options) {
+  add_project_options(command, options.project);
+  CLI::Option* const project = command.get_option("--project");
+  command
+      .add_flag("--full", options.full,
+                "Test every pair again, although the project knows what changed; the result is the "
+                "same")
+      ->group("Running")
+      ->needs(project);
+  command
+      .add_flag("--verify", options.verify,
+                "Test what changed and then everything, and compare: exit code 1 where they differ")
+      ->group("Running")
+      ->needs(project);
+  command.add_option("--by", options.by, "Who runs the test, for its history (default: the user)")
+      ->type_name("NAME")
+      ->group("Decisions")
+      ->needs(project);
+}
+
+ProjectClashes::ProjectClashes(OpenedProject opened, const ClashProjectInput& input)
+    : opened_(std::move(opened)), input_(input), started_(utc_time()), started_s_(now_s()) {}
+
+Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProjectInput& input) {
+  Result<OpenedProject> opened = open_project(session, input.project, project::Access::write);
+  if (!opened) return opened.error();
+  return ProjectClashes(std::move(*opened), input);
+}
+
+Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions& options) {
+  return load_project(session, opened_, options);
+}
+
+Result<clash::Findings> ProjectClashes::find(Session& session, const Loaded& loaded,
+                                             rules::Plan plan, bool list_exempted) {
+  const Result<std::vector<std::uint64_t>> identities =
+      project::identities(*loaded.model, session.context());
+  if (!identities) return identities.error();
+  clash::Findings findings;
+  findings.diagnostics = plan.diagnostics;
+  for (rules::PlannedTest& planned : plan.tests) {
+    planned.policy.list_exempted = list_exempted;
+    planned.options.engine.keep_for_changes = true;
+    Tested& tested = tests_.emplace_back();
+    Result<clash::Report> report = test(session, loaded, *identities, planned, tested);
+    if (!report) return report.error();
+    report->name = planned.name;
+    session.console().note(told(planned.name, tested.work));
+    if (input_.verify && tested.work.how != project::Retested::full)
+      if (const Status status = verify(session, loaded, planned, *report); !status)
+        return status.error();
+    findings.tests.push_back(std::move(*report));
+  }
+  findings.diagnostics.append(rules::idle_rules(plan, findings.tests));
+  for (std::size_t t = 0; t < tests_.size(); ++t) {
+    tests_[t].sets = std::move(plan.tests[t].sets);
+    tests_[t].policy = std::move(plan.tests[t].policy);
+  }
+  return findings;
+}
+
+Result<clash::Report> ProjectClashes::test(Session& session, const Loaded& loaded,
+                                           const std::vector<std::uint64_t>& identities,
+                                           const rules::PlannedTest& planned, Tested& tested) {
+  {
+    const auto timer = session.step("read earlier result");
+    Result<std::optional<project::StoredTest>> before =
+        project::read_test(opened_.project.database(), planned.name, session.context());
+    if (!before) return before.error();
+    tested.before = std::move(*before);
+  }
+  {
+    const auto timer = session.step("signatures");
+    Result<clash::Signatures> signatures = clash::signatures(
+        loaded.scene, planned.sets, planned.options, planned.policy, session.context());
+    if (!signatures) return signatures.error();
+    tested.snapshot = {signatures->rules, identities, std::move(signatures->objects)};
+  }
+  const std::string step = planned.name.empty() ? "clash" : "clash " + planned.name;
+  const auto timer = session.step(step);
+  tested.work.objects = tested.work.changed_objects = loaded.model->objects.size();
+  // A log of pairs is about the work of a full run.
+  const bool follows = tested.before && !input_.full && !planned.options.engine.log_pairs &&
+                       tested.before->snapshot.whole == tested.snapshot.whole &&
+                       tested.before->results.report.kept;
+  if (follows) return follow(session, loaded, planned, tested);
+  Result<clash::Report> report =
+      clash::detect(loaded.scene, planned.sets, planned.options, planned.policy, session.context());
+  if (report) tested.work.tested_pairs = report->counters.candidate_pairs;
+  return report;
+}
+
+Result<clash::Report> ProjectClashes::follow(Session& session, const Loaded& loaded,
+                                             const rules::PlannedTest& planned, Tested& tested) {
+  project::StoredTest& before = *tested.before;
+  const Result<std::vector<std::uint32_t>> now_of =
+      project::unchanged(before.snapshot, tested.snapshot, session.context());
+  if (!now_of) return now_of.error();
+  project::TestWork& work = tested.work;
+  work.kept_results = count_kept(before.results.report, *now_of);
+  if (is_same(*now_of, loaded.model->objects.size())) {
+    work.how = project::Retested::nothing;
+    work.changed_objects = 0;
+    clash::Report report = std::move(before.results.report);
+    report.counters = {};
+    report.options = planned.options;
+    return report;
+  }
+  work.how = project::Retested::changes;
+  work.changed_objects = work.objects - static_cast<std::uint64_t>(now_of->size()) +
+                         static_cast<std::uint64_t>(std::ranges::count(*now_of, project::kGone));
+  Result<clash::Report> report =
+      clash::detect_changes(loaded.scene, planned.sets, planned.options, planned.policy,
+                            {before.results.report, *now_of}, session.context());
+  if (report) work.tested_pairs = report->counters.candidate_pairs;
+  return report;
+}
+
+Status ProjectClashes::verify(Session& session, const Loaded& loaded,
+                              const rules::PlannedTest& planned, clash::Report& report) {
+  const auto timer = session.step("verify");
+  Result<clash::Report> full =
+      clash::detect(loaded.scene, planned.sets, planned.options, planned.policy, session.context());
+  if (!full) return full.error();
+  full->name = planned.name;
+  const Result<bool> is_same = project::is_same_result(report, *full);
+  if (!is_same) return is_same.error();
+  if (*is_same) {
+    session.console().note(called(planned.name) + "the same as by a full test");
+    return {};
+  }
+  differs_ = true;
+  session.console().warn(called(planned.name) +
+                         "--verify: the result is another than that of a full test, which counts "
+                         "(a fault of the program: please report it)");
+  report = std::move(*full);
+  return {};
+}
+
+Status ProjectClashes::remember(Session& session, const Loaded& loaded,
+                                const clash::Findings& findings, double deeper_mm) {
+  const auto timer = session.step("remember");
+  Result<project::Transaction> transaction =
+      project::Transaction::begin(opened_.project.database());
+  if (!transaction) return transaction.error();
+  transaction_.emplace(std::move(*transaction));
+  std::vector<project::TestedTest> tests;
+  for (std::size_t t = 0; t < tests_.size(); ++t) {
+    Tested& tested = tests_[t];
+    // What --verify put in place of the result is written as such.
+    if (differs_) tested.work.how = project::Retested::full;
+    if (differs_) tested.before.reset();
+    tests.push_back({&findings.tests[t], &tested.snapshot, &tested.sets, &tested.policy,
+                     tested.before ? &*tested.before : nullptr, tested.work});
+  }
+  const project::RunFacts facts{started_, input_.by.empty() ? person() : input_.by,
+                                now_s() - started_s_, deeper_mm};
+  Result<project::RememberedRun> run =
+      project::remember(opened_.project.database(), *loaded.model, facts, tests, session.context());
+  if (!run) return run.error();
+  run_.emplace(std::move(*run));
+  for (std::size_t t = 0; t < tests_.size(); ++t) {
+    const project::TestTrend& trend = run_->trends[t];
+    session.console().note(fmt::format("{}run {}: {} appeared, {} resolved, {} cannot be told",
+                                       called(findings.tests[t].name), run_->number, trend.appeared,
+                                       trend.gone, trend.cannot_tell));
+  }
+  return {};
+}
+
+Status ProjectClashes::commit(Session& session) {
+  const auto timer = session.step("remember");
+  const Status status = transaction_->commit();
+  transaction_.reset();
+  return status;
+}
+
+}  // namespace strake::cli

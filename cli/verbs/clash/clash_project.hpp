@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/run/load.hpp"
+#include "cli/run/project_input.hpp"
+#include "cli/run/session.hpp"
+#include "project/results/remember.hpp"
+#include "strake/clash/clash.hpp"
+#include "strake/core/result.hpp"
+#include "strake/report/decisions.hpp"
+#include "strake/rules/rules.hpp"
+
+/// A run of clash tests over the model of a project, which remembers it.
+namespace strake::cli {
+
+/// As written.
+struct ClashProjectInput {
+  ProjectOptions project;
+  std::string by;
+  bool full = false, verify = false;
+
+  [[nodiscard]] bool is_given() const { return !project.file.empty(); }
+};
+
+void add_clash_project_options(CLI::App& command, ClashProjectInput& options);
+
+/// Tests a project, telling what was tested again, and remembers what was found.
+///
+/// A run is remembered by one transaction, which begins after the tests and ends after their output
+/// was written: whoever ends the program before that finds the project as it was, and the next run
+/// finds and tells the same.
+class ProjectClashes {
+ public:
+  /// Opens the project that is given. Errors: those of open_project(), and usage for --full with
+  /// nothing to do.
+  [[nodiscard]] static Result<ProjectClashes> open(Session& session,
+                                                   const ClashProjectInput& input);
+
+  [[nodiscard]] Result<Loaded> load(Session& session, const model::SceneOptions& options);
+  /// Runs the tests of a plan; of those that ran before, what changed since.
+  [[nodiscard]] Result<clash::Findings> find(Session& session, const Loaded& loaded,
+                                             rules::Plan plan, bool list_exempted);
+  /// Begins the transaction and writes the run into it. The findings are still as find() gave them.
+  [[nodiscard]] Status remember(Session& session, const Loaded& loaded,
+                                const clash::Findings& findings, double deeper_mm);
+  /// Returns what was decided about the findings; only after remember().
+  [[nodiscard]] const report::DecidedResults* decided() const { return &run_->decided; }
+  [[nodiscard]] Status commit(Session& session);
+  /// Whether --verify found the result of a run that follows changes to be another than that of a
+  /// full one.
+  [[nodiscard]] bool differs() const { return differs_; }
+
+ private:
+  /// What is kept of a test until it is remembered.
+  struct Tested {
+    clash::Sets sets;
+    clash::Policy policy;
+    project::Snapshot snapshot;
+    std::optional<project::StoredTest> before;
+    project::TestWork work;
+  };
+
+  ProjectClashes(OpenedProject opened, const ClashProjectInput& input);
+  [[nodiscard]] Result<clash::Report> test(Session& session, const Loaded& loaded,
+                                           const std::vector<std::uint64_t>& identities,
+                                           const rules::PlannedTest& planned, Tested& tested);
+  [[nodiscard]] Result<clash::Report> follow(Session& session, const Loaded& loaded,
+                                             const rules::PlannedTest& planned, Tested& tested);
+  [[nodiscard]] Status verify(Session& session, const Loaded& loaded,
+                              const rules::PlannedTest& planned, clash::Report& report);
+
+  OpenedProject opened_;
+  ClashProjectInput input_;
+  std::string started_;
+  double started_s_ = 0;
+  std::vector<Tested> tests_;
+  std::optional<project::Transaction> transaction_;
+  std::optional<project::RememberedRun> run_;
+  bool differs_ = false;
+};
+
+}  // namespace strake::cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "strake/clash/clash.hpp"
+#include "strake/core/result.hpp"
+
+namespace strake::project {
+
+/// Encodes what a run keeps for the next one; nothing is no bytes.
+[[nodiscard]] Result<std::vector<std::byte>> encode_kept(
+    const std::optional<clash::KeptForChanges>& kept);
+
+/// Decodes it. Errors: input for what does not fit a report over so many objects.
+[[nodiscard]] Result<std::optional<clash::KeptForChanges>> decode_kept(
+    std::span<const std::byte> bytes, const clash::Report& report, std::size_t objects,
+    const std::string& what);
+
+}  // namespace strake::project

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/results/rename_files.hpp"
+
+#include <cstdint>
+#include <map>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "clash/results/clash_key.hpp"
+#include "core/text_encoding.hpp"
+#include "project/results/stored_tests.hpp"
+
+namespace strake::project {
+namespace {
+
+using Labels = std::map<std::string, std::string, std::less<>>;
+
+/// A clash that names a renamed file.
+struct NamedClash {
+  std::int64_t id = 0;
+  std::string key, test, a_file, a_id, b_file, b_id;
+};
+
+/// Returns the label of today, or the one given.
+const std::string& today(const Labels& labels, const std::string& label) {
+  const auto at = labels.find(label);
+  return at == labels.end() ? label : at->second;
+}
+
+Result<std::vector<NamedClash>> clashes_of(Database& database, const Labels& labels) {
+  Result<Statement> select = database.prepare(
+      "SELECT clash.id, key, name, a_file, a_id, b_file, b_id FROM clash JOIN test ON test.id = "
+      "clash.test");
+  if (!select) return select.error();
+  std::vector<NamedClash> found;
+  for (;;) {
+    const Result<bool> there = select->step();
+    if (!there) return there.error();
+    if (!*there) return found;
+    if (!labels.contains(select->text(3)) && !labels.contains(select->text(5))) continue;
+    NamedClash& clash = found.emplace_back();
+    clash.id = select->integer(0);
+    int column = 1;
+    for (std::string* const text :
+         {&clash.key, &clash.test, &clash.a_file, &clash.a_id, &clash.b_file, &clash.b_id})
+      *text = select->text(column++);
+  }
+}
+
+/// Gives the clash its labels and its key; what tells a key that gave way from another stays.
+void rename(NamedClash& clash, const Labels& labels) {
+  const std::size_t mark = clash.key.find('~');
+  const std::string rest = mark == std::string::npos ? std::string() : clash.key.substr(mark);
+  clash.a_file = today(labels, clash.a_file);
+  clash.b_file = today(labels, clash.b_file);
+  clash.key = clash::key_text(clash::pair_hash(clash.test, {clash.a_file, clash.a_id},
+                                               {clash.b_file, clash.b_id})) +
+              rest;
+}
+
+Status rename_clashes(Database& database, const Labels& labels) {
+  Result<std::vector<NamedClash>> clashes = clashes_of(database, labels);
+  if (!clashes) return clashes.error();
+  // Labels may be exchanged: all keys are given up before one of them is another's.
+  Result<Statement> give_up = database.prepare("UPDATE clash SET key = '~' || id WHERE id = ?1");
+  if (!give_up) return give_up.error();
+  for (const NamedClash& clash : *clashes)
+    if (const Status status = give_up->bind(1, clash.id).run(); !status) return status;
+  Result<Statement> update =
+      database.prepare("UPDATE clash SET key = ?2, a_file = ?3, b_file = ?4 WHERE id = ?1");
+  if (!update) return update.error();
+  // A file that is no more may have had the label: its clashes keep what is left of their keys.
+  Result<Statement> make_way =
+      database.prepare("UPDATE clash SET key = key || '~' || id WHERE key = ?1");
+  if (!make_way) return make_way.error();
+  for (NamedClash& clash : *clashes) {
+    rename(clash, labels);
+    if (const Status status = make_way->bind(1, std::string_view(clash.key)).run(); !status)
+      return status;
+    update->bind(1, clash.id).bind(2, std::string_view(clash.key));
+    update->bind(3, std::string_view(clash.a_file)).bind(4, std::string_view(clash.b_file));
+    if (const Status status = update->run(); !status) return status;
+  }
+  return {};
+}
+
+/// Returns what the identities of the objects of renamed files become.
+std::unordered_map<std::uint64_t, std::uint64_t> new_identities(const model::Model& before,
+                                                                const Labels& labels) {
+  std::vector<const std::string*> of_file;
+  for (const model::SourceFile& file : before.files) {
+    const auto at = labels.find(valid_utf8(file.label));
+    of_file.push_back(at == labels.end() ? nullptr : &at->second);
+  }
+  std::unordered_map<std::uint64_t, std::uint64_t> all;
+  for (const model::Object& object : before.objects)
+    if (const std::string* const label = of_file[object.file]; label != nullptr)
+      all.emplace(clash::element_hash(before.files[object.file].label, object.id),
+                  clash::element_hash(*label, object.id));
+  return all;
+}
+
+}  // namespace
+
+Status rename_files(Database& database, const model::Model& before,
+                    std::span<const RenamedFile> renamed) {
+  Labels labels;
+  for (const RenamedFile& file : renamed)
+    if (file.before != file.after) labels.emplace(valid_utf8(file.before), valid_utf8(file.after));
+  if (labels.empty()) return {};
+  if (const Status status = rename_clashes(database, labels); !status) return status;
+  const Result<std::vector<std::string>> tests = test_names(database);
+  if (!tests) return tests.error();
+  const auto identities = new_identities(before, labels);
+  for (const std::string& test : *tests) {
+    Result<std::optional<StoredSnapshot>> stored = read_snapshot(database, test);
+    if (!stored) return stored.error();
+    if (!*stored) continue;
+    for (std::uint64_t& identity : (**stored).snapshot.identities)
+      if (const auto at = identities.find(identity); at != identities.end()) identity = at->second;
+    if (const Status status = write_snapshot(database, (**stored).id, (**stored).snapshot); !status)
+      return status;
+  }
+  return {};
+}
+
+}  // namespace strake::project
