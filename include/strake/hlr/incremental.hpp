@@ -19,7 +19,8 @@
 namespace strake::hlr {
 
 /// Hashes of all that draw() sees. Options that change the work and never the answer (solver,
-/// culling, bucketing) are not seen; nor are names, which diagnostics alone tell.
+/// culling, bucketing) are not seen; nor are names, but where reports on sections or the eye tell
+/// them: other diagnostics are made anew by draw_changes().
 struct Signatures {
   Hash128 view;                  ///< of the view, and of the options that can change the drawing
   std::vector<Hash128> objects;  ///< of each object: its bodies on the grid, whether it is drawn …

@@ -17,10 +17,10 @@ using geometry::Box3l;
 using geometry::Vec3l;
 
 // Beyond 2^52 a double holds view coordinates only roughly: then the line of a segment is left out.
-constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
+constexpr std::int64_t kHeldByDouble = std::int64_t{1} << 52;
 /// Coordinates on paper stay below this: see prepare_view().
 constexpr double kFarthest = 1152921504606846976.0;  // 2^60
-constexpr double kShare = 1e-12;                     // of rounding
+constexpr double kRoundingShare = 1e-12;             // of rounding
 
 std::array<Vec3l, 8> corners_of(const Box3l& box, const Vec3l& origin) {
   std::array<Vec3l, 8> corners;
@@ -110,7 +110,7 @@ SegmentQuery Paper::orthographic(const ViewPoint& a, const ViewPoint& b) const {
   SegmentQuery query = anything_in(box);
   query.au = static_cast<double>(a.u);
   query.av = static_cast<double>(a.v);
-  if (std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < kExactInDouble) {
+  if (std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < kHeldByDouble) {
     query.du = static_cast<double>(b.u - a.u);
     query.dv = static_cast<double>(b.v - a.v);
   }
@@ -125,7 +125,7 @@ SegmentQuery Paper::anything_in(const ViewBox& box) {
   query.v0 = loose.v0;
   query.v1 = loose.v1;
   const auto deepest = static_cast<double>(box.lo.w);
-  query.w0 = deepest - kShare * std::abs(deepest);
+  query.w0 = deepest - kRoundingShare * std::abs(deepest);
   return query;
 }
 

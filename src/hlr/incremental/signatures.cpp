@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "hlr/incremental/extents.hpp"
 #include "hlr/incremental/shape_hash.hpp"
 #include "hlr/prepare/drawn_objects.hpp"
+#include "hlr/prepare/view_diagnostics.hpp"
 #include "hlr/prepare/view_job.hpp"
 #include "hlr/view/projection.hpp"
 #include "strake/geometry/part.hpp"
@@ -71,11 +73,13 @@ class ObjectWords {
         options_(options),
         shapes_(shapes),
         plan_(plan),
-        sees_colours_(!options.flush_seams || !view.sections.empty()) {}
+        sees_colours_(!options.flush_seams || !view.sections.empty()),
+        sees_names_(view.perspective || !view.sections.empty()) {}
 
   void add(std::vector<std::uint64_t>& words, std::uint32_t object) const {
     const model::ObjectId id{object};
     words.push_back(scene_.model->object(id).body_count > 0 ? 1 : 0);
+    if (sees_names_) add(words, object_text(*scene_.model, id));
     add_lacking(words, id);
     add_section_rules(words, object);
     for (const model::GridBody& body : scene_.bodies_of(id)) add(words, body);
@@ -87,9 +91,13 @@ class ObjectWords {
         std::ranges::equal_range(scene_.lacking, id, {}, &model::IncompleteObject::object);
     words.push_back(lacking.size());
     for (const model::IncompleteObject& one : lacking) {
-      const Hash128 code = hash_bytes(std::as_bytes(std::span(one.code)));
-      words.insert(words.end(), {code.high, code.low});
+      add(words, one.code);
     }
+  }
+
+  static void add(std::vector<std::uint64_t>& words, std::string_view text) {
+    const Hash128 hash = hash_bytes(std::as_bytes(std::span(text)));
+    words.insert(words.end(), {hash.high, hash.low});
   }
 
   void add_section_rules(std::vector<std::uint64_t>& words, std::uint32_t object) const {
@@ -135,7 +143,7 @@ class ObjectWords {
   const Options& options_;
   std::span<const Hash128> shapes_;
   const model::ViewTessellation& plan_;
-  bool sees_colours_;
+  bool sees_colours_, sees_names_;  ///< reports on sections and the eye tell names
 };
 
 }  // namespace

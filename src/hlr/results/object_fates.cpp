@@ -24,6 +24,9 @@ std::uint32_t object_of(const EdgePiece& piece) { return model::index(piece.obje
 /// be seen end-on in some view, so this is reported but is no defect of the data.
 constexpr std::string_view kOnlyPoints = "only-points";
 
+constexpr std::string_view kDegenerate = "object-degenerate", kFailed = "object-failed",
+                           kInPart = "object-in-part";
+
 /// Returns the fate of an object that is on the grid, by its lines; advances `next` beyond them.
 Fate fate_of(std::uint32_t object, const Drawing& drawing, std::size_t& next) {
   const std::span<const EdgePiece> pieces = drawing.pieces;
@@ -136,9 +139,7 @@ void report_defects(const model::Model& model, const Account& account, Diagnosti
     if (codes == kOnlyPoints) continue;
     const Fate fate = account.fates[model::index(id)];
     const bool degenerate = fate == Fate::degenerate, failed = fate == Fate::failed;
-    const std::string_view code = degenerate ? "object-degenerate"
-                                  : failed   ? "object-failed"
-                                             : "object-in-part";
+    const std::string_view code = degenerate ? kDegenerate : failed ? kFailed : kInPart;
     const std::string_view words =
         degenerate ? "it makes no line in this view"
         : failed   ? "its geometry could not be read or placed; the object is skipped"
@@ -150,6 +151,10 @@ void report_defects(const model::Model& model, const Account& account, Diagnosti
     diagnostics.add(Severity::warning, code, fmt::format("{} ({})", words, codes),
                     object_text(model, id));
   }
+}
+
+bool is_code_of_defect(std::string_view code) {
+  return code == kDegenerate || code == kFailed || code == kInPart;
 }
 
 }  // namespace strake::hlr

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "strake/core/diagnostics.hpp"
@@ -27,5 +28,8 @@ void sum_up_lines(Drawing& drawing);
 /// Adds a warning for each object that is degenerate, failed, or drawn without some of its
 /// geometry, but not for wires that are seen end-on.
 void report_defects(const model::Model& model, const Account& account, Diagnostics& diagnostics);
+
+/// Returns whether report_defects() gives diagnostics this code.
+[[nodiscard]] bool is_code_of_defect(std::string_view code);
 
 }  // namespace strake::hlr

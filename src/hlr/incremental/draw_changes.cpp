@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// The stages of a drawing that follows what changed.
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "hlr/incremental/comparison.hpp"
+#include "hlr/incremental/extents.hpp"
+#include "hlr/incremental/merge.hpp"
+#include "hlr/incremental/partial_scene.hpp"
+#include "hlr/incremental/reach.hpp"
+#include "hlr/prepare/drawn_objects.hpp"
+#include "hlr/prepare/view_job.hpp"
+#include "hlr/results/edge_curves.hpp"
+#include "hlr/results/object_fates.hpp"
+#include "hlr/visibility/specks.hpp"
+#include "strake/geometry/grid.hpp"
+#include "strake/hlr/incremental.hpp"
+
+namespace strake::hlr {
+namespace {
+
+constexpr std::string_view kMostOfIt = "what changed reaches most of the drawing";
+
+/// Returns why a view is drawn in full whatever changed; empty where it is not.
+std::string_view reason_for_all(const View& view, const Options& options) {
+  if (options.solver != Solver::gather) return "only the solver 'gather' follows changes";
+  if (!view.sections.empty()) return "hatches of sections depend on their neighbours";
+  if (!options.flush_seams) return "which seams are flush depends on neighbours";
+  return {};
+}
+
+bool describes_all(const EarlierDrawing& earlier) {
+  const Drawing& drawing = earlier.drawing;
+  const std::size_t objects = earlier.now.size();
+  return earlier.boxes.size() == objects && drawing.counted.size() == objects &&
+         drawing.account.fates.size() == objects &&
+         drawing.left_out.size() == (drawing.options.hidden ? 0 : objects);
+}
+
+/// What draw_changes() is asked for.
+struct Request {
+  const model::Scene& scene;
+  const std::vector<bool>& drawn;
+  const View& view;
+  const Options& options;
+};
+
+Result<Redrawn> draw_all(const Request& request, std::string_view why,
+                         const parallel::Context& context) {
+  auto drawing = draw(request.scene, request.drawn, request.view, request.options, context);
+  if (!drawing) return drawing.error();
+  Redrawn redrawn{.drawing = std::move(*drawing), .in_full = true, .why = why};
+  redrawn.edges_solved = redrawn.drawing.counters.feature_edges;
+  redrawn.objects_solved = redrawn.drawing.account.objects();
+  return redrawn;
+}
+
+/// Solves the lines of the objects that are asked for.
+Result<Drawing> draw_part(const ChangedView& changed, const Reach& reach,
+                          const parallel::Context& context) {
+  const PartialScene part = scene_of(changed.scene, reach.needed);
+  WholeView whole = changed.whole;
+  whole.tessellation = part.plan(changed.tessellation);
+  whole.asked = reach.asked;
+  const Result<ViewJob> job =
+      prepare_view({part.scene, reach.needed, changed.view, changed.options, &whole}, context);
+  if (!job) return job.error();
+  Drawing drawing;
+  drawing.options = changed.options;
+  drawing.counters = job->counters;
+  drawing.diagnostics = job->diagnostics;
+  drawing.origin = changed.view.perspective ? changed.view.perspective->target : job->origin;
+  drawing.counted.resize(reach.asked.size());
+  if (!changed.options.hidden) drawing.left_out.resize(reach.asked.size());
+  if (const Status status = solve_gather(*job, context, drawing); !status) return status.error();
+  leave_out_hidden_objects(drawing);
+  if (const Status status = dot_lone_specks(*job, context, drawing); !status) return status.error();
+  auto curves = find_curves(*job, context);
+  if (!curves) return curves.error();
+  drawing.curves = std::move(*curves);
+  sum_up_lines(drawing);
+  return drawing;
+}
+
+/// Returns the sag that a drawing says it has.
+double sag_of(const ChangedView& changed) {
+  const double own = changed.scene.sag_mm, asked = changed.options.sag_mm;
+  return changed.tessellation.any && asked > 0 ? std::min(own, asked) : own;
+}
+
+/// Fills what names the view and the model in a drawing whose lines are there.
+void fill_head(const Request& request, Drawing& drawing) {
+  drawing.view = request.view;
+  drawing.options = request.options;
+  drawing.weld_mm = request.scene.weld_mm;
+  sum_up_lines(drawing);
+  report_defects(*request.scene.model, drawing.account, drawing.diagnostics);
+}
+
+/// Returns diagnostics without those of defects, which are reported anew.
+Diagnostics without_defects(const Diagnostics& all) {
+  Diagnostics left;
+  for (const Diagnostics::Count& count : all.counts()) {
+    if (is_code_of_defect(count.code)) continue;
+    std::uint64_t more = count.count;
+    for (const Diagnostic& one : all.kept()) {
+      if (one.code != count.code) continue;
+      left.add(one);
+      --more;
+    }
+    for (; more > 0; --more) left.add(count.severity, count.code, {}, {});
+  }
+  return left;
+}
+
+/// All is as it was: but objects may have other names.
+Redrawn draw_nothing(const Request& request, Drawing earlier) {
+  Redrawn redrawn{.drawing = std::move(earlier)};
+  Drawing& drawing = redrawn.drawing;
+  drawing.counters = {.seams = drawing.counters.seams,
+                      .uncut_objects = drawing.counters.uncut_objects};
+  drawing.diagnostics = without_defects(drawing.diagnostics);
+  fill_head(request, drawing);
+  return redrawn;
+}
+
+/// Puts the part that was solved into the earlier drawing.
+Result<Redrawn> put_together(const ChangedView& changed, const Reach& reach, Drawing part,
+                             Drawing earlier, const parallel::Context& context) {
+  Redrawn redrawn{.drawing = std::move(earlier)};
+  Drawing& drawing = redrawn.drawing;
+  const Anew anew{reach.asked, part};
+  if (const Status s = merge_lines(changed.comparison, anew, drawing, context); !s)
+    return s.error();
+  if (const Status s =
+          merge_account(changed.scene, changed.drawn, changed.comparison, anew, drawing, context);
+      !s)
+    return s.error();
+  redrawn.edges_solved = part.counters.feature_edges;
+  redrawn.objects_solved = static_cast<std::uint64_t>(std::ranges::count(reach.asked, true));
+  drawing.counters = part.counters;
+  drawing.diagnostics = std::move(part.diagnostics);
+  drawing.origin = part.origin;
+  drawing.sag_mm = sag_of(changed);
+  fill_head({changed.scene, changed.drawn, changed.view, changed.options}, drawing);
+  return redrawn;
+}
+
+Result<Redrawn> draw_what_changed(const Request& request, const Comparison& comparison,
+                                  Drawing earlier, const parallel::Context& context) {
+  const auto& [scene, drawn, view, options] = request;
+  const auto seen_by = tessellation_of(view, options);
+  if (!seen_by) return seen_by.error();
+  const model::ViewTessellation plan = plan_view_tessellation(scene, drawn, *seen_by);
+  const auto shapes = shape_extents(scene, context);
+  if (!shapes) return shapes.error();
+  const auto boxes = object_extents(scene, drawn, *shapes, context);
+  if (!boxes) return boxes.error();
+  const auto extent = drawn_extent(scene, drawn, *shapes, *seen_by, plan, options, context);
+  if (!extent) return extent.error();
+  const ChangedView changed{scene,
+                            drawn,
+                            view,
+                            options,
+                            *boxes,
+                            comparison,
+                            plan,
+                            {.box = extent->box,
+                             .longest_side = static_cast<double>(extent->longest_side),
+                             .tessellation = {},
+                             .asked = {}}};
+  const auto reach = find_reach(changed, context);
+  if (reach && reach->most) return draw_all(request, kMostOfIt, context);
+  auto part = reach ? draw_part(changed, *reach, context) : Result<Drawing>(reach.error());
+  if (!part) {
+    if (part.error().code == ErrorCode::cancelled) return part.error();
+    // Limits of a part are others than those of the whole.
+    return draw_all(request, "what changed cannot be drawn alone", context);
+  }
+  auto redrawn = put_together(changed, *reach, std::move(*part), std::move(earlier), context);
+  if (redrawn)
+    redrawn->drawing.contact_distance_mm =
+        static_cast<double>(extent->contact) * geometry::kMmPerGrid;
+  return redrawn;
+}
+
+}  // namespace
+
+Result<Redrawn> draw_changes(const model::Scene& scene, const std::vector<bool>& drawn,
+                             const View& view, const Options& options, EarlierDrawing earlier,
+                             const parallel::Context& context) {
+  const Request request{scene, drawn, view, options};
+  if (const Status status = check_drawn(scene, drawn); !status) return status.error();
+  if (!describes_all(earlier))
+    return Error{ErrorCode::usage, "the earlier drawing and what is said of it differ in size",
+                 "view", "give a number and a box for each object of that drawing"};
+  const auto comparison = compare_objects(earlier.now, earlier.boxes, scene.model->objects.size());
+  if (!comparison) return comparison.error();
+  if (comparison->nothing() && comparison->same_numbers)
+    return draw_nothing(request, std::move(earlier.drawing));
+  if (const std::string_view why = reason_for_all(view, options); !why.empty())
+    return draw_all(request, why, context);
+  return draw_what_changed(request, *comparison, std::move(earlier.drawing), context);
+}
+
+}  // namespace strake::hlr

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/incremental/merge.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "hlr/incremental/splice.hpp"
+#include "hlr/results/object_fates.hpp"
+#include "strake/hlr/incremental.hpp"
+#include "strake/parallel/for_each.hpp"
+
+namespace strake::hlr {
+namespace {
+
+constexpr std::size_t kLinesAtOnce = 16384;
+constexpr auto by_object = [](const auto& line) { return model::index(line.object); };
+
+/// Objects that follow each other in both drawings, or now only.
+struct Stretch {
+  std::uint32_t first = 0, last = 0;  ///< numbers now
+  std::uint32_t before = 0;           ///< number of the first in the earlier drawing
+  bool fresh = false;                 ///< found anew
+};
+
+/// Returns the objects with lines, in order.
+std::vector<Stretch> stretches_of(const Comparison& comparison, const std::vector<bool>& asked) {
+  std::vector<Stretch> all;
+  const auto& before = comparison.before;
+  for (std::uint32_t o = 0; o < before.size(); ++o) {
+    const bool fresh = asked[o];
+    if (!fresh && before[o] == kChanged) continue;
+    Stretch* const last = all.empty() ? nullptr : &all.back();
+    const bool goes_on = last != nullptr && last->fresh == fresh && last->last == o &&
+                         (fresh || before[o] == last->before + (o - last->first));
+    if (goes_on)
+      ++last->last;
+    else
+      all.push_back({o, o + 1, before[o], fresh});
+  }
+  return all;
+}
+
+/// Returns where the lines of a range of objects are, in an array that is sorted by object.
+template <class T>
+Run run_of(std::span<const T> sorted, std::uint32_t first, std::uint32_t last) {
+  const auto at = [&](std::uint32_t object) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(sorted, object, {}, by_object) -
+                                    sorted.begin());
+  };
+  return {at(first), at(last)};
+}
+
+template <class T>
+std::vector<Run> runs_of(std::span<const Stretch> stretches, std::span<const T> kept,
+                         std::span<const T> fresh) {
+  std::vector<Run> runs;
+  for (const Stretch& s : stretches) {
+    Run run = s.fresh ? run_of(fresh, s.first, s.last)
+                      : run_of(kept, s.before, s.before + (s.last - s.first));
+    run.fresh = s.fresh;
+    runs.push_back(run);
+  }
+  return runs;
+}
+
+/// Returns by earlier number the number now; kChanged for those that are gone.
+std::vector<std::uint32_t> numbers_now(const Comparison& comparison, std::size_t earlier) {
+  std::vector<std::uint32_t> now(earlier, kChanged);
+  for (std::uint32_t o = 0; o < comparison.before.size(); ++o)
+    if (comparison.before[o] != kChanged) now[comparison.before[o]] = o;
+  return now;
+}
+
+/// Gives the lines that stay the numbers of their objects now.
+template <class T, class Renumber>
+Status renumber(std::vector<T>& lines, const parallel::Context& context, Renumber&& each) {
+  return parallel::for_each(context,
+                            {.name = "numbers now", .n = lines.size(), .grain = kLinesAtOnce},
+                            [&](std::size_t i) { each(lines[i]); });
+}
+
+Status merge_pieces(const Comparison& comparison, const Anew& anew,
+                    std::span<const Stretch> stretches, Drawing& drawing,
+                    const parallel::Context& context) {
+  const std::vector<Run> runs = runs_of<EdgePiece>(stretches, drawing.pieces, anew.drawing.pieces);
+  if (!comparison.same_numbers) {
+    const auto now = numbers_now(comparison, drawing.counted.size());
+    const auto number = [&](model::ObjectId& object) {
+      object = model::ObjectId{now[model::index(object)]};
+    };
+    const Status status = renumber(drawing.pieces, context, [&](EdgePiece& piece) {
+      number(piece.object);
+      number(piece.other);
+    });
+    if (!status) return status;
+  }
+  return splice<EdgePiece>(runs, anew.drawing.pieces, drawing.pieces, context);
+}
+
+/// Returns the curves that the edges of a run lie on: edges of an object begin with its first one.
+Run curves_under(const Curves& curves, const Run& edges) {
+  const auto curve = [&](std::size_t edge) {
+    return edge < curves.edges.size() ? curves.edges[edge].curve : curves.all.size();
+  };
+  return {curve(edges.first), edges.size() == 0 ? curve(edges.first) : curve(edges.last),
+          edges.fresh};
+}
+
+Status merge_curves(const Comparison& comparison, const Anew& anew,
+                    std::span<const Stretch> stretches, Curves& curves, std::size_t earlier,
+                    const parallel::Context& context) {
+  const Curves& fresh = anew.drawing.curves;
+  if (curves.edges.empty() && fresh.edges.empty()) return {};
+  const std::vector<Run> edges = runs_of<CurvedEdge>(stretches, curves.edges, fresh.edges);
+  std::vector<Run> runs;
+  std::vector<std::size_t> first, to;  // by run, of its edges and of its curves
+  std::size_t edges_before = 0, curves_before = 0;
+  for (const Run& run : edges) {
+    runs.push_back(curves_under(run.fresh ? fresh : curves, run));
+    first.push_back(edges_before);
+    to.push_back(curves_before);
+    edges_before += run.size();
+    curves_before += runs.back().size();
+  }
+  first.push_back(edges_before);
+  const auto now = numbers_now(comparison, earlier);
+  if (Status s = splice<CurvedEdge>(edges, fresh.edges, curves.edges, context); !s) return s;
+  if (Status s = splice<Curve>(runs, fresh.all, curves.all, context); !s) return s;
+  return parallel::for_each(
+      context, {.name = "curves of what stays", .n = runs.size()}, [&](std::size_t r) {
+        for (std::size_t e = first[r]; e < first[r + 1]; ++e) {
+          CurvedEdge& edge = curves.edges[e];
+          if (!runs[r].fresh) edge.object = model::ObjectId{now[model::index(edge.object)]};
+          edge.curve = static_cast<std::uint32_t>(edge.curve - runs[r].first + to[r]);
+        }
+      });
+}
+
+/// Returns values by object now, from those of the earlier drawing and those that are new.
+template <class T>
+std::vector<T> merged(const Comparison& comparison, const std::vector<bool>& asked,
+                      const std::vector<T>& earlier, const std::vector<T>& fresh) {
+  std::vector<T> now(comparison.before.size());
+  for (std::size_t o = 0; o < now.size(); ++o) {
+    const std::uint32_t before = comparison.before[o];
+    if (asked[o])
+      now[o] = fresh[o];
+    else if (before != kChanged)
+      now[o] = earlier[before];
+  }
+  return now;
+}
+
+/// Returns how many objects that are drawn lack some of their geometry, but not all.
+std::uint64_t count_in_part(const model::Scene& scene, const std::vector<bool>& drawn) {
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < scene.lacking.size(); ++i) {
+    const model::ObjectId object = scene.lacking[i].object;
+    if (i > 0 && scene.lacking[i - 1].object == object) continue;
+    if ((drawn.empty() || drawn[model::index(object)]) && !scene.bodies_of(object).empty()) ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+Status merge_lines(const Comparison& comparison, const Anew& anew, Drawing& earlier,
+                   const parallel::Context& context) {
+  const std::vector<Stretch> stretches = stretches_of(comparison, anew.asked);
+  const std::size_t objects = earlier.counted.size();
+  if (Status s = merge_pieces(comparison, anew, stretches, earlier, context); !s) return s;
+  if (Status s = merge_curves(comparison, anew, stretches, earlier.curves, objects, context); !s)
+    return s;
+  earlier.counted = merged(comparison, anew.asked, earlier.counted, anew.drawing.counted);
+  if (!earlier.options.hidden)
+    earlier.left_out = merged(comparison, anew.asked, earlier.left_out, anew.drawing.left_out);
+  return {};
+}
+
+Status merge_account(const model::Scene& scene, const std::vector<bool>& drawn,
+                     const Comparison& comparison, const Anew& anew, Drawing& drawing,
+                     const parallel::Context& context) {
+  auto fresh = account_of(scene, anew.asked, anew.drawing, context);
+  if (!fresh) return fresh.error();
+  Account& account = drawing.account;
+  const auto now = numbers_now(comparison, account.fates.size());
+  std::vector<Defect> kept, defects;
+  for (Defect defect : account.defects) {
+    const std::uint32_t object = now[model::index(defect.object)];
+    if (object == kChanged || anew.asked[object]) continue;
+    defect.object = model::ObjectId{object};
+    kept.push_back(defect);
+  }
+  std::ranges::merge(kept, fresh->defects, std::back_inserter(defects), {}, &Defect::object,
+                     &Defect::object);
+  account.defects = std::move(defects);
+  account.fates = merged(comparison, anew.asked, account.fates, fresh->fates);
+  account.count = {};
+  for (const Fate fate : account.fates) ++account.count[static_cast<std::size_t>(fate)];
+  account.in_part = count_in_part(scene, drawn);
+  return {};
+}
+
+}  // namespace strake::hlr
