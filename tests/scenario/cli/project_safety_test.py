@@ -57,7 +57,7 @@ class ProjectScenario(Scenario):
                 self.query('SELECT key, class, d_mm, status, comment, assignee, decided_by FROM clashes ORDER BY key'),
                 self.query('SELECT test, how, hit, contact, clearance_violation, new, active, reviewed, approved, resolved '
                            'FROM run_test ORDER BY run, test'),
-                self.query('SELECT name, signature FROM view ORDER BY name'))
+                self.query('SELECT name, settings, lines FROM view LEFT JOIN drawing ON view = view.id ORDER BY name'))
 
     def save(self, name):
         """Keeps what there is; restore() brings it back."""
