@@ -158,7 +158,7 @@ class WhatIsTold(Scenario):
                 yard.write()
                 counts, told = self.changes()
                 self.assertEqual(counts, {kind: 1})
-                self.assertEqual([change['id'] for change in told['objects']], [name])
+                self.assertEqual([change['id'] for change in told['changes']], [name])
                 self.assertEqual(self.changes()[0], {}, 'told once')
         things['OTHER'] = things.pop(name)
         yard.write()

@@ -163,7 +163,6 @@ class Kills(Jobs):
                 if not self.query('SELECT 1 FROM file'):
                     self.text('project', 'add', 'p.strake', 'ship.glb', 'more.glb')
             self.assertEqual(self.state(), after, moment)
-            self.assertEqual([name for name in self.files() if 'strake' in name], ['p.strake'])
 
 
 class FullDisk(Jobs):
@@ -260,7 +259,7 @@ class TwoProcesses(ProjectScenario):
         self.move_some()
         self.text('project', 'update', 'p.strake')
         for command in self.writers():
-            for wait in ([], ['--wait', '0.2s']):
+            for wait in ([], ['--wait', '0.2']):
                 with self.subTest(command=command, wait=wait), self.writing():
                     done = self.run_strake(*command, *wait)
                     self.assertEqual(done.returncode, 3, done.stderr)
@@ -272,14 +271,14 @@ class TwoProcesses(ProjectScenario):
             with self.subTest(command), self.writing() as other:
                 ending = threading.Timer(.5, lambda: other.execute('ROLLBACK'))
                 ending.start()
-                self.text(*command, '--wait', '60s')
+                self.text(*command, '--wait', '60')
                 ending.join()
         self.assertEqual(self.query("SELECT count(*) FROM clash WHERE comment = 'not yet'"), [(0,)])
 
     def test_many_at_once_lose_nothing(self):
         keys = [key for key, in self.query('SELECT key FROM clashes ORDER BY key')][:12]
         running = [subprocess.Popen([self.STRAKE, 'clash', 'set', '-p', 'p.strake', key, '--status', 'approved', '--by', 'Ann',
-                                     '--wait', '120s'], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+                                     '--wait', '120'], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
                    for key in keys]
         for _ in range(4):
             self.text('clash', 'list', '-p', 'p.strake')
@@ -390,8 +389,8 @@ class Damage(ProjectScenario):
 
     def test_what_other_programs_put_in(self):
         for sql in ('CREATE TRIGGER t AFTER INSERT ON run BEGIN DELETE FROM clash; END',
-                    'DROP TABLE clash', 'DROP VIEW clashes', 'DELETE FROM shape', 'UPDATE file SET objects = 7',
-                    "UPDATE shape SET data = zeroblob(1000)", 'UPDATE test SET snapshot = report'):
+                    'DROP TABLE clash', 'DROP VIEW clashes', 'DELETE FROM shape_pack', 'UPDATE file SET objects = 7',
+                    "UPDATE shape_pack SET data = zeroblob(1000)", 'UPDATE test SET snapshot = report'):
             with self.subTest(sql):
                 self.put(self.content)
                 with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
