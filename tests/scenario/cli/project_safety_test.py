@@ -289,6 +289,17 @@ class TwoProcesses(ProjectScenario):
         self.text('project', 'check', 'p.strake')
 
 
+class Neighbours(ProjectScenario):
+    def test_a_command_leaves_one_file(self):
+        """What was written is in the project, not in a journal beside it: who copies one file copies all of it."""
+        before = sorted({*self.files()} - {'p.strake-wal', 'p.strake-shm'})
+        for command in (['project', 'list', 'p.strake'], ['clash', 'p.strake'], ['clash', 'list', '-p', 'p.strake'], CLASH, DRAW,
+                        ['draw', '-p', 'p.strake', '--stored', 'top', '-o', 'first.json'],
+                        ['project', 'add', 'p.strake', 'more.glb'], CLASH, DRAW, ['project', 'check', 'p.strake']):
+            self.text(*command)
+            self.assertEqual(self.files(), before, command)
+
+
 class ReadOnly(ProjectScenario):
     """A folder and a file that the user may not write in; root may, so that root becomes another one."""
 
