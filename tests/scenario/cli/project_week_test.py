@@ -59,16 +59,18 @@ class Truth:
                 self.status[pair] = 'active'
         for pair in self.status.keys() - found.keys() - self.gone:
             if pair <= objects:
+                gone += self.status[pair] != 'resolved'
                 self.status[pair] = 'resolved'
                 self.gone.add(pair)
-                gone += 1
             else:
                 self.cannot_tell.add(pair)
+                self.status[pair] = self.status[pair].replace('new', 'active')
         return appeared, gone
 
     def counts(self):
-        return {status: list(self.status.values()).count(status)
-                for status in ('new', 'active', 'reviewed', 'approved', 'resolved')}
+        """Of each status: those that the last run found, and all that are resolved."""
+        told = [status for pair, status in self.status.items() if pair not in self.cannot_tell]
+        return {status: told.count(status) for status in ('new', 'active', 'reviewed', 'approved', 'resolved')}
 
 
 class Week(Scenario):
