@@ -243,7 +243,10 @@ class Week(Scenario):
         diff = json.loads(self.text('clash', 'diff', 'monday.json', 'thursday.json', '--json'))
         self.assertEqual(diff['counts']['gone'], gone)
         self.assertEqual(diff['counts']['cannot_tell'], len(self.truth.cannot_tell))
-        self.text('project', 'export', 'ship.strake', '-o', 'decisions.csv')
+        self.text('project', 'export', 'ship.strake', '-o', 'ship_now.glb')
+        self.text('clash', 'ship_now.glb', *NIGHT, '-o', 'exported.json')
+        self.assertEqual(len(self.load('exported.json')['results']), len(self.load('thursday.json')['results']))
+        self.text('clash', 'list', '-p', 'ship.strake', '-o', 'decisions.csv')
         with open(self.folder / 'decisions.csv', encoding='utf-8-sig', newline='') as lines:
             exported = {frozenset((row['a_id'], row['b_id'])): row['status'] for row in csv.DictReader(lines)}
         self.assertEqual(exported, self.truth.status)
