@@ -19,7 +19,8 @@ from scenario import Scenario, cube, main
 
 KILLS = int(os.environ.get('STRAKE_KILLS', 30))
 CLASH = ['clash', '-p', 'p.strake', '--clearance', '25mm']
-DRAW = ['draw', '-p', 'p.strake', '--save', 'top', '--view', 'top', '--hidden', 'dashed']
+VIEW = ['draw', '-p', 'p.strake', '--save', 'top', '--view', 'top', '--hidden', 'dashed']
+DRAW = [*VIEW, '-o', 'x.svg']
 NOBODY = 65534
 
 
@@ -32,7 +33,7 @@ class ProjectScenario(Scenario):
         self.ship('more.glb', 120, '--seed', 3)
         self.text('project', 'new', 'p.strake', 'ship.glb')
         self.text(*CLASH)
-        self.text(*DRAW, '-o', 'first.json')
+        self.text(*DRAW)
 
     def ship(self, name, objects, *more):
         self.text('generate', 'ship', '--objects', objects, '--quiet', '-o', name, *more)
@@ -295,7 +296,7 @@ class Neighbours(ProjectScenario):
         """What was written is in the project, not in a journal beside it: who copies one file copies all of it."""
         before = sorted({*self.files()} - {'p.strake-wal', 'p.strake-shm'})
         for command in (['project', 'list', 'p.strake'], ['clash', 'p.strake'], ['clash', 'list', '-p', 'p.strake'], CLASH, DRAW,
-                        ['draw', '-p', 'p.strake', '--stored', 'top', '-o', 'first.json'],
+                        ['draw', '-p', 'p.strake', '--stored', 'top', '-o', 'x.svg'],
                         ['project', 'add', 'p.strake', 'more.glb'], CLASH, DRAW, ['project', 'check', 'p.strake']):
             self.text(*command)
             self.assertEqual(self.files(), before, command)
@@ -329,13 +330,13 @@ class ReadOnly(ProjectScenario):
 
     def test_writing_is_refused_and_changes_nothing(self):
         content = (self.folder / 'p.strake').read_bytes()
-        for command in (['project', 'add', 'p.strake', 'more.glb'], CLASH, DRAW):
+        for command in (['project', 'add', 'p.strake', 'more.glb'], CLASH, [*VIEW, '--json']):
             with self.subTest(command):
                 done = self.run_strake(*command, **self.as_user)
                 self.assertEqual(done.returncode, 3, done.stderr)
                 self.assertIn('p.strake', done.stderr)
         self.assertEqual((self.folder / 'p.strake').read_bytes(), content)
-        self.assertEqual(self.files(), ['first.json', 'more.glb', 'p.strake', 'ship.glb'])
+        self.assertEqual(self.files(), ['more.glb', 'p.strake', 'ship.glb', 'x.svg'])
 
 
 class Damage(ProjectScenario):
