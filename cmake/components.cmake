@@ -72,10 +72,12 @@ set(manual
   docs/hlr.md
   docs/pictures
   docs/profiles.md
+  docs/project.md
   docs/reading-results.md
   docs/rules.md
   docs/selection.md
   docs/sheets.md
+  examples/nightly.sh
   examples/ship_rules.toml
   examples/ship_sheet.toml)
 strake_component(model
@@ -169,4 +171,6 @@ install(FILES ${PROJECT_BINARY_DIR}/strake.pc DESTINATION ${CMAKE_INSTALL_LIBDIR
 install(DIRECTORY schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/strake COMPONENT program)
 install(DIRECTORY rules DESTINATION ${CMAKE_INSTALL_DATADIR}/strake COMPONENT program)
 install(FILES examples/ship_rules.toml examples/ship_sheet.toml
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/strake/examples COMPONENT program)
+install(PROGRAMS examples/nightly.sh
   DESTINATION ${CMAKE_INSTALL_DATADIR}/strake/examples COMPONENT program)

@@ -16,11 +16,11 @@ THEME = Path('/usr/share/doxygen-awesome-css')
 STYLES = ['doxygen-awesome.css', 'doxygen-awesome-sidebar-only.css']
 # The parts of the navigation, each of a folder: (label, title, folder, the pages to begin with); others follow by name.
 PARTS = [
-    ('guide', 'Using Strake', 'docs', ['library', 'clash', 'rules', 'selection', 'reading-results', 'hlr',
-                                        'hidden-line-algorithms', 'drawing', 'sheets', 'evaluation']),
+    ('guide', 'Using Strake', 'docs', ['library', 'clash', 'rules', 'selection', 'reading-results', 'project',
+                                        'hlr', 'hidden-line-algorithms', 'drawing', 'sheets', 'evaluation']),
     ('patterns', 'Parallel patterns', 'docs/patterns', []),
     ('decisions', 'Decisions', 'docs/decisions', []),
-    ('project', 'The project', '.', ['ARCHITECTURE', 'HACKING', 'CONTRIBUTING', 'SECURITY', 'CHANGELOG']),
+    ('sources', 'The project', '.', ['ARCHITECTURE', 'HACKING', 'CONTRIBUTING', 'SECURITY', 'CHANGELOG']),
 ]
 CODE_SPAN = r'(?P<tick>`+)(?!`)(?P<code>(?:(?!\n\n).)+?)(?<!`)(?P=tick)(?!`)'
 LINK = r'(?P<image>!?)\[(?P<text>(?:[^\[\]`]|`[^`]*`)*)\]\((?P<to>[^()\s]+)\)'
@@ -288,7 +288,7 @@ def index_pages(site):
         pages = sorted(page for page in site.pages if posixpath.dirname(page) == folder.strip('.') and page != 'README.md')
         if name == 'guide':
             pages += ['docs/formats/primitives.md', 'docs/pictures/README.md', *sorted(site.listings)]
-        if name == 'project':
+        if name == 'sources':
             pages += ['tests/fuzz/README.md']
         pages.sort(key=lambda page: order.index(Path(page).stem) if Path(page).stem in order else len(order))
         lines = [f'# {title} {{#{name}}}', ''] + [

@@ -29,8 +29,8 @@ FUNCTIONS = {
 }
 CLASSES = ['AtomicFile', 'Result', 'parallel::Team', 'parallel::Context', 'geometry::Part', 'model::Model', 'model::Scene',
            'model::Selection', 'clash::Report', 'clash::Pair', 'rules::Rules', 'hlr::Drawing', 'sheets::SheetFile']
-PAGES = ['index', 'library', 'clash', 'hlr', 'rules', 'selection', 'patterns', 'patterns_team', 'formats_primitives',
-         'decisions', 'decisions_0058_what_is_public', 'project_architecture', 'project_changelog', 'modules', 'examples',
+PAGES = ['index', 'library', 'clash', 'hlr', 'rules', 'selection', 'project', 'sources', 'patterns', 'patterns_team',
+         'formats_primitives', 'decisions', 'decisions_0058_what_is_public', 'project_architecture', 'project_changelog', 'modules', 'examples',
          'find_clashes_8cpp-example']
 
 
