@@ -15,14 +15,14 @@ struct KindFacts {
   std::uint64_t least_bytes;  ///< of an item, before it is compressed
 };
 
-constexpr std::array<KindFacts, 6> kKinds{{{"objects", kLeastOfObject},
-                                           {"bodies", kLeastOfBody},
-                                           {"shapes", kLeastOfShape},
-                                           {"groups", kLeastOfGroup},
-                                           {"group attributes", kLeastOfAttributes},
-                                           {"diagnostics", 0}}};
+constexpr std::array<KindFacts, 6> kKindFacts{{{"objects", kLeastOfObject},
+                                               {"bodies", kLeastOfBody},
+                                               {"shapes", kLeastOfShape},
+                                               {"groups", kLeastOfGroup},
+                                               {"group attributes", kLeastOfAttributes},
+                                               {"diagnostics", 0}}};
 
-const KindFacts& facts(BlockKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+const KindFacts& facts(BlockKind kind) { return kKindFacts[static_cast<std::size_t>(kind)]; }
 
 }  // namespace
 
@@ -55,6 +55,12 @@ Result<std::vector<Blob>> read_blocks(Database& database, std::int64_t file, Blo
           fmt::format("there are fewer {} of file {} than it says", kind_name(kind), file));
     blocks.emplace_back(data.begin(), data.end());
   }
+}
+
+Hash128 hash_of_blocks(std::span<const Hash128> hashes) {
+  Hasher hasher;
+  for (const Hash128& hash : hashes) hasher.add(hash.high).add(hash.low);
+  return hasher.value();
 }
 
 Status write_blocks(Database& database, std::int64_t file, BlockKind kind,
