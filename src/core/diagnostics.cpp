@@ -36,11 +36,6 @@ void Diagnostics::append(const Diagnostics& other) {
       entry(theirs.code, theirs.severity).count += theirs.count - kMaxPerCode;
 }
 
-void Diagnostics::remove(std::string_view code) {
-  std::erase_if(kept_, [&](const Diagnostic& d) { return d.code == code; });
-  std::erase_if(counts_, [&](const Count& c) { return c.code == code; });
-}
-
 void Diagnostics::count_more(std::string_view code, std::uint64_t more) {
   for (Count& c : counts_)
     if (c.code == code && c.count >= kMaxPerCode) c.count += more;
