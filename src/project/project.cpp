@@ -53,7 +53,7 @@ Database& Project::database() { return *state_->database; }
 
 Result<std::vector<StoredFile>> Project::files() {
   try {
-    Result<std::vector<FileRow>> rows = read_rows(database());
+    Result<std::vector<FileRow>> rows = read_sealed_rows(database());
     if (!rows) return rows.error();
     std::vector<StoredFile> files;
     files.reserve(rows->size());

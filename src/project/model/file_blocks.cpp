@@ -57,6 +57,12 @@ Result<std::vector<Blob>> read_blocks(Database& database, std::int64_t file, Blo
   }
 }
 
+Hash128 hash_of_blocks(std::span<const Hash128> hashes) {
+  Hasher hasher;
+  for (const Hash128& hash : hashes) hasher.add(hash.high).add(hash.low);
+  return hasher.value();
+}
+
 Status write_blocks(Database& database, std::int64_t file, BlockKind kind,
                     std::span<const Blob> blocks) {
   Result<Statement> statement =

@@ -46,6 +46,9 @@ enum class BlockKind : std::uint8_t {
 [[nodiscard]] Result<std::vector<Blob>> read_blocks(Database& database, std::int64_t file,
                                                     BlockKind kind, std::uint64_t items);
 
+/// Returns the hash of what is in all blocks of a file, kind by kind; `hashes` are those of each.
+[[nodiscard]] Hash128 hash_of_blocks(std::span<const Hash128> hashes);
+
 [[nodiscard]] Status write_blocks(Database& database, std::int64_t file, BlockKind kind,
                                   std::span<const Blob> blocks);
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "project/codec/blob.hpp"
 #include "project/model/blocks.hpp"
 #include "project/model/file_blocks.hpp"
 #include "project/model/file_rows.hpp"
@@ -88,7 +89,7 @@ bool add_to(std::uint32_t& sum, std::uint32_t more) {
 }
 
 Status ModelLoader::place_files() {
-  Result<std::vector<FileRow>> rows = read_rows(database_);
+  Result<std::vector<FileRow>> rows = read_sealed_rows(database_);
   if (!rows) return rows.error();
   rows_ = std::move(*rows);
   LabelledFiles files = labelled(rows_);
@@ -140,6 +141,7 @@ Status ModelLoader::read_kind(std::uint32_t row, BlockKind kind, std::uint64_t i
 Status ModelLoader::read_all() {
   for (std::uint32_t r = 0; r < rows_.size(); ++r) {
     const FileRow& row = rows_[r];
+    const std::size_t before = tasks_.size();
     const std::pair<BlockKind, std::uint64_t> kinds[] = {
         {BlockKind::objects, row.file.objects},
         {BlockKind::bodies, row.file.bodies},
@@ -149,6 +151,12 @@ Status ModelLoader::read_all() {
         {BlockKind::diagnostics, 1}};
     for (const auto& [kind, items] : kinds)
       if (const Status status = read_kind(r, kind, items); !status) return status;
+    std::vector<Hash128> hashes;
+    for (std::size_t t = before; t < tasks_.size(); ++t)
+      hashes.push_back(BlobReader::raw_hash(tasks_[t].blob));
+    if (hash_of_blocks(hashes) != row.blocks)
+      return database_.damaged("the blocks of " + row.file.source.label +
+                               " are not those that were stored");
   }
   return {};
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "project/codec/blob.hpp"
 #include "project/model/blocks.hpp"
 #include "project/model/file_blocks.hpp"
 #include "project/model/file_rows.hpp"
@@ -102,7 +103,13 @@ class FileStore {
 
  private:
   Result<std::vector<FileRow>> find_targets(std::span<const FileToStore> files);
+  struct KindOfBlocks {
+    BlockKind kind{};
+    std::vector<Blob> blocks;
+  };
   Status store(const FileToStore& file, FileRow& row, ShapePacks& packs);
+  Result<std::vector<KindOfBlocks>> pack_all(const model::Model& model,
+                                             std::span<const PackedShape> places);
   Status make_way(std::span<const FileRow> targets);
 
   Database& database_;
@@ -179,28 +186,47 @@ Status FileStore::store(const FileToStore& file, FileRow& row, ShapePacks& packs
   row.shapes = model.shapes.size();
   row.groups = model.groups.size();
   row.group_attributes = model.group_attributes.size();
+  Result<std::vector<KindOfBlocks>> all = pack_all(model, *places);
+  if (!all) return all.error();
+  std::vector<Hash128> hashes;
+  for (const KindOfBlocks& kind : *all)
+    for (const Blob& blob : kind.blocks) hashes.push_back(BlobReader::raw_hash(blob));
+  row.blocks = hash_of_blocks(hashes);
+
   if (row.file.id != 0)
     if (const Status status = remove_blocks(database_, row.file.id); !status) return status;
   if (const Status status = write_row(database_, row); !status) return status;
+  for (const KindOfBlocks& kind : *all) {
+    const Status status = write_blocks(database_, row.file.id, kind.kind, kind.blocks);
+    if (!status) return status;
+  }
+  return {};
+}
 
-  const auto write = [&](BlockKind kind, const Result<std::vector<Blob>>& blocks) -> Status {
+/// Returns the blocks of a file, in the order in which they are read again.
+Result<std::vector<FileStore::KindOfBlocks>> FileStore::pack_all(
+    const model::Model& model, std::span<const PackedShape> places) {
+  std::vector<KindOfBlocks> all;
+  const auto add = [&](BlockKind kind, Result<std::vector<Blob>> blocks) -> Status {
     if (!blocks) return blocks.error();
-    return write_blocks(database_, row.file.id, kind, *blocks);
+    all.push_back({kind, std::move(*blocks)});
+    return {};
   };
   const auto diagnostics = [&]() -> Result<std::vector<Blob>> {
     Result<Blob> blob = pack_diagnostics(model.diagnostics);
     if (!blob) return blob.error();
     return std::vector<Blob>{std::move(*blob)};
   };
-  Status status = write(BlockKind::objects, packed(model.objects, pack_objects, context_));
-  if (status) status = write(BlockKind::bodies, packed(model.bodies, pack_bodies, context_));
-  if (status) status = write(BlockKind::shapes, packed_shapes(model.shapes, *places, context_));
-  if (status) status = write(BlockKind::groups, packed(model.groups, pack_groups, context_));
+  Status status = add(BlockKind::objects, packed(model.objects, pack_objects, context_));
+  if (status) status = add(BlockKind::bodies, packed(model.bodies, pack_bodies, context_));
+  if (status) status = add(BlockKind::shapes, packed_shapes(model.shapes, places, context_));
+  if (status) status = add(BlockKind::groups, packed(model.groups, pack_groups, context_));
   if (status)
-    status = write(BlockKind::group_attributes,
-                   packed(model.group_attributes, pack_attributes, context_));
-  if (status) status = write(BlockKind::diagnostics, diagnostics());
-  return status;
+    status =
+        add(BlockKind::group_attributes, packed(model.group_attributes, pack_attributes, context_));
+  if (status) status = add(BlockKind::diagnostics, diagnostics());
+  if (!status) return status.error();
+  return all;
 }
 
 Status remove(Database& database, std::span<const std::int64_t> files,
