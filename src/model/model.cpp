@@ -47,8 +47,6 @@ bool sort_objects(const Model& model, BodyOrder& order) {
   return distinct;
 }
 
-constexpr std::string_view kPositionalIds = "object-id-positional";
-
 /// Notes for each file how many ids its reader could only count.
 void note_positional_ids(Model& model) {
   std::vector<std::size_t> counts(model.files.size(), 0);
@@ -57,7 +55,7 @@ void note_positional_ids(Model& model) {
   for (std::size_t file = 0; file < counts.size(); ++file)
     if (counts[file] > 0)
       model.diagnostics.add(
-          Severity::note, kPositionalIds,
+          Severity::note, "object-id-positional",
           fmt::format(
               "{} no stable id (only {} position in the file); clash diff matches {} by location",
               counts[file] == 1 ? "1 object has" : fmt::format("{} objects have", counts[file]),
@@ -133,7 +131,26 @@ bool is_in_order(const Model& model, const BodyOrder& order) {
   return bodies == model.bodies.size();
 }
 
-/// Takes back what finish() did and what it would not do again beside other files.
+/// Gives files their numbers by label, and objects their places as the source has them.
+void number_by_source(Model& model) {
+  for (std::uint32_t place = 0; Object & o : model.objects) o.place = place++;
+  const BodyOrder renumbered = label_and_sort_files(model);
+  for (Object& o : model.objects)
+    if (o.file < renumbered.size()) o.file = renumbered[o.file];
+}
+
+/// Puts the objects of a numbered model in order, and separates ids that repeat.
+void arrange_objects(Model& model) {
+  BodyOrder order = identity(model.objects.size());
+  // These have a diagnostic of their own.
+  if (!sort_objects(model, order)) {
+    separate_ids(model, order);
+    static_cast<void>(sort_objects(model, order));
+  }
+  if (!is_in_order(model, order)) reorder(model, order);
+}
+
+/// Puts the objects of a finished model as the source has them, and takes folders off its labels.
 void take_up_again(Model& model) {
   BodyOrder order = identity(model.objects.size());
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -141,7 +158,6 @@ void take_up_again(Model& model) {
   });
   if (!is_in_order(model, order)) reorder(model, order);
   for (SourceFile& file : model.files) file.label.erase(0, file.label.rfind('/') + 1);
-  model.diagnostics.remove(kPositionalIds);
 }
 
 }  // namespace
@@ -215,18 +231,9 @@ void Model::set_attributes(GroupId group, Attributes attributes) {
 }
 
 void finish(Model& model) {
-  for (std::uint32_t place = 0; Object & o : model.objects) o.place = place++;
-  const BodyOrder renumbered = label_and_sort_files(model);
-  for (Object& o : model.objects)
-    if (o.file < renumbered.size()) o.file = renumbered[o.file];
+  number_by_source(model);
   note_positional_ids(model);
-  BodyOrder order = identity(model.objects.size());
-  // These have a diagnostic of their own.
-  if (!sort_objects(model, order)) {
-    separate_ids(model, order);
-    static_cast<void>(sort_objects(model, order));
-  }
-  if (!is_in_order(model, order)) reorder(model, order);
+  arrange_objects(model);
 }
 
 void append(Model& model, Model&& other) {
@@ -271,7 +278,9 @@ Model join(std::span<Model> models) {
     take_up_again(model);
     append(all, std::move(model));
   }
-  finish(all);
+  // What finish() notes has been noted of each.
+  number_by_source(all);
+  arrange_objects(all);
   return all;
 }
 

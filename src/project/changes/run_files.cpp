@@ -2,7 +2,9 @@
 #include "project/changes/run_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,12 +17,9 @@ namespace strake::project {
 namespace {
 
 Hash128 hash_of_place(const Fingerprint& print) {
-  return Hasher()
-      .add(print.shapes.high)
-      .add(print.shapes.low)
-      .add(print.places.high)
-      .add(print.places.low)
-      .value();
+  const std::array<std::uint64_t, 4> words{print.shapes.high, print.shapes.low, print.places.high,
+                                           print.places.low};
+  return hash_bytes(std::as_bytes(std::span(words)));
 }
 
 /// Returns the labels alone.

@@ -31,6 +31,16 @@ io::ReadOptions inherited(io::ReadOptions options, const io::ReadOptions& before
   return options;
 }
 
+/// Returns what was said of every file alike: a file whose place is not known yet is read so, or it
+/// would be like none of them.
+io::ReadOptions said_of_all(const std::vector<StoredFile>& files) {
+  if (files.empty()) return {};
+  const io::ReadOptions& first = files.front().options;
+  const bool alike = std::ranges::all_of(
+      files, [&](const StoredFile& file) { return are_equal(file.options, first); });
+  return alike ? first : io::ReadOptions();
+}
+
 /// Whether the file is no longer what was stored of it.
 Result<bool> has_changed(const StoredFile& stored, const io::FileToRead& file,
                          const parallel::Context& context) {
@@ -163,10 +173,11 @@ Result<std::vector<OutdatedFile>> outdated_files(const std::vector<StoredFile>& 
                                                  const UpdateRequest& request,
                                                  const parallel::Context& context) {
   std::vector<OutdatedFile> sought;
+  const io::ReadOptions of_all = said_of_all(files);
   for (const io::FileToRead& file : request.files) {
     const StoredFile* const stored = find_file(files, file.path);
-    sought.push_back({file, stored});
-    if (stored != nullptr) sought.back().file.options = inherited(file.options, stored->options);
+    const io::ReadOptions& before = stored == nullptr ? of_all : stored->options;
+    sought.push_back({{file.path, inherited(file.options, before)}, stored});
   }
   if (request.files.empty())
     for (const StoredFile& file : files) sought.push_back({{file.path, file.options}, &file});
