@@ -22,6 +22,9 @@ struct Verb {
 [[nodiscard]] Verb add_clash(CLI::App& program, CommonOptions& common);
 /// `clash` is the command of add_clash().
 [[nodiscard]] Verb add_clash_diff(CLI::App& clash, CommonOptions& common);
+[[nodiscard]] Verb add_clash_set(CLI::App& clash, CommonOptions& common);
+[[nodiscard]] Verb add_clash_list(CLI::App& clash, CommonOptions& common);
+[[nodiscard]] Verb add_clash_history(CLI::App& clash, CommonOptions& common);
 [[nodiscard]] Verb add_draw(CLI::App& program, CommonOptions& common);
 /// `draw` is the command of add_draw().
 [[nodiscard]] Verb add_draw_diff(CLI::App& draw, CommonOptions& common);

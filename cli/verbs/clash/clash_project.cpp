@@ -14,7 +14,7 @@
 #include "cli/run/person.hpp"
 #include "cli/run/utc_time.hpp"
 #include "core/text_encoding.hpp"
-#include "project/results/report_codec.hpp"
+#include "project/stored_report/report_codec.hpp"
 #include "strake/clash/incremental.hpp"
 
 namespace strake::cli {

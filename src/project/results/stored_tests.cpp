@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "project/codec/blob.hpp"
-#include "project/results/kept_codec.hpp"
+#include "project/stored_report/kept_codec.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::project {

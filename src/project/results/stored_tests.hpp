@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "project/database/database.hpp"
-#include "project/results/report_codec.hpp"
 #include "project/snapshot/snapshot.hpp"
+#include "project/stored_report/report_codec.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 

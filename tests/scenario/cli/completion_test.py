@@ -36,7 +36,7 @@ class Completion:
 
     def test_files_where_files_can_stand(self):
         self.assertLessEqual({'ship.glb', 'diff'}, self.offers('strake clash '))
-        self.assertEqual(self.offers('strake clash s'), {'ship.glb'})
+        self.assertEqual(self.offers('strake clash s'), {'ship.glb', 'set'})
         self.assertEqual(self.offers('strake clash diff s'), {'ship.glb'})
         self.assertEqual(self.offers('strake info h'), {'hull plan.glb', 'hit'})
         self.assertEqual(self.offers('strake clash ship.glb --output s'), {'ship.glb'})
@@ -44,10 +44,10 @@ class Completion:
 
     def test_verbs_of_the_manual(self):
         self.assertEqual(self.offers('strake man '), PROGRAM_VERBS)
-        self.assertEqual(self.offers('strake man clash '), {'diff'})
+        self.assertEqual(self.offers('strake man clash '), {'diff', 'set', 'list', 'history'})
         self.assertEqual(self.offers('strake man clash diff '), set())
         self.assertEqual(self.offers('strake help '), PROGRAM_VERBS)
-        self.assertEqual(self.offers('strake help clash '), {'diff'})
+        self.assertEqual(self.offers('strake help clash '), {'diff', 'set', 'list', 'history'})
 
     def test_values_of_options(self):
         words = self.words_of('clash', '--fail-on')

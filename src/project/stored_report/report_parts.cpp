@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "project/codec/blob.hpp"
-#include "project/results/pair_columns.hpp"
-#include "project/results/report_codec.hpp"
-#include "project/results/report_head.hpp"
-#include "project/results/value_columns.hpp"
+#include "project/stored_report/pair_columns.hpp"
+#include "project/stored_report/report_codec.hpp"
+#include "project/stored_report/report_head.hpp"
+#include "project/stored_report/value_columns.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::project {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "project/results/report_head.hpp"
+#include "project/stored_report/report_head.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "project/codec/blob.hpp"
-#include "project/results/report_codec.hpp"
-#include "project/results/value_columns.hpp"
+#include "project/stored_report/report_codec.hpp"
+#include "project/stored_report/value_columns.hpp"
 #include "strake/model/scene.hpp"
 
 namespace strake::project {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "project/results/pair_columns.hpp"
+#include "project/stored_report/pair_columns.hpp"
 
 #include <cstdint>
 #include <optional>
 
-#include "project/results/value_columns.hpp"
+#include "project/stored_report/value_columns.hpp"
 
 namespace strake::project {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "project/results/kept_codec.hpp"
+#include "project/stored_report/kept_codec.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "project/codec/blob.hpp"
-#include "project/results/pair_columns.hpp"
-#include "project/results/value_columns.hpp"
+#include "project/stored_report/pair_columns.hpp"
+#include "project/stored_report/value_columns.hpp"
 
 namespace strake::project {
 namespace {

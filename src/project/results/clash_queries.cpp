@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/results/clash_queries.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/text_encoding.hpp"
+
+namespace strake::project {
+namespace {
+
+using report::DecisionStatus;
+
+struct TestName {
+  std::string name;
+  std::int64_t run = 0;
+};
+
+Result<std::map<std::int64_t, TestName>> tests_of(Database& database) {
+  Result<Statement> select = database.prepare("SELECT id, name, run FROM test");
+  if (!select) return select.error();
+  std::map<std::int64_t, TestName> tests;
+  for (;;) {
+    const Result<bool> there = select->step();
+    if (!there) return there.error();
+    if (!*there) return tests;
+    tests[select->integer(0)] = {std::string(select->text(1)), select->integer(2)};
+  }
+}
+
+Error no_clash(const std::string& key) {
+  return {ErrorCode::usage,
+          "no clash has the key " + in_quotes(key),
+          {},
+          "'strake clash list' has the keys"};
+}
+
+/// Returns a row as somebody decides it to be.
+ClashRow decided(ClashRow row, const ClashDecision& decision, std::int64_t last_run) {
+  if (decision.comment) row.comment = valid_utf8(*decision.comment);
+  if (decision.assignee) row.assignee = valid_utf8(*decision.assignee);
+  if (!decision.status) return row;
+  row.decision = *decision.status;
+  row.decided.reset();
+  row.decided_by = valid_utf8(decision.by);
+  row.decided_at = decision.at;
+  if (row.decision == DecisionStatus::approved) row.decided = row.now;
+  if (row.decision == DecisionStatus::undecided) {
+    row.new_run = last_run;
+    row.decided_by.clear();
+    row.decided_at.clear();
+  }
+  return row;
+}
+
+std::uint64_t count_at(const Statement& at, int column) {
+  return static_cast<std::uint64_t>(std::max<std::int64_t>(at.integer(column), 0));
+}
+
+TrendRow trend_at(const Statement& at) {
+  TrendRow row;
+  row.run = at.integer(0);
+  int column = 1;
+  for (std::string* const text : {&row.started, &row.program, &row.who, &row.test, &row.how})
+    *text = at.text(column++);
+  row.seconds = at.real(column++);
+  for (std::uint64_t* const count :
+       {&row.objects, &row.changed_objects, &row.tested_pairs, &row.kept_results, &row.hit,
+        &row.contact, &row.clearance_violation, &row.allowed, &row.appeared, &row.gone, &row.fresh,
+        &row.active, &row.reviewed, &row.approved, &row.resolved, &row.cannot_tell})
+    *count = count_at(at, column++);
+  return row;
+}
+
+std::optional<DecisionStatus> status_of(std::string_view word) {
+  const auto at = std::ranges::find_if(report::kDecisionStatuses,
+                                       [&](DecisionStatus s) { return name(s) == word; });
+  return at == report::kDecisionStatuses.end() ? std::nullopt : std::optional(*at);
+}
+
+}  // namespace
+
+Result<std::vector<ListedClash>> list_clashes(Database& database, const ClashFilter& filter) {
+  const Result<std::map<std::int64_t, TestName>> tests = tests_of(database);
+  if (!tests) return tests.error();
+  Result<Statement> select =
+      database.prepare("SELECT " + std::string(kClashColumns) + " FROM clash ORDER BY test, id");
+  if (!select) return select.error();
+  std::vector<ListedClash> all;
+  for (;;) {
+    const Result<bool> there = select->step();
+    if (!there) return there.error();
+    if (!*there) return all;
+    Result<ClashRow> row = row_of(database, *select);
+    if (!row) return row.error();
+    const auto test = tests->find(row->test);
+    if (test == tests->end()) return database.damaged("a clash is of no test");
+    const DecisionStatus status = row->status(test->second.run);
+    if ((filter.status && *filter.status != status) ||
+        (filter.test && *filter.test != test->second.name))
+      continue;
+    all.push_back({std::move(*row), test->second.name, status, test->second.run});
+  }
+}
+
+Result<std::uint64_t> decide(Database& database, std::span<const std::string> keys,
+                             const ClashDecision& decision) {
+  const Result<std::map<std::int64_t, TestName>> tests = tests_of(database);
+  if (!tests) return tests.error();
+  Result<ClashRows> rows = ClashRows::of(database);
+  if (!rows) return rows.error();
+  std::uint64_t changed = 0;
+  for (const std::string& key : keys) {
+    const Result<std::optional<ClashRow>> known = rows->find(std::string_view(key));
+    if (!known) return known.error();
+    if (!*known) return no_clash(key);
+    const ClashRow& before = **known;
+    const auto test = tests->find(before.test);
+    if (test == tests->end()) return database.damaged("a clash is of no test");
+    const std::int64_t run = test->second.run;
+    const ClashRow after = decided(before, decision, run);
+    if (after == before) continue;
+    ++changed;
+    if (const Status status = rows->update(after); !status) return status.error();
+    const ClashEvent event{before.id,
+                           std::nullopt,
+                           decision.at,
+                           decision.by,
+                           before.status(run),
+                           after.status(run),
+                           decision.comment.value_or(std::string())};
+    if (event.before == event.after && !decision.comment) continue;
+    if (const Status status = rows->add(event); !status) return status.error();
+  }
+  return changed;
+}
+
+Result<std::vector<TrendRow>> read_trend(Database& database) {
+  Result<Statement> select = database.prepare(
+      "SELECT run.id, started, program, who, test.name, how, seconds, run_test.objects, "
+      "changed_objects, tested_pairs, kept_results, hit, contact, clearance_violation, allowed, "
+      "appeared, gone, new, active, reviewed, approved, resolved, cannot_tell FROM run_test "
+      "JOIN run ON run.id = run_test.run JOIN test ON test.id = run_test.test "
+      "ORDER BY run.id, test.id");
+  if (!select) return select.error();
+  std::vector<TrendRow> rows;
+  for (;;) {
+    const Result<bool> there = select->step();
+    if (!there) return there.error();
+    if (!*there) return rows;
+    rows.push_back(trend_at(*select));
+  }
+}
+
+Result<std::vector<ClashEvent>> read_events(Database& database, const std::string& key) {
+  Result<ClashRows> rows = ClashRows::of(database);
+  if (!rows) return rows.error();
+  const Result<std::optional<ClashRow>> row = rows->find(std::string_view(key));
+  if (!row) return row.error();
+  if (!*row) return no_clash(key);
+  Result<Statement> select = database.prepare(
+      "SELECT run, at, who, before, after, comment FROM event WHERE clash = ?1 ORDER BY id");
+  if (!select) return select.error();
+  select->bind(1, (**row).id);
+  std::vector<ClashEvent> events;
+  for (;;) {
+    const Result<bool> there = select->step();
+    if (!there) return there.error();
+    if (!*there) return events;
+    const auto before = status_of(select->text(3)), after = status_of(select->text(4));
+    if (!before || !after) return database.damaged("an event has a status that is none");
+    std::optional<std::int64_t> run;
+    if (!select->is_null(0)) run = select->integer(0);
+    events.push_back({(**row).id, run, std::string(select->text(1)), std::string(select->text(2)),
+                      *before, *after, std::string(select->text(5))});
+  }
+}
+
+}  // namespace strake::project

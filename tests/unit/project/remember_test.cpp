@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs over boxes in a row, remembered one after another in a project in memory.
+#include "project/results/remember.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "project/database/result_tables.hpp"
+#include "project/results/clash_queries.hpp"
+#include "project/results/rename_files.hpp"
+#include "strake/clash/incremental.hpp"
+#include "support/clash_model.hpp"
+
+namespace strake::project {
+namespace {
+
+using report::DecisionStatus;
+using test::ClashModel;
+
+/// Boxes of 100 mm, each `depth_mm` in the next, from number `first` on.
+ClashModel row(int count, double depth_mm = 20, int first = 0) {
+  ClashModel m;
+  double x = 0;
+  for (int i = first; i < count; ++i, x += 100 - depth_mm)
+    m.box("c" + std::to_string(i), {x, 0, 0}, {x + 100, 100, 100});
+  return m;
+}
+
+class Remembered : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    database_ = std::move(Database::in_memory()).value();
+    ASSERT_TRUE(database_->execute(kResultTables));
+  }
+
+  /// Tests the model in full and remembers the run.
+  RememberedRun run(const ClashModel& m, const clash::Policy& policy = {}, double deeper_mm = 1) {
+    const clash::Options options;
+    const auto scene = make_scene(m.model, clash::scene_options(options), {}).value();
+    const clash::Sets sets = clash::one_set(scene);
+    const clash::Signatures signed_by = clash::signatures(scene, sets, options, policy, {}).value();
+    const Snapshot snapshot{signed_by.rules, identities(m.model, {}).value(), signed_by.objects};
+    const clash::Report report = clash::detect(scene, sets, options, policy, {}).value();
+    const std::optional<StoredTest> before = read_test(*database_, "", {}).value();
+    const TestedTest tested{&report, &snapshot, &sets, &policy, before ? &*before : nullptr, {}};
+    Result<RememberedRun> run = remember(
+        *database_, m.model, {"2026-01-01T00:00:00Z", "ann", 1, deeper_mm}, {&tested, 1}, {});
+    EXPECT_TRUE(run) << run.error().text();
+    return std::move(run).value();
+  }
+
+  std::vector<ListedClash> clashes() { return list_clashes(*database_, {}).value(); }
+  std::vector<std::string> statuses() {
+    std::vector<std::string> all;
+    for (const ListedClash& clash : clashes()) all.emplace_back(name(clash.status));
+    return all;
+  }
+  void decide(std::size_t clash, DecisionStatus status) {
+    const std::vector<std::string> keys{clashes()[clash].row.key};
+    ClashDecision decision;
+    decision.status = status;
+    decision.comment = "as agreed";
+    decision.by = "bob";
+    decision.at = "2026-01-02T00:00:00Z";
+    EXPECT_EQ(project::decide(*database_, keys, decision).value(), 1U);
+  }
+  std::unique_ptr<Database> database_;
+};
+
+using Statuses = std::vector<std::string>;
+
+TEST_F(Remembered, clashes_are_new_once_and_active_then_without_a_row_written) {
+  const RememberedRun first = run(row(4));
+  EXPECT_EQ(first.trends[0].appeared, 3U);
+  EXPECT_EQ(first.decided.counts[0], 3U);
+  EXPECT_EQ(statuses(), (Statuses{"new", "new", "new"}));
+  const RememberedRun second = run(row(4));
+  EXPECT_EQ(second.trends[0].appeared, 0U);
+  EXPECT_EQ(second.trends[0].written, 0U);
+  EXPECT_EQ(second.decided.counts[1], 3U);
+  EXPECT_EQ(statuses(), (Statuses{"active", "active", "active"}));
+}
+
+TEST_F(Remembered, decisions_hold_and_settle) {
+  run(row(4));
+  decide(0, DecisionStatus::approved);
+  decide(1, DecisionStatus::reviewed);
+  const RememberedRun second = run(row(4));
+  EXPECT_EQ(second.trends[0].written, 0U);
+  EXPECT_EQ(statuses(), (Statuses{"approved", "reviewed", "active"}));
+  ASSERT_EQ(second.decided.tests[0].size(), 3U);
+  EXPECT_TRUE(second.decided.tests[0][0].is_settled());
+  EXPECT_FALSE(second.decided.tests[0][1].is_settled());
+  EXPECT_EQ(second.decided.tests[0][0].decision->by, "bob");
+  EXPECT_EQ(second.decided.tests[0][0].decision->date, "2026-01-02");
+}
+
+TEST_F(Remembered, approved_ones_come_back_deeper_as_active_with_an_event) {
+  run(row(2));
+  decide(0, DecisionStatus::approved);
+  EXPECT_EQ(run(row(2, 20.9)).trends[0].written, 1U) << "its depth is another";
+  EXPECT_EQ(statuses(), Statuses{"approved"});
+  const RememberedRun deeper = run(row(2, 22));
+  EXPECT_EQ(statuses(), Statuses{"active"});
+  EXPECT_EQ(deeper.decided.tests[0][0].reopened, report::Reopened::deeper);
+  EXPECT_EQ(deeper.decided.tests[0][0].decision->status, DecisionStatus::active);
+  const std::vector<ClashEvent> events = read_events(*database_, clashes()[0].row.key).value();
+  ASSERT_EQ(events.size(), 2U);
+  EXPECT_EQ(events[0].who, "bob");
+  EXPECT_FALSE(events[0].run);
+  EXPECT_EQ(events[1].who, kProgram);
+  EXPECT_EQ(events[1].run, deeper.number);
+  EXPECT_EQ(events[1].comment, "approved at d = -20.000 mm, and -22.000 mm now");
+}
+
+TEST_F(Remembered, what_is_gone_is_resolved_and_found_again_new) {
+  run(row(2));
+  const RememberedRun gone = run(row(2, -500));
+  EXPECT_EQ(gone.trends[0].gone, 1U);
+  EXPECT_EQ(gone.trends[0].resolved, 1U);
+  EXPECT_EQ(statuses(), Statuses{"resolved"});
+  EXPECT_EQ(clashes()[0].row.gone_run, gone.number);
+  EXPECT_EQ(run(row(2, -500)).trends[0].written, 0U);
+  const RememberedRun again = run(row(2));
+  EXPECT_EQ(again.trends[0].appeared, 1U);
+  EXPECT_EQ(statuses(), Statuses{"new"});
+  EXPECT_EQ(clashes()[0].row.first_run, 1);
+  EXPECT_FALSE(clashes()[0].row.gone_run);
+}
+
+TEST_F(Remembered, what_a_person_resolved_and_is_still_there_is_new_again) {
+  run(row(2));
+  decide(0, DecisionStatus::resolved);
+  EXPECT_EQ(statuses(), Statuses{"resolved"});
+  const RememberedRun second = run(row(2));
+  EXPECT_EQ(statuses(), Statuses{"new"});
+  EXPECT_EQ(second.decided.tests[0][0].reopened, report::Reopened::found_again);
+  decide(0, DecisionStatus::resolved);
+  run(row(2, -500));
+  EXPECT_EQ(statuses(), Statuses{"resolved"});
+}
+
+TEST_F(Remembered, an_element_that_is_missing_resolves_nothing) {
+  run(row(3));
+  decide(0, DecisionStatus::approved);
+  const RememberedRun second = run(row(3, 20, 1));
+  EXPECT_EQ(second.trends[0].cannot_tell, 1U);
+  EXPECT_EQ(second.trends[0].gone, 0U);
+  ASSERT_EQ(second.decided.not_found.size(), 1U);
+  EXPECT_EQ(clashes()[0].row.unknown, "'c0' is not in the model");
+  EXPECT_EQ(statuses(), (Statuses{"approved", "active"}));
+  EXPECT_EQ(run(row(3, 20, 1)).trends[0].written, 0U);
+  run(row(3));
+  EXPECT_EQ(clashes()[0].row.unknown, "");
+  EXPECT_EQ(statuses(), (Statuses{"approved", "active"}));
+}
+
+TEST_F(Remembered, files_that_end_early_and_objects_not_read_whole_resolve_nothing) {
+  run(row(2));
+  ClashModel early = row(2, -500);
+  early.model.files[0].ends_early = true;
+  run(early);
+  EXPECT_EQ(clashes()[0].row.unknown, "t.obj ends early");
+  ClashModel incomplete = row(2, -500);
+  incomplete.model.objects[1].incomplete = true;
+  run(incomplete);
+  EXPECT_EQ(statuses(), Statuses{"active"});
+  EXPECT_NE(clashes()[0].row.unknown, "");
+  run(row(2, -500));
+  EXPECT_EQ(statuses(), Statuses{"resolved"});
+}
+
+TEST_F(Remembered, a_rule_that_allows_resolves_and_one_that_exempts_cannot_tell) {
+  run(row(2));
+  clash::Policy allowing;
+  allowing.allowed.push_back({"meant", {true, true}, {true, true}, {}, {}, 1000, {}, {}});
+  run(row(2), allowing);
+  EXPECT_EQ(statuses(), Statuses{"resolved"});
+  const std::vector<ClashEvent> events = read_events(*database_, clashes()[0].row.key).value();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].comment, "allowed by rule 'meant'");
+  run(row(2));
+  EXPECT_EQ(statuses(), Statuses{"new"});
+  clash::Policy exempting;
+  exempting.exemptions.push_back({"same frame", clash::Between{{true, true}, {true, true}}});
+  run(row(2), exempting);
+  EXPECT_EQ(clashes()[0].row.unknown, "exempted by 'same frame'");
+  EXPECT_EQ(statuses(), Statuses{"active"});
+}
+
+TEST_F(Remembered, one_change_among_many_writes_a_handful_of_rows) {
+  run(row(300));
+  ClashModel moved = row(300);
+  moved.model.bodies[150].placement.translation = {0, 0, 5};
+  const RememberedRun second = run(moved);
+  EXPECT_LE(second.trends[0].written, 2U);
+  EXPECT_EQ(second.trends[0].appeared, 0U);
+}
+
+TEST_F(Remembered, keys_and_decisions_follow_files_that_exchange_their_names) {
+  ClashModel m = row(2);
+  m.model.files.push_back({"u.obj", "OBJ", "mm", "z", 1, 0});
+  m.model.objects[1].file = 1;
+  run(m);
+  decide(0, DecisionStatus::approved);
+  const std::vector<RenamedFile> renamed{{"t.obj", "z.obj"}};
+  ASSERT_TRUE(rename_files(*database_, m.model, renamed));
+  ClashModel after = row(2);
+  after.model.files = {{"u.obj", "OBJ", "mm", "z", 1, 0}, {"z.obj", "OBJ", "mm", "z", 1, 0}};
+  std::swap(after.model.objects[0], after.model.objects[1]);
+  after.model.objects[1].file = 1;
+  const RememberedRun second = run(after);
+  EXPECT_EQ(second.trends[0].appeared, 0U);
+  EXPECT_EQ(second.trends[0].gone, 0U);
+  EXPECT_EQ(statuses(), Statuses{"approved"});
+  EXPECT_EQ(clashes()[0].row.b.file, "z.obj");
+}
+
+TEST_F(Remembered, an_unknown_key_is_an_error) {
+  run(row(2));
+  const std::vector<std::string> keys{"none"};
+  EXPECT_FALSE(project::decide(*database_, keys, {}));
+  EXPECT_FALSE(read_events(*database_, "none"));
+}
+
+TEST_F(Remembered, the_trend_has_each_run) {
+  run(row(3));
+  run(row(2));
+  const std::vector<TrendRow> trend = read_trend(*database_).value();
+  ASSERT_EQ(trend.size(), 2U);
+  EXPECT_EQ(trend[0].hit, 2U);
+  EXPECT_EQ(trend[0].fresh, 2U);
+  EXPECT_EQ(trend[0].who, "ann");
+  EXPECT_EQ(trend[1].hit, 1U);
+  EXPECT_EQ(trend[1].active, 1U);
+  EXPECT_EQ(trend[1].cannot_tell, 1U);
+}
+
+}  // namespace
+}  // namespace strake::project
