@@ -156,7 +156,7 @@ using geometry::IndexPair;
 /// Pairs per block where results are counted.
 constexpr std::size_t kMatchesPerBlock = 65536;
 /// Pairs per block where each has a rule or more of its own.
-constexpr std::size_t kPairsPerBlock = 4096;
+constexpr std::size_t kRuledPairsPerBlock = 4096;
 
 /// Returns the reach of tolerances where the objects of a pair add so much to its clearance.
 double reach_of(const Tolerances& t, double added_mm) {
@@ -306,7 +306,8 @@ Status RuleMatcher::exempt(const ScenePartList& list, std::vector<IndexPair>& pa
   const bool rules = policy_.matrix || !policy_.exemptions.empty() || policy_.levels;
   if (!rules && one_reach_) return {};
   const auto verdicts = parallel::transform(
-      context, {.name = "rules", .n = pairs.size(), .grain = kPairsPerBlock}, [&](std::size_t i) {
+      context, {.name = "rules", .n = pairs.size(), .grain = kRuledPairsPerBlock},
+      [&](std::size_t i) {
         return verdict(list.parts[pairs[i].first], list.parts[pairs[i].second]);
       });
   if (!verdicts) return verdicts.error();
@@ -377,7 +378,8 @@ Status RuleMatcher::count_candidates(const EvaluatedPairs& evaluated, const Obje
   report.counters.allowed_pairs = counts->pairs;
   if (report.kept) {
     auto concerned = parallel::collect<ConcernedPair>(
-        context, {.name = "pairs that rules concern", .n = objects.size(), .grain = kPairsPerBlock},
+        context,
+        {.name = "pairs that rules concern", .n = objects.size(), .grain = kRuledPairsPerBlock},
         [&](std::size_t k, std::vector<ConcernedPair>& out) {
           const std::size_t first = objects.begin(k);
           const std::uint32_t a = evaluated.a(first).object, b = evaluated.b(first).object;
