@@ -177,6 +177,15 @@ std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& opti
   return all;
 }
 
+void set_cell_tolerances(const Policy& policy, std::span<const Tolerances> all, Report& report) {
+  if (!policy.matrix) return;
+  const Matrix& m = *policy.matrix;
+  for (CellReport& report_cell : report.cells) {
+    const std::uint32_t cell = m.cells[report_cell.a * m.disciplines.size() + report_cell.b];
+    report_cell.tolerances = all[cell >= Matrix::kDefault ? 0 : cell + 1];
+  }
+}
+
 SearchReach search_reach(std::span<const Tolerances> all) {
   double widest_mm = 0;
   for (const Tolerances& t : all) widest_mm = std::max(widest_mm, reach_of(t, 0));
@@ -458,8 +467,8 @@ void RuleMatcher::begin_report(const Sets& sets, Report& report) const {
       cell_report.a = a;
       cell_report.b = b;
       cell_report.checked = cell != Matrix::kNotChecked;
-      cell_report.tolerances = tolerances_[cell >= Matrix::kDefault ? 0 : cell + 1];
     }
+  set_cell_tolerances(policy_, tolerances_, report);
 }
 
 Status RuleMatcher::finish_report(const parallel::Context& context, Report& report) const {
