@@ -25,11 +25,11 @@ bool can_follow(const Report& earlier, const Options& options) {
          options.engine.narrow_phase == NarrowPhase::exact;
 }
 
-/// Returns the report of the earlier run as one of this test.
-Report renamed(Report report, const Sets& sets, const Options& options) {
-  report.set_a = sets.name_a;
-  report.set_b = sets.name_b;
+/// Returns the report of an earlier run over the same objects as one of this test: what objects add
+/// to clearances is not among the values of a report that was stored.
+Report taken_over(Report report, const Options& options, const Policy& policy) {
   report.options = options;
+  set_cell_tolerances(policy, all_tolerances(policy, options), report);
   report.counters = {};
   report.log.clear();
   return report;
@@ -46,7 +46,8 @@ Result<Report> detect_changes(const model::Scene& scene, const Sets& sets, const
   if (!map) return map.error();
   const auto full = [&] { return detect(scene, sets, options, policy, context); };
   if (!can_follow(earlier.report, options)) return full();
-  if (map->is_identity()) return renamed(std::move(earlier.report), sets, options);
+  if (map->is_identity() && earlier.report.in_a.size() == objects)
+    return taken_over(std::move(earlier.report), options, policy);
   if (map->changed > objects / kFewChanged) return full();
 
   std::optional<parallel::StageTimer> timer;

@@ -10,6 +10,7 @@
 
 #include "clash/detect.hpp"
 #include "clash/incremental/splice.hpp"
+#include "clash/results/listed_regions.hpp"
 #include "clash/results/reported.hpp"
 #include "clash/results/result_counts.hpp"
 #include "clash/results/result_hash.hpp"
@@ -26,10 +27,6 @@ constexpr auto kNothing = [](const auto&) {};
 /// Returns what a count is now: that before, less what is gone, and what came.
 std::uint64_t updated(std::uint64_t before, std::uint64_t gone, std::uint64_t came) {
   return before - gone + came;
-}
-
-std::uint32_t listed_regions(const Pair& pair, const Options& options) {
-  return pair.regions_listed(options) + pair.allowed_regions_listed(options);
 }
 
 /// The report of an earlier run, turned into that of this one list by list; `now_` begins as the
@@ -104,21 +101,8 @@ class ReportMerge {
     if (!done) return done;
     was_.regions.insert(was_.regions.end(), now_.regions.begin(), now_.regions.end());
     now_.regions = std::move(was_.regions);
-    if (listed) put_regions_in_order();
+    if (listed) put_regions_in_order(now_);
     return {};
-  }
-
-  void put_regions_in_order() {
-    std::vector<Region> ordered;
-    ordered.reserve(now_.regions.size());
-    for (Pair& pair : now_.pairs) {
-      const std::uint32_t listed = listed_regions(pair, now_.options);
-      if (listed == 0) continue;
-      const auto first = now_.regions.begin() + static_cast<std::ptrdiff_t>(pair.first_region);
-      pair.first_region = static_cast<std::uint32_t>(ordered.size());
-      ordered.insert(ordered.end(), first, first + static_cast<std::ptrdiff_t>(listed));
-    }
-    now_.regions = std::move(ordered);
   }
 
   void update_counts() {
