@@ -22,6 +22,7 @@ struct ChangingBody {
   geometry::Placement placement;
   std::uint8_t alpha = 255;
   std::uint8_t red = 170;
+  float precision_um = 0;
 };
 
 struct ChangingObject {
@@ -68,6 +69,7 @@ class ChangingModel {
         placed.placement = body.placement;
         placed.color.alpha = body.alpha;
         placed.color.red = body.red;
+        placed.precision_um = body.precision_um;
         model.shapes.push_back(body.shape);
         model.bodies.push_back(placed);
       }

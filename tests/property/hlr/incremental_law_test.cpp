@@ -96,7 +96,7 @@ hlr::View some_view(Draw& draw) {
   if (draw.one_in(3)) view.direction = {0, 0, 1};
   if (draw.one_in(3)) {
     const std::int64_t from = draw.whole(0, ChangingModel::kLength / 2) * kMm;
-    view.limits = {{from, -kMm, kMm}, {from + 60 * kMm, 6 * kMm, 7 * kMm + 500}};
+    view.limits = geometry::Box3l{{from, -kMm, kMm}, {from + 60 * kMm, 6 * kMm, 7 * kMm + 500}};
   }
   if (draw.one_in(5)) {
     const Vec3l target{draw.whole(0, ChangingModel::kLength) * kMm, 4 * kMm, 4 * kMm};
