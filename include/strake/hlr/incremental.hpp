@@ -42,7 +42,9 @@ inline constexpr std::uint32_t kChanged = 0xffffffffU;
 
 /// An earlier drawing whose view had the same signature.
 struct EarlierDrawing {
-  Drawing drawing;  ///< as draw() or draw_changes() returned it; what stays of it is moved
+  /// As draw() or draw_changes() returned it; what stays of it is moved. Where the capacity of its
+  /// pieces is a little larger than their number, they stay where they are.
+  Drawing drawing;
   /// For each object of that drawing, its number now; kChanged where there is none with the same
   /// identity and signature.
   std::span<const std::uint32_t> now;

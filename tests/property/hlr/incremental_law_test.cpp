@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// A drawing that follows changes is the drawing made anew, bit by bit, after any sequence of edits.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "strake/hlr/hlr.hpp"
+#include "strake/hlr/incremental.hpp"
+#include "strake/parallel/team.hpp"
+#include "support/changing_model.hpp"
+#include "support/lattice_scene.hpp"
+#include "support/rounds.hpp"
+
+namespace strake {
+namespace {
+
+using geometry::Vec3l;
+using hlr::Drawing;
+using test::ChangingModel;
+using test::Draw;
+
+std::string difference_of_pieces(const Drawing& a, const Drawing& b) {
+  if (a.pieces.size() != b.pieces.size())
+    return std::to_string(a.pieces.size()) + " and " + std::to_string(b.pieces.size()) + " pieces";
+  for (std::size_t i = 0; i < a.pieces.size(); ++i) {
+    const hlr::EdgePiece &p = a.pieces[i], &q = b.pieces[i];
+    if (p.object != q.object || p.edge != q.edge || p.kind != q.kind || p.state != q.state ||
+        p.other != q.other || p.a != q.a || p.b != q.b)
+      return "piece " + std::to_string(i) + " of object " + std::to_string(model::index(p.object)) +
+             ", edge " + std::to_string(p.edge);
+  }
+  return {};
+}
+
+bool same(const geometry::Ellipse& a, const geometry::Ellipse& b) {
+  return a.centre == b.centre && a.u == b.u && a.v == b.v;
+}
+
+std::string difference_of_curves(const hlr::Curves& a, const hlr::Curves& b) {
+  if (a.all.size() != b.all.size() || a.edges.size() != b.edges.size()) return "numbers of curves";
+  for (std::size_t i = 0; i < a.all.size(); ++i)
+    if (a.all[i].origin != b.all[i].origin || !same(a.all[i].at, b.all[i].at))
+      return "curve " + std::to_string(i);
+  for (std::size_t i = 0; i < a.edges.size(); ++i)
+    if (a.edges[i].object != b.edges[i].object || a.edges[i].edge != b.edges[i].edge ||
+        a.edges[i].curve != b.edges[i].curve)
+      return "curved edge " + std::to_string(i);
+  return {};
+}
+
+std::string difference_of_diagnostics(const Diagnostics& a, const Diagnostics& b) {
+  if (a.kept().size() != b.kept().size() || a.counts().size() != b.counts().size())
+    return "numbers of diagnostics";
+  for (std::size_t i = 0; i < a.kept().size(); ++i) {
+    const Diagnostic &p = a.kept()[i], &q = b.kept()[i];
+    if (p.severity != q.severity || p.code != q.code || p.message != q.message ||
+        p.where != q.where)
+      return "diagnostic " + std::to_string(i);
+  }
+  for (std::size_t i = 0; i < a.counts().size(); ++i)
+    if (a.counts()[i].code != b.counts()[i].code || a.counts()[i].count != b.counts()[i].count)
+      return "count of diagnostics " + a.counts()[i].code;
+  return {};
+}
+
+/// Returns what differs first; empty where nothing does but counters of the work.
+std::string difference(const Drawing& a, const Drawing& b) {
+  if (auto text = difference_of_pieces(a, b); !text.empty()) return text;
+  if (auto text = difference_of_curves(a.curves, b.curves); !text.empty()) return text;
+  if (auto text = difference_of_diagnostics(a.diagnostics, b.diagnostics); !text.empty())
+    return text;
+  if (a.left_out != b.left_out) return "edges left out";
+  if (a.counted != b.counted) return "lines counted";
+  if (a.origin != b.origin) return "origin";
+  if (a.account.fates != b.account.fates) return "fates";
+  if (a.account.count != b.account.count) return "counts of fates";
+  if (a.account.defects != b.account.defects) return "defects";
+  if (a.account.in_part != b.account.in_part) return "objects in part";
+  if (a.contact_distance_mm != b.contact_distance_mm) return "contact distance";
+  if (a.sag_mm != b.sag_mm || a.weld_mm != b.weld_mm) return "sag or weld";
+  const hlr::Counters &p = a.counters, &q = b.counters;
+  if (p.feature_edges != q.feature_edges || p.specks != q.specks || p.left_out != q.left_out ||
+      p.seams != q.seams || p.uncut_objects != q.uncut_objects)
+    return "counters";
+  return {};
+}
+
+hlr::View some_view(Draw& draw) {
+  constexpr std::int64_t kMm = 1000;
+  hlr::View view{.direction = test::direction_of(static_cast<std::uint32_t>(draw.below(16)))};
+  if (draw.one_in(3)) view.direction = {0, 0, 1};
+  if (draw.one_in(3)) {
+    const std::int64_t from = draw.whole(0, ChangingModel::kLength / 2) * kMm;
+    view.limits = geometry::Box3l{{from, -kMm, kMm}, {from + 60 * kMm, 6 * kMm, 7 * kMm + 500}};
+  }
+  if (draw.one_in(5)) {
+    const Vec3l target{draw.whole(0, ChangingModel::kLength) * kMm, 4 * kMm, 4 * kMm};
+    const Vec3l eye = target + Vec3l{draw.whole(-40, 41) * kMm, -draw.whole(3, 60) * kMm, 7 * kMm};
+    Vec3l direction = eye - target;
+    while (std::max({std::abs(direction.x), std::abs(direction.y), direction.z}) > (1 << 20))
+      direction = {direction.x / 2, direction.y / 2, direction.z / 2};
+    view.direction = direction;
+    view.perspective = {.eye = eye, .target = target, .near_mm = 1};
+  }
+  if (draw.one_in(12)) view.sections.push_back({{0, 1, 0}, {0, 4 * kMm, 0}});
+  return view;
+}
+
+hlr::Options some_options(Draw& draw) {
+  hlr::Options options;
+  options.hidden = !draw.one_in(2);
+  options.keep_specks = draw.one_in(5);
+  options.stage = draw.one_in(10) ? hlr::Stage::local : hlr::Stage::global;
+  options.smooth = static_cast<hlr::Smooth>(draw.below(3));
+  options.intersections = draw.one_in(2) ? hlr::Intersections::primitives
+                                         : static_cast<hlr::Intersections>(draw.below(4));
+  if (draw.one_in(4)) options.contact_distance_mm = 0.4;
+  if (draw.one_in(4)) options.contact_distance_mm = 0;
+  if (draw.one_in(4)) options.own_polylines = hlr::OwnPolylines::hidden;
+  if (draw.one_in(3)) options.sag_mm = 0.02;
+  if (draw.one_in(16)) options.flush_seams = false;
+  options.culling = !draw.one_in(6);
+  return options;
+}
+
+/// One state of a model, as a view sees it.
+struct Seen {
+  std::unique_ptr<model::Model> model;
+  model::Scene scene;
+  std::vector<bool> drawn;
+  std::vector<std::uint64_t> identities;
+  hlr::Signatures signatures;
+};
+
+Seen seen(const ChangingModel& changing, const hlr::View& view, const hlr::Options& options,
+          const parallel::Context& context) {
+  Seen state;
+  state.model = std::make_unique<model::Model>(changing.build());
+  state.scene = model::make_scene(*state.model, {.sag_mm = 0.3}, context).value();
+  state.drawn = changing.drawn();
+  for (const test::ChangingObject& one : changing.objects())
+    state.identities.push_back(one.identity);
+  state.signatures = hlr::signatures(state.scene, state.drawn, view, options, context).value();
+  return state;
+}
+
+std::vector<std::uint32_t> mapped(const Seen& before, const Seen& now) {
+  std::map<std::uint64_t, std::uint32_t> number;
+  for (std::uint32_t o = 0; o < now.identities.size(); ++o) number[now.identities[o]] = o;
+  std::vector<std::uint32_t> result;
+  for (std::size_t o = 0; o < before.identities.size(); ++o) {
+    const auto found = number.find(before.identities[o]);
+    const bool stays = found != number.end() &&
+                       before.signatures.objects[o] == now.signatures.objects[found->second];
+    result.push_back(stays ? found->second : hlr::kChanged);
+  }
+  return result;
+}
+
+constexpr auto kSequences = test::rounds<std::uint64_t>(150, 3000);
+constexpr std::uint64_t kSteps = 6;
+
+TEST(IncrementalLaw, AfterAnyEditsTheDrawingIsThatMadeAnew) {
+  constexpr std::array<unsigned, 4> kThreads{1, 2, 3, 8};
+  std::vector<std::unique_ptr<parallel::Team>> teams;
+  for (const unsigned threads : kThreads)
+    teams.push_back(std::make_unique<parallel::Team>(threads));
+  std::uint64_t followed = 0, solved = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= kSequences; ++seed) {
+    Draw draw(seed);
+    ChangingModel changing(seed * 77, 12 + draw.below(50));
+    const hlr::View view = some_view(draw);
+    const hlr::Options options = some_options(draw);
+    Seen before = seen(changing, view, options, {});
+    auto drawing = hlr::draw(before.scene, before.drawn, view, options, {});
+    ASSERT_TRUE(drawing.has_value()) << "seed " << seed << ": " << drawing.error().message;
+    for (std::uint64_t step = 0; step < kSteps; ++step) {
+      changing.edit();
+      const parallel::Context context{.team = teams[(seed + step) % teams.size()].get()};
+      Seen now = seen(changing, view, options, context);
+      ASSERT_EQ(now.signatures.view, before.signatures.view);
+      const auto full = hlr::draw(now.scene, now.drawn, view, options, {});
+      const std::vector<std::uint32_t> numbers = mapped(before, now);
+      auto redrawn =
+          hlr::draw_changes(now.scene, now.drawn, view, options,
+                            {std::move(*drawing), numbers, before.signatures.boxes}, context);
+      ASSERT_EQ(full.has_value(), redrawn.has_value()) << "seed " << seed << ", step " << step;
+      if (!full) break;
+      ASSERT_EQ(difference(*full, redrawn->drawing), "")
+          << "seed " << seed << ", step " << step << (redrawn->in_full ? ", in full" : "");
+      ASSERT_EQ(redrawn->in_full, !redrawn->why.empty());
+      if (!redrawn->in_full) {
+        ++followed;
+        solved += redrawn->edges_solved;
+        all += full->counters.feature_edges;
+      }
+      drawing = std::move(redrawn->drawing);
+      before = std::move(now);
+    }
+  }
+  EXPECT_GT(2 * followed, kSequences * kSteps);
+  EXPECT_LT(3 * solved, all);
+}
+
+TEST(IncrementalLaw, NothingIsSolvedWhereNothingChanged) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Draw draw(seed);
+    const ChangingModel changing(seed, 30);
+    const hlr::View view = some_view(draw);
+    const hlr::Options options = some_options(draw);
+    const Seen state = seen(changing, view, options, {});
+    const auto drawing = hlr::draw(state.scene, state.drawn, view, options, {}).value();
+    const auto again =
+        hlr::draw_changes(state.scene, state.drawn, view, options,
+                          {drawing, mapped(state, state), state.signatures.boxes}, {});
+    ASSERT_TRUE(again.has_value()) << seed;
+    EXPECT_EQ(difference(drawing, again->drawing), "") << seed;
+    EXPECT_EQ(again->edges_solved, 0U) << seed;
+    EXPECT_FALSE(again->in_full) << seed;
+  }
+}
+
+TEST(IncrementalLaw, MappingsThatDoNotFitAreRefused) {
+  const ChangingModel changing(5, 6);
+  const Seen state = seen(changing, {}, {}, {});
+  const auto drawing = hlr::draw(state.scene, state.drawn, {}, {}, {}).value();
+  const auto boxes = state.signatures.boxes;
+  const auto code = [&](const std::vector<std::uint32_t>& now, std::size_t count) {
+    const auto redrawn = hlr::draw_changes(state.scene, state.drawn, {}, {},
+                                           {drawing, now, std::span(boxes).first(count)}, {});
+    return redrawn ? std::string("none") : redrawn.error().message;
+  };
+  EXPECT_EQ(code({0, 1, 2, 3, 4, 5}, 6), "none");
+  EXPECT_NE(code({0, 1, 2, 3, 4, 4}, 6), "none");
+  EXPECT_NE(code({0, 1, 2, 3, 4, 6}, 6), "none");
+  EXPECT_NE(code({0, 1, 2, 3, 4}, 5), "none");
+  EXPECT_NE(code({0, 1, 2, 3, 4, 5}, 5), "none");
+}
+
+}  // namespace
+}  // namespace strake
