@@ -35,7 +35,7 @@ model::Model ship() {
 model::Model pipes() {
   test::ClashModel m;
   m.object("pipe").body(geometry::Primitive{geometry::CylinderPrimitive{300, 2000}});
-  m.object("other").again({.translation = {900, 150, 0}});
+  m.object("other").again({{}, {900, 150, 0}});
   m.box("box", {200, -500, -500}, {700, 500, 500});
   return std::move(m.model);
 }
