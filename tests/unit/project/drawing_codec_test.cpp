@@ -199,8 +199,7 @@ TEST(NumberColumns, AnyNumbersComeBack) {
   ASSERT_TRUE(bytes);
   auto in = BlobReader::open(*bytes, "columns");
   ASSERT_TRUE(in);
-  for (const auto& column : columns)
-    EXPECT_EQ(NumberColumn::read(*in, column.size()).values(), column);
+  for (const auto& column : columns) EXPECT_EQ(read_numbers(*in, column.size()), column);
   EXPECT_TRUE(in->finish());
 }
 
@@ -211,7 +210,7 @@ TEST(NumberColumns, OfAnotherLengthAreRefused) {
   ASSERT_TRUE(bytes);
   auto in = BlobReader::open(*bytes, "columns");
   ASSERT_TRUE(in);
-  EXPECT_TRUE(NumberColumn::read(*in, 4).values().empty());
+  EXPECT_TRUE(read_numbers(*in, 4).empty());
   EXPECT_TRUE(in->failed());
 }
 
