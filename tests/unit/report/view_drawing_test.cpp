@@ -199,6 +199,10 @@ TEST(ViewDrawing, WhatIsWrongIsTold) {
   const std::string round = text_of(on_paper(pipes(), views()[0]), pipes(), ViewForm::text);
   EXPECT_NE(fault_of(with(round, "\"curve_index\":0", "\"curve_index\":4000")).find("curve 4000"),
             std::string::npos);
+  EXPECT_NE(told("\"width_mm\":420", "\"width_mm\":4e9").find("sheet"), std::string::npos);
+  EXPECT_NE(told("\"width_mm\":420", "\"width_mm\":0.001").find("sheet"), std::string::npos);
+  EXPECT_NE(fault_of(with(round, "\"a_paper_mm\":[", "\"a_paper_mm\":[9")).find("sheet"),
+            std::string::npos);
   for (std::size_t length = 0; length < sound.size(); length += sound.size() / 97 + 1)
     EXPECT_NE(fault_of(sound.substr(0, length)), "") << length;
 }
