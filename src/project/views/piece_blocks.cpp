@@ -143,8 +143,12 @@ Result<std::vector<EdgePiece>> read_pieces(BlobReader& in, std::size_t objects,
     pieces_there += here;
   }
   if (in.failed()) return std::vector<EdgePiece>{};
-  Result<std::vector<EdgePiece>> pieces = parallel::slots<EdgePiece>(pieces_there, context);
+  // There is room for the pieces that a change adds, so that hlr::draw_changes() leaves the others
+  // where they are.
+  const std::uint64_t room = pieces_there + pieces_there / 64;
+  Result<std::vector<EdgePiece>> pieces = parallel::slots<EdgePiece>(room, context);
   if (!pieces) return pieces;
+  pieces->resize(pieces_there);
   const std::span<EdgePiece> slot = *pieces;
   const auto is_sound = parallel::transform_with(
       context, {.name = "stored lines", .n = blocks.size()},
