@@ -129,7 +129,8 @@ strake_component(report
     report/decisions.hpp
     report/file_match.hpp
     report/view_diff.hpp
-    report/view_document.hpp)
+    report/view_document.hpp
+    report/view_drawing.hpp)
 
 strake_component(project
   MODULES project

@@ -8,7 +8,7 @@ namespace strake::cli {
 /// What the program returns to the shell; scripts rely on the numbers.
 enum class ExitCode : int {
   done = 0,
-  check_failed = 1,  ///< clashes as severe as --fail-on says, or an evaluation that found a fault
+  check_failed = 1,  ///< clashes as severe as --fail-on says, or a verification that found a fault
   usage = 2,         ///< the command line makes no sense
   input = 3,         ///< a file cannot be read or written
   partial = 4,       ///< under --strict: done, but something was skipped

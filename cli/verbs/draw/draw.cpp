@@ -66,8 +66,9 @@ Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
 Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
   if (const Status status = check_project_options(given.project, given.input); !status)
     return status.error();
-  if (given.full && given.save.empty() && given.stored.empty())
-    return Error{ErrorCode::usage, "only stored views are solved otherwise than in full", "--full",
+  if ((given.full || given.verify) && given.save.empty() && given.stored.empty())
+    return Error{ErrorCode::usage, "only stored views are solved otherwise than in full",
+                 given.full ? "--full" : "--verify",
                  "leave it out, or name the view: --stored NAME"};
   if (given.input.files.empty() && given.project.file.empty())
     return Error{ErrorCode::usage, "no model file is given", {}, "'strake draw --help' tells more"};
@@ -214,15 +215,14 @@ void add_stored(CLI::App& command, DrawOptions& options) {
           ->type_name("NAME")
           ->needs(project)
           ->group("Stored views");
-  CLI::Option* const stored =
-      command
-          .add_option("--stored", options.stored,
-                      "Draw a view that the project remembers: only what changed since is solved. "
-                      "--hidden, --scale, --paper and --title may be other ones")
-          ->type_name("NAME")
-          ->needs(project)
-          ->excludes(save)
-          ->group("Stored views");
+  command
+      .add_option("--stored", options.stored,
+                  "Draw a view that the project remembers: only what changed since is solved. "
+                  "--hidden, --scale, --paper and --title may be other ones")
+      ->type_name("NAME")
+      ->needs(project)
+      ->excludes(save)
+      ->group("Stored views");
   command
       .add_flag("--full", options.full,
                 "Solve all lines of the stored view, whatever is remembered")
@@ -232,7 +232,7 @@ void add_stored(CLI::App& command, DrawOptions& options) {
       .add_flag("--verify", options.verify,
                 "Solve the stored view both ways, by what changed and in full: exit code 1 where "
                 "they differ")
-      ->needs(stored)
+      ->needs(project)
       ->group("Stored views");
 }
 

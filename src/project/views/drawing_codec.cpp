@@ -11,23 +11,15 @@
 #include <vector>
 
 #include "project/views/number_columns.hpp"
+#include "project/views/piece_blocks.hpp"
 #include "project/views/view_codec.hpp"
-#include "strake/parallel/slots.hpp"
-#include "strake/parallel/transform.hpp"
 
 namespace strake::project {
 
 namespace {
 
-using geometry::Vec3l;
-
 constexpr std::uint64_t kDrawingForm = 1;
 constexpr std::size_t kMostOf32Bits = std::size_t{1} << 32U;
-
-/// Columns of pieces: three of their ends, that of their objects, edges and others.
-constexpr std::size_t kPieceColumns = 6;
-
-std::int64_t number_of(model::ObjectId id) { return static_cast<std::int64_t>(model::index(id)); }
 
 /// Appends the numbers that `get` takes from each item, `each` to an item.
 template <class Item, class Get>
@@ -37,125 +29,6 @@ void write_column(BlobWriter& out, std::span<const Item> items, std::size_t each
   for (const Item& item : items)
     for (std::size_t k = 0; k < each; ++k) values.push_back(get(item, k));
   write_numbers(out, values);
-}
-
-void write_pieces(BlobWriter& out, std::span<const hlr::EdgePiece> pieces) {
-  std::vector<std::uint8_t> bytes(pieces.size());
-  std::ranges::transform(pieces, bytes.begin(), [](const hlr::EdgePiece& piece) {
-    return static_cast<std::uint8_t>(piece.kind);
-  });
-  out.column(std::span<const std::uint8_t>(bytes));
-  std::ranges::transform(pieces, bytes.begin(), [](const hlr::EdgePiece& piece) {
-    return static_cast<std::uint8_t>(piece.state);
-  });
-  out.column(std::span<const std::uint8_t>(bytes));
-  // A piece mostly begins where the last one ends.
-  for (int axis = 0; axis < 3; ++axis)
-    write_column(out, pieces, 2, [axis](const hlr::EdgePiece& piece, std::size_t k) {
-      return (k == 0 ? piece.a : piece.b)[axis];
-    });
-  write_column(out, pieces, 1, [](const hlr::EdgePiece& piece, std::size_t /*k*/) {
-    return number_of(piece.object);
-  });
-  write_column(out, pieces, 1, [](const hlr::EdgePiece& piece, std::size_t /*k*/) {
-    return static_cast<std::int64_t>(piece.edge);
-  });
-  // That of the object itself but for intersections.
-  write_column(out, pieces, 1, [](const hlr::EdgePiece& piece, std::size_t /*k*/) {
-    return number_of(piece.other) - number_of(piece.object);
-  });
-}
-
-bool is_on_grid(std::int64_t coordinate) {
-  return coordinate >= -kFarthestGrid && coordinate <= kFarthestGrid;
-}
-
-bool is_number(std::int64_t value, std::size_t size) {
-  return value >= 0 && static_cast<std::uint64_t>(value) < size;
-}
-
-/// Makes pieces of their columns; `sound` becomes false where they cannot be those of a drawing.
-class PieceMaker {
- public:
-  PieceMaker(const std::vector<std::vector<std::int64_t>>& columns,
-             std::span<const std::uint8_t> kinds, std::span<const std::uint8_t> states,
-             std::size_t objects)
-      : columns_(columns), kinds_(kinds), states_(states), objects_(objects) {}
-
-  [[nodiscard]] bool is_sound(std::size_t i) const {
-    const std::int64_t object = columns_[3][i], edge = columns_[4][i];
-    if (kinds_[i] > static_cast<std::uint8_t>(hlr::EdgeKind::smooth) ||
-        states_[i] > static_cast<std::uint8_t>(hlr::State::clipped) ||
-        !is_number(object, objects_) || !is_number(edge, kMostOf32Bits))
-      return false;
-    const std::int64_t apart = columns_[5][i];
-    if (apart < -object || !is_number(object + std::min(apart, std::int64_t{1} << 32U), objects_))
-      return false;
-    if (i > 0 && std::pair(columns_[3][i - 1], columns_[4][i - 1]) > std::pair(object, edge))
-      return false;
-    return is_within(i * 2) && is_within(i * 2 + 1);
-  }
-
-  [[nodiscard]] hlr::EdgePiece operator()(std::size_t i) const {
-    hlr::EdgePiece piece;
-    piece.object = model::ObjectId{static_cast<std::uint32_t>(columns_[3][i])};
-    piece.edge = static_cast<std::uint32_t>(columns_[4][i]);
-    piece.other = model::ObjectId{static_cast<std::uint32_t>(columns_[3][i] + columns_[5][i])};
-    piece.kind = static_cast<hlr::EdgeKind>(kinds_[i]);
-    piece.state = static_cast<hlr::State>(states_[i]);
-    piece.a = end(i * 2);
-    piece.b = end(i * 2 + 1);
-    return piece;
-  }
-
- private:
-  [[nodiscard]] Vec3l end(std::size_t e) const {
-    return {columns_[0][e], columns_[1][e], columns_[2][e]};
-  }
-  [[nodiscard]] bool is_within(std::size_t e) const {
-    return std::ranges::all_of(std::span(columns_).first(3),
-                               [e](const auto& column) { return is_on_grid(column[e]); });
-  }
-
-  const std::vector<std::vector<std::int64_t>>& columns_;
-  std::span<const std::uint8_t> kinds_, states_;
-  std::size_t objects_;
-};
-
-Result<std::vector<hlr::EdgePiece>> read_pieces(BlobReader& in, std::size_t objects,
-                                                const parallel::Context& context) {
-  const std::vector<std::uint8_t> kinds = in.column<std::uint8_t>();
-  const std::vector<std::uint8_t> states = in.column<std::uint8_t>();
-  if (kinds.size() != states.size()) in.refuse("columns are not of one length");
-  std::vector<NumberColumn> written;
-  for (std::size_t c = 0; c < kPieceColumns; ++c)
-    written.push_back(NumberColumn::read(in, kinds.size() * (c < 3 ? 2 : 1)));
-  if (in.failed()) return std::vector<hlr::EdgePiece>{};
-  const auto columns =
-      parallel::transform(context, {.name = "columns of lines", .n = written.size()},
-                          [&](std::size_t c) { return written[c].values(); });
-  if (!columns) return columns.error();
-  const PieceMaker maker(*columns, kinds, states, objects);
-  Result<std::vector<hlr::EdgePiece>> pieces =
-      parallel::slots<hlr::EdgePiece>(kinds.size(), context);
-  if (!pieces) return pieces;
-  std::vector<hlr::EdgePiece>& slot = *pieces;
-  constexpr std::size_t kRun = 16384;
-  const auto unsound = parallel::transform(
-      context, {.name = "lines of columns", .n = (kinds.size() + kRun - 1) / kRun},
-      [&](std::size_t run) -> std::uint8_t {
-        for (std::size_t i = run * kRun; i < std::min(kinds.size(), (run + 1) * kRun); ++i) {
-          if (!maker.is_sound(i)) return 1;
-          slot[i] = maker(i);
-        }
-        return 0;
-      });
-  if (!unsound) return unsound.error();
-  if (std::ranges::count(*unsound, std::uint8_t{1}) > 0) {
-    in.refuse("a line cannot be one of a drawing");
-    return std::vector<hlr::EdgePiece>{};
-  }
-  return pieces;
 }
 
 void write_curves(BlobWriter& out, const hlr::Curves& curves) {
@@ -186,7 +59,7 @@ hlr::Curves read_curves(BlobReader& in, std::size_t objects) {
   if (in.failed()) return {};
   const std::size_t count = sizes.size() / 9;
   std::array<std::vector<std::int64_t>, 3> origins;
-  for (std::vector<std::int64_t>& column : origins) column = NumberColumn::read(in, count).values();
+  for (std::vector<std::int64_t>& column : origins) column = read_numbers(in, count);
   const std::vector<std::uint32_t> edges = in.column<std::uint32_t>();
   if (edges.size() % 3 != 0) in.refuse("an edge has no curve");
   if (in.failed()) return {};
@@ -218,7 +91,7 @@ void write_lines(BlobWriter& out, const hlr::Drawing& drawing) {
 }
 
 std::vector<hlr::LineCount> read_line_counts(BlobReader& in, std::size_t objects) {
-  const std::vector<std::int64_t> values = NumberColumn::read(in, objects * 2).values();
+  const std::vector<std::int64_t> values = read_numbers(in, objects * 2);
   std::vector<hlr::LineCount> counts;
   counts.reserve(values.size() / 2);
   for (std::size_t i = 0; i + 1 < values.size(); i += 2) {

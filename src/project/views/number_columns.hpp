@@ -13,23 +13,18 @@ namespace strake::project {
 
 /// Appends numbers as differences from one to the next, the lowest bytes of all first, then the
 /// next higher ones as far as any is not zero: compression finds little to do in the high bytes.
+void append_numbers(std::vector<std::uint8_t>& bytes, std::span<const std::int64_t> values);
+
+/// Takes as many numbers off the front of the bytes as there is room for; any bytes give some.
+/// False where there are too few.
+[[nodiscard]] bool take_numbers(std::span<const std::uint8_t>& bytes,
+                                std::span<std::int64_t> values);
+
+/// Appends a column of such numbers to a blob.
 void write_numbers(BlobWriter& out, std::span<const std::int64_t> values);
 
-/// A column as it was read, whose numbers are yet to be made of its bytes: columns are read one
-/// after another, and worked out at the same time.
-class NumberColumn {
- public:
-  /// Takes a column that must have `size` numbers. The caller knows that size from a column of
-  /// bytes, so that a hostile blob cannot claim memory.
-  [[nodiscard]] static NumberColumn read(BlobReader& in, std::size_t size);
-
-  [[nodiscard]] std::size_t size() const { return size_; }
-  /// Works the numbers out; any bytes give some.
-  [[nodiscard]] std::vector<std::int64_t> values() const;
-
- private:
-  std::size_t size_ = 0;
-  std::vector<std::vector<std::uint8_t>> planes_;
-};
+/// Takes a column that must have `size` numbers; otherwise the reader has a fault, and it returns
+/// none. The caller knows that the blob has as many bytes, so that it cannot claim memory.
+[[nodiscard]] std::vector<std::int64_t> read_numbers(BlobReader& in, std::size_t size);
 
 }  // namespace strake::project

@@ -58,7 +58,7 @@ void write_boxes(BlobWriter& out, std::span<const Box3l> boxes) {
 std::vector<Box3l> read_boxes(BlobReader& in, std::size_t count) {
   std::vector<Box3l> boxes(count);
   for (int axis = 0; axis < 3; ++axis) {
-    const std::vector<std::int64_t> corners = NumberColumn::read(in, count * 2).values();
+    const std::vector<std::int64_t> corners = read_numbers(in, count * 2);
     if (in.failed()) return {};
     for (std::size_t b = 0; b < count; ++b) {
       boxes[b].lo[axis] = corners[b * 2];

@@ -48,7 +48,7 @@ geometry::Vec3l read_vector(BlobReader& in) {
   geometry::Vec3l vector;
   for (int k = 0; k < 3; ++k) {
     vector[k] = in.integer();
-    if (vector[k] < -kFarthestGrid || vector[k] > kFarthestGrid) {
+    if (!is_on_grid(vector[k])) {
       in.refuse("a point lies outside what can be placed");
       return {};
     }

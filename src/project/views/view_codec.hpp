@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "project/codec/blob.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/geometry/vec.hpp"
@@ -29,5 +31,14 @@ void write(BlobWriter& out, const Diagnostics& diagnostics);
 
 /// The bounds of what readers take for a coordinate: twice as far as anything can be placed.
 inline constexpr std::int64_t kFarthestGrid = std::int64_t{1} << 51U;
+
+[[nodiscard]] inline bool is_on_grid(std::int64_t coordinate) {
+  return coordinate >= -kFarthestGrid && coordinate <= kFarthestGrid;
+}
+
+/// Whether a value is the number of one of so many things.
+[[nodiscard]] inline bool is_number(std::int64_t value, std::uint64_t size) {
+  return value >= 0 && static_cast<std::uint64_t>(value) < size;
+}
 
 }  // namespace strake::project

@@ -102,6 +102,25 @@ void read_counts(const ViewRest& rest, drawing::NeutralDrawing& drawing) {
     drawing.count.at(s) = of(std::string(drawing::state_name(static_cast<drawing::LineState>(s))));
 }
 
+/// Writers spend work and memory by the size of the sheet and of what lies on it: no run wrote a
+/// sheet of such a shape, or lines that are drawn and lie beside it.
+void check_sheet(const drawing::NeutralDrawing& drawing) {
+  constexpr double kMostSlender = 1e5;
+  const double width = drawing.sheet.width_mm, height = drawing.sheet.height_mm;
+  const double larger = std::max(width, height);
+  if (larger > drawing::kFarthestPaperMm || larger > kMostSlender * std::min(width, height))
+    throw contradiction("sheet", "is of a size that no drawing has");
+  const auto lies_near = [&](const drawing::PaperPoint& p) {
+    return p.x >= -larger && p.y >= -larger && p.x <= 2 * larger && p.y <= 2 * larger;
+  };
+  for (std::size_t l = 0; l < drawing.lines.size(); ++l) {
+    const drawing::Line& line = drawing.lines[l];
+    if (line.state != drawing::LineState::clipped &&
+        !(lies_near(line.a_paper) && lies_near(line.b_paper)))
+      throw contradiction("line " + std::to_string(l), "lies off the sheet");
+  }
+}
+
 ViewDrawing assemble(ViewDocument&& document, ViewRest&& rest) {
   ViewDrawing made;
   drawing::NeutralDrawing& drawing = made.drawing;
@@ -115,6 +134,7 @@ ViewDrawing assemble(ViewDocument&& document, ViewRest&& rest) {
   drawing.hash = hash_of_text(document.hash);
   drawing.lines = std::move(rest.lines);
   drawing.curves = std::move(rest.curves);
+  check_sheet(drawing);
   read_counts(rest, drawing);
 
   DocumentModel model(made.model);

@@ -6,11 +6,29 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "strake/drawing/ink.hpp"
+#include "strake/drawing/write.hpp"
 #include "strake/report/view_diff.hpp"
+#include "strake/report/view_drawing.hpp"
 #include "support/view_documents.hpp"
 
 namespace strake::test {
+
+/// The same bytes as a drawing that is written again: an error, or a picture.
+inline void feed_view_drawing(const std::string& bytes) {
+  std::istringstream in(bytes);
+  auto read = report::parse_view_drawing(in, "fuzz.json");
+  if (!read) return;
+  drawing::LayoutOptions options;
+  options.scale = 7 * read->drawing.sheet.scale;
+  if (auto again = drawing::lay_out_again(read->drawing, options, {}))
+    read->drawing = std::move(*again);
+  const auto ink = drawing::choose_ink(read->drawing, {.hidden = true}, {});
+  if (!ink) return;
+  drawing::write_svg(read->drawing, *ink, read->model, [](std::string_view) {});
+}
 
 /// Any bytes as a drawing: an error that names the file, or a document that compares with any other
 /// that looks from the same side, and is no different from itself.
@@ -21,6 +39,7 @@ inline void feed_view_document(const std::string& bytes) {
     std::fprintf(stderr, "%s\n", what);
     std::abort();
   };
+  feed_view_drawing(bytes);
   std::istringstream in(bytes);
   const auto document = report::parse_view_document(in, "fuzz.json");
   if (!document) {

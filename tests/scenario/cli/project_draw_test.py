@@ -1,0 +1,171 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""project_draw_test.py STRAKE: views that a project remembers, and drawings written again from their neutral form."""
+import contextlib
+import json
+import sqlite3
+
+from scenario import Scenario, cube, main
+
+WAYS = ('--unit', 'mm', '--up-axis', 'z')
+VIEW = ('--view', 'iso', '--hidden', 'dashed')
+
+
+def hall(moved=0):
+    """Thirty cubes in rows that hide each other; one of them may stand elsewhere."""
+    places = [(120 * (n % 6), 150 * (n // 6), 0) for n in range(30)]
+    places[17] = (places[17][0] + moved, places[17][1], places[17][2])
+    return ''.join(cube(f'c{n:02}', n, at, 100) for n, at in enumerate(places))
+
+
+class ProjectDraw(Scenario):
+    def setUp(self):
+        super().setUp()
+        self.write('m.obj', hall())
+        self.text('project', 'new', 'p.strake', 'm.obj', *WAYS)
+
+    def told(self, *arguments, exit_code=0):
+        """What a run in the project says on standard error."""
+        done = self.run_strake('draw', '-p', 'p.strake', *arguments)
+        self.assertEqual(done.returncode, exit_code, done.stderr)
+        return done.stderr
+
+    def refused(self, *arguments, code=2):
+        done = self.run_strake('draw', *arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stderr
+
+    def same(self, one, other):
+        self.assertEqual((self.folder / one).read_bytes(), (self.folder / other).read_bytes(), f'{one} is not {other}')
+
+    def fresh(self, *view):
+        self.text('draw', 'm.obj', *WAYS, *view, '-o', 'f.json', '-o', 'f.svg', '-o', 'f.view')
+
+    def save(self, *view):
+        return self.told('--save', 'hall', *view, '-o', 'p.json', '-o', 'p.svg', '-o', 'p.view')
+
+    def update(self, moved):
+        self.write('m.obj', hall(moved))
+        self.text('project', 'update', 'p.strake')
+
+    def test_a_view_is_solved_once(self):
+        self.fresh(*VIEW)
+        self.assertRegex(self.save(*VIEW), r"view 'hall': .*edges? of 30 objects solved in ")
+        for name in ('json', 'svg', 'view'):
+            self.same(f'p.{name}', f'f.{name}')
+        told = self.told('--stored', 'hall', '--stats', '-o', 'a.json', '-o', 'a.svg', '-o', 'a.view')
+        self.assertRegex(told, r"view 'hall': none of 30 objects changed, nothing solved again, \d+ edges kept")
+        self.assertIn('signatures', told)
+        for name in ('json', 'svg', 'view'):
+            self.same(f'a.{name}', f'f.{name}')
+        # Defined again alike, it is not solved again either.
+        self.assertIn('nothing solved again', self.save(*VIEW))
+        self.assertRegex(self.told('--stored', 'hall', '--full'), r'in full, as asked: .* solved in')
+        self.assertIn('hall', self.text('project', 'list', 'p.strake', 'views'))
+
+    def test_what_changed_is_solved(self):
+        self.save(*VIEW)
+        for moved in (20, 0, -60):
+            self.update(moved)
+            self.fresh(*VIEW)
+            told = self.told('--stored', 'hall', '--verify', '-o', 'a.json', '-o', 'a.svg', '-o', 'a.view')
+            self.assertRegex(told, r"view 'hall': (1 of 30 objects changed, .* edges? solved again in |.* solved in )")
+            self.assertIn('the same lines in full', told)
+            for name in ('json', 'svg', 'view'):
+                self.same(f'a.{name}', f'f.{name}')
+            self.assertIn('nothing solved again', self.told('--stored', 'hall'))
+
+    def test_another_view_of_the_name_has_its_own_lines(self):
+        self.save(*VIEW)
+        for view in (('--view', 'front'), ('--view', 'iso', '--section', 'z=50mm', '--select', 'c1*'),
+                     ('--eye', '-500,-900,700', '--target', '300,300,0'), ('--view', 'top', '--visible-only')):
+            self.fresh(*view)
+            self.save(*view)
+            self.same('p.json', 'f.json')
+            self.same('p.svg', 'f.svg')
+            self.told('--stored', 'hall', '-o', 'a.svg')
+            self.same('a.svg', 'f.svg')
+
+    def test_the_sheet_and_ink_may_be_others(self):
+        self.save(*VIEW)
+        style = ('--scale', '1:20', '--paper', 'A2', '--title', 'Hall "B"', '--hidden', 'all')
+        told = self.told('--stored', 'hall', *style, '-o', 'a.svg', '-o', 'a.json')
+        self.assertIn('nothing solved again', told)
+        self.fresh('--view', 'iso', *style)
+        self.same('a.svg', 'f.svg')
+        self.same('a.json', 'f.json')
+        # What was saved stays as it was.
+        self.fresh(*VIEW)
+        self.told('--stored', 'hall', '-o', 'a.svg')
+        self.same('a.svg', 'f.svg')
+
+    def test_lines_that_are_damaged_serve_nobody(self):
+        self.save(*VIEW)
+        with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
+            other.execute("UPDATE drawing SET lines = x'0102'")
+            other.commit()
+        told = self.told('--stored', 'hall', '-o', 'a.svg')
+        self.assertIn('all lines are solved anew', told)
+        self.fresh(*VIEW)
+        self.same('a.svg', 'f.svg')
+        self.assertIn('nothing solved again', self.told('--stored', 'hall'))
+
+    def test_wrong_inputs(self):
+        self.save(*VIEW)
+        self.assertIn("'hall'", self.refused('-p', 'p.strake', '--stored', 'deck', '-o', 'a.svg'))
+        self.assertIn('--section', self.refused('-p', 'p.strake', '--stored', 'hall', '--section', 'z=1mm', '-o', 'a.svg'))
+        self.assertIn('--visible-only', self.refused('-p', 'p.strake', '--stored', 'hall', '--visible-only', '-o', 'a.svg'))
+        self.refused('m.obj', '--stored', 'hall', '-o', 'a.svg')
+        self.refused('-p', 'p.strake', 'm.obj', '--stored', 'hall', '-o', 'a.svg')
+        self.refused('-p', 'p.strake', '--save', 'a', '--stored', 'hall', '-o', 'a.svg')
+        self.refused('-p', 'p.strake', '--full', '-o', 'a.svg')
+        self.refused('-p', 'p.strake', '--stored', 'hall', '-o', 'p.strake')
+        self.refused('-p', 'p.strake')
+        with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
+            for settings in ('nothing', '[]', '{"magic":"yes"}', '{"view":1}', '{"section":"z=1mm"}', '{"visible-only":"x"}'):
+                other.execute('UPDATE view SET settings = ?', (settings,))
+                other.commit()
+                self.assertIn('save the view again', self.refused('-p', 'p.strake', '--stored', 'hall', '-o', 'a.svg', code=3))
+
+    def test_a_drawing_is_written_again_without_its_model(self):
+        for view in (('--view', 'iso'), ('--view', 'top', '--section', 'z=50mm', '--title', 'A-A'),
+                     ('--eye', '-500,-900,700', '--target', '300,300,0')):
+            for hidden in ('off', 'dashed', 'all'):
+                self.fresh(*view, '--hidden', hidden)
+                for neutral in ('f.json', 'f.view'):
+                    self.text('draw', neutral, '--hidden', hidden, '-o', 'a.svg', '-o', 'a.json', '-o', 'a.view')
+                    for name in ('json', 'svg', 'view'):
+                        self.same(f'a.{name}', f'f.{name}')
+
+    def test_a_drawing_is_put_on_another_sheet(self):
+        self.fresh('--view', 'iso')
+        self.text('draw', 'f.view', '--scale', '1:20', '--paper', 'A1', '--title', 'B', '-o', 'a.json', '-o', 'a.svg')
+        self.text('draw', 'm.obj', *WAYS, '--view', 'iso', '--scale', '1:20', '--paper', 'A1', '--title', 'B',
+                  '-o', 'b.json', '-o', 'b.svg')
+        one, other = (json.loads((self.folder / name).read_text(encoding='utf-8')) for name in ('a.json', 'b.json'))
+        self.assertEqual(one['sheet'], other['sheet'])
+        self.assertEqual(one['hash'], other['hash'])
+        for a, b in zip(one['pieces'], other['pieces'], strict=True):
+            for end in ('a_paper_mm', 'b_paper_mm'):
+                for x, y in zip(a[end], b[end], strict=True):
+                    self.assertAlmostEqual(x, y, delta=.0015)
+
+    def test_what_needs_the_model_is_refused(self):
+        self.fresh('--view', 'iso')
+        for option in (('--view', 'top'), ('--select', 'c1*'), ('--sag', '1mm'), ('--unit', 'm'), ('--visible-only',),
+                       ('--solver', 'brute-force'), ('--strict',)):
+            self.assertIn(option[0], self.refused('f.json', *option, '-o', 'a.svg'))
+        self.refused('f.json', 'm.obj', '-o', 'a.svg')
+        self.refused('f.json', '-o', 'f.json')
+        self.assertIn('fit', self.refused('f.json', '--scale', '1:1', '--paper', 'A4', '-o', 'a.svg'))
+        self.text('draw', 'm.obj', *WAYS, '--visible-only', '-o', 'v.json')
+        self.assertIn('--hidden', self.refused('v.json', '--hidden', 'dashed', '-o', 'a.svg'))
+        sound = (self.folder / 'f.json').read_text(encoding='utf-8')
+        self.write('cut.json', sound[:len(sound) // 2])
+        self.refused('cut.json', '-o', 'a.svg', code=3)
+        self.write('wrong.json', sound.replace('"edge":1,', '"edge":90000,', 1))
+        self.refused('wrong.json', '-o', 'a.svg', code=3)
+
+
+if __name__ == '__main__':
+    main()
