@@ -28,6 +28,8 @@ Examples:
   strake clash diff monday.json tuesday.json
   strake draw ship.glb --view iso --hidden dashed -o ship.svg
   strake draw diff monday.json tuesday.json -o changes.svg
+  strake project new ship.strake hull.rvm hvac.rvm
+  strake clash -p ship.strake
   strake generate ship --objects 20000 --seed 1 -o ship.glb --truth ship.truth.json
   strake evaluate --scale 0.02
 
@@ -83,17 +85,13 @@ int run(int argc, char** argv) {
   const Verb clash = add_clash(program, common);
   // A verb within a verb goes first: both count as parsed.
   const Verb draw = add_draw(program, common);
-  const std::vector<Verb> verbs{add_clash_diff(*clash.command, common),
-                                clash,
-                                add_draw_diff(*draw.command, common),
-                                draw,
-                                add_info(program, common),
-                                add_rules_verb(program),
-                                add_generate(program, common),
-                                add_evaluate(program, common),
-                                add_help(program),
-                                add_man(program),
-                                add_completion(program)};
+  const Verb info = add_info(program, common);
+  std::vector<Verb> verbs = add_project_verbs(program, common);
+  verbs.insert(
+      verbs.end(),
+      {add_clash_diff(*clash.command, common), clash, add_draw_diff(*draw.command, common), draw,
+       info, add_rules_verb(program), add_generate(program, common), add_evaluate(program, common),
+       add_help(program), add_man(program), add_completion(program)});
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version

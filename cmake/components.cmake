@@ -131,6 +131,17 @@ strake_component(report
     report/view_diff.hpp
     report/view_document.hpp)
 
+strake_component(project
+  MODULES project
+  DEPENDS parallel geometry model clash drawing report
+  PACKAGES sqlite3 zstd
+  HEADERS
+    project/check.hpp
+    project/listing.hpp
+    project/project.hpp
+    project/summary.hpp
+    project/update.hpp)
+
 strake_component(generate
   MODULES generate
   DEPENDS parallel geometry model clash
@@ -145,12 +156,14 @@ target_link_libraries(strake_library INTERFACE ${modules})
 set_target_properties(strake_library PROPERTIES EXPORT_NAME strake)
 strake_component(all
   MODULES library
-  DEPENDS parallel geometry model clash drawing report generate
+  DEPENDS parallel geometry model clash drawing report project generate
   HEADERS strake.hpp
   PAGES CHANGELOG.md docs/library.md examples/draw_view.cpp examples/find_clashes.cpp)
 
 # What finds the packages that the libraries need, and pkg-config's description of all of them.
 install(FILES cmake/re2.cmake DESTINATION ${strake_package_dir} COMPONENT model)
+install(FILES cmake/sqlite3.cmake cmake/zstd.cmake DESTINATION ${strake_package_dir}
+  COMPONENT project)
 install(FILES ${PROJECT_BINARY_DIR}/strake.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
   COMPONENT all)
 

@@ -21,6 +21,7 @@ MAY_USE = {
     'drawing': ['core', 'parallel', 'geometry', 'model', 'hlr'],
     'sheets': ['core', 'parallel', 'geometry', 'model', 'settings', 'hlr', 'drawing'],
     'report': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing'],
+    'project': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'settings', 'rules', 'hlr', 'drawing', 'report'],
     'generate': ['core', 'parallel', 'geometry', 'model', 'clash'],
 }
 # A room is a folder of a module, for one stage of an algorithm (decision 0060).

@@ -13,12 +13,15 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "cli/run/file_settings.hpp"
+#include "cli/run/project_input.hpp"
 #include "core/text_encoding.hpp"
 #include "core/units.hpp"
 #include "strake/core/diagnostics.hpp"
+#include "strake/project/project.hpp"
 
 namespace strake::cli {
 
@@ -235,25 +238,61 @@ void note_repeated_files(model::Model& model, const std::vector<std::string>& fi
   }
 }
 
-Result<model::Model> read_model(Session& session, const InputOptions& input,
-                                std::span<const rules::FileSettings> said_of_files) {
+/// Files of the command line by what they are.
+struct InputFiles {
+  std::vector<io::FileToRead> models;
+  std::vector<std::filesystem::path> projects;
+};
+
+/// Errors: usage where something is said of a project that has been said of its files.
+Result<InputFiles> input_files(const InputOptions& input) {
   Result<std::vector<io::FileToRead>> files = files_to_read(input);
   if (!files) return files.error();
-  apply_file_settings(said_of_files, *files);
-  const auto timer = session.step("load");
-  Result<model::Model> model = io::read_models(*files, session.context());
-  if (!model) return model;
-  std::vector<std::uint64_t> objects(model->files.size());
-  for (const model::Object& object : model->objects) ++objects[object.file];
-  for (std::size_t f = 0; f < model->files.size(); ++f) {
-    const model::SourceFile& file = model->files[f];
-    session.console().note(fmt::format("{}: {}, {} objects, unit {}, {} up", file.label,
-                                       file.format, objects[f], file.unit, file.up_axis));
+  InputFiles found;
+  for (io::FileToRead& file : *files) {
+    if (!project::is_project(file.path)) {
+      found.models.push_back(std::move(file));
+      continue;
+    }
+    if (file.options.unit_mm || file.options.up_axis)
+      return Error{ErrorCode::usage,
+                   file.path.string() + " is a project: it knows this of its files",
+                   file.options.unit_mm ? "--unit" : "--up-axis",
+                   "leave the option out, or write it for one model file, as part.stl=...; "
+                   "'strake project update' reads files of a project otherwise"};
+    found.projects.push_back(std::move(file.path));
   }
+  return found;
+}
+
+/// Reads model files and takes models out of projects, as one model.
+Result<model::Model> join_inputs(Session& session, const InputFiles& files) {
+  std::vector<model::Model> models;
+  for (const std::filesystem::path& file : files.projects) {
+    Result<project::Project> project = project::Project::open(file, {});
+    if (!project) return project.error();
+    Result<model::Model> model = project_model(session, *project);
+    if (!model) return model;
+    models.push_back(std::move(*model));
+  }
+  if (!files.models.empty() || models.empty()) {
+    Result<model::Model> model = io::read_models(files.models, session.context());
+    if (!model || models.empty()) return model;
+    models.push_back(std::move(*model));
+  }
+  return models.size() == 1 ? std::move(models.front()) : model::join(models);
+}
+
+Result<model::Model> read_model(Session& session, const InputOptions& input,
+                                std::span<const rules::FileSettings> said_of_files) {
+  Result<InputFiles> files = input_files(input);
+  if (!files) return files.error();
+  apply_file_settings(said_of_files, files->models);
+  const auto timer = session.step("load");
+  Result<model::Model> model = join_inputs(session, *files);
+  if (!model) return model;
   note_repeated_files(*model, input.files);
-  print_diagnostics(session.console(), model->diagnostics);
-  if (const std::string rest = unread_rest(*model); !rest.empty())
-    session.console().warn(fmt::format("nothing is known of {}", rest));
+  tell_of_model(session, *model);
   return model;
 }
 
@@ -279,16 +318,33 @@ Diagnostics Loaded::diagnostics() const {
   return all;
 }
 
-Result<Loaded> load(Session& session, const InputOptions& input, const model::SceneOptions& options,
-                    std::span<const rules::FileSettings> said_of_files) {
-  Result<model::Model> model = read_model(session, input, said_of_files);
-  if (!model) return model.error();
+void tell_of_model(Session& session, const model::Model& model) {
+  std::vector<std::uint64_t> objects(model.files.size());
+  for (const model::Object& object : model.objects) ++objects[object.file];
+  for (std::size_t f = 0; f < model.files.size(); ++f) {
+    const model::SourceFile& file = model.files[f];
+    session.console().note(fmt::format("{}: {}, {} objects, unit {}, {} up", file.label,
+                                       file.format, objects[f], file.unit, file.up_axis));
+  }
+  print_diagnostics(session.console(), model.diagnostics);
+  if (const std::string rest = unread_rest(model); !rest.empty())
+    session.console().warn(fmt::format("nothing is known of {}", rest));
+}
+
+Result<Loaded> place(Session& session, model::Model model, const model::SceneOptions& options) {
   Loaded loaded;
-  loaded.model = std::make_unique<const model::Model>(std::move(*model));
+  loaded.model = std::make_unique<const model::Model>(std::move(model));
   Result<model::Scene> scene = place_model(session, *loaded.model, options);
   if (!scene) return scene.error();
   loaded.scene = std::move(*scene);
   return loaded;
+}
+
+Result<Loaded> load(Session& session, const InputOptions& input, const model::SceneOptions& options,
+                    std::span<const rules::FileSettings> said_of_files) {
+  Result<model::Model> model = read_model(session, input, said_of_files);
+  if (!model) return model.error();
+  return place(session, std::move(*model), options);
 }
 
 ExitCode strict_exit_code(const InputOptions& input, const Loaded& loaded) {

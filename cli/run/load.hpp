@@ -44,8 +44,16 @@ struct Loaded {
   [[nodiscard]] Diagnostics diagnostics() const;
 };
 
+/// Prints what was read of each file of a model, and what was noticed.
+void tell_of_model(Session& session, const model::Model& model);
+
+/// Puts a model on the grid, and prints what was noticed.
+[[nodiscard]] Result<Loaded> place(Session& session, model::Model model,
+                                   const model::SceneOptions& options);
+
 /// Reads the files of the command line, puts them on the grid, and prints what was noticed;
-/// `said_of_files` is what rules say of them, if there are any.
+/// `said_of_files` is what rules say of them, if there are any. Of a project it takes the model, as
+/// it was read.
 [[nodiscard]] Result<Loaded> load(Session& session, const InputOptions& input,
                                   const model::SceneOptions& options,
                                   std::span<const rules::FileSettings> said_of_files = {});

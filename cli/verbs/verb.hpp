@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "cli/options/options.hpp"
 #include "cli/run/exit_code.hpp"
@@ -26,6 +27,8 @@ struct Verb {
 [[nodiscard]] Verb add_draw_diff(CLI::App& draw, CommonOptions& common);
 /// 'rules list' and 'rules show' are options of one verb.
 [[nodiscard]] Verb add_rules_verb(CLI::App& program);
+/// The verbs of 'strake project'; it has no run of its own.
+[[nodiscard]] std::vector<Verb> add_project_verbs(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_generate(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_evaluate(CLI::App& program, CommonOptions& common);
 /// The three commands describe all that was added to the program by the time that they run.

@@ -36,6 +36,11 @@ void Diagnostics::append(const Diagnostics& other) {
       entry(theirs.code, theirs.severity).count += theirs.count - kMaxPerCode;
 }
 
+void Diagnostics::count_more(std::string_view code, std::uint64_t more) {
+  for (Count& c : counts_)
+    if (c.code == code && c.count >= kMaxPerCode) c.count += more;
+}
+
 std::uint64_t Diagnostics::count(std::string_view code) const {
   for (const Count& c : counts_)
     if (c.code == code) return c.count;

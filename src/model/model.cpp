@@ -131,6 +131,35 @@ bool is_in_order(const Model& model, const BodyOrder& order) {
   return bodies == model.bodies.size();
 }
 
+/// Gives files their numbers by label, and objects their places as the source has them.
+void number_by_source(Model& model) {
+  for (std::uint32_t place = 0; Object & o : model.objects) o.place = place++;
+  const BodyOrder renumbered = label_and_sort_files(model);
+  for (Object& o : model.objects)
+    if (o.file < renumbered.size()) o.file = renumbered[o.file];
+}
+
+/// Puts the objects of a numbered model in order, and separates ids that repeat.
+void arrange_objects(Model& model) {
+  BodyOrder order = identity(model.objects.size());
+  // These have a diagnostic of their own.
+  if (!sort_objects(model, order)) {
+    separate_ids(model, order);
+    static_cast<void>(sort_objects(model, order));
+  }
+  if (!is_in_order(model, order)) reorder(model, order);
+}
+
+/// Puts the objects of a finished model as the source has them, and takes folders off its labels.
+void take_up_again(Model& model) {
+  BodyOrder order = identity(model.objects.size());
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return model.objects[a].place < model.objects[b].place;
+  });
+  if (!is_in_order(model, order)) reorder(model, order);
+  for (SourceFile& file : model.files) file.label.erase(0, file.label.rfind('/') + 1);
+}
+
 }  // namespace
 
 std::string_view kind_name(const Shape& shape) {
@@ -202,18 +231,9 @@ void Model::set_attributes(GroupId group, Attributes attributes) {
 }
 
 void finish(Model& model) {
-  for (std::uint32_t place = 0; Object & o : model.objects) o.place = place++;
-  const BodyOrder renumbered = label_and_sort_files(model);
-  for (Object& o : model.objects)
-    if (o.file < renumbered.size()) o.file = renumbered[o.file];
+  number_by_source(model);
   note_positional_ids(model);
-  BodyOrder order = identity(model.objects.size());
-  // These have a diagnostic of their own.
-  if (!sort_objects(model, order)) {
-    separate_ids(model, order);
-    static_cast<void>(sort_objects(model, order));
-  }
-  if (!is_in_order(model, order)) reorder(model, order);
+  arrange_objects(model);
 }
 
 void append(Model& model, Model&& other) {
@@ -250,6 +270,18 @@ void append(Model& model, Model&& other) {
   move_all(other.objects, model.objects);
   move_all(other.bodies, model.bodies);
   model.diagnostics.append(other.diagnostics);
+}
+
+Model join(std::span<Model> models) {
+  Model all;
+  for (Model& model : models) {
+    take_up_again(model);
+    append(all, std::move(model));
+  }
+  // What finish() notes has been noted of each.
+  number_by_source(all);
+  arrange_objects(all);
+  return all;
 }
 
 }  // namespace strake::model

@@ -38,6 +38,8 @@ class Diagnostics {
   void add(Severity severity, std::string_view code, std::string message, std::string where);
   /// Appends the diagnostics of another run, as if they had been added here one by one.
   void append(const Diagnostics& other);
+  /// Counts more of a code of which as many as may be are kept word for word; of others, none.
+  void count_more(std::string_view code, std::uint64_t more);
 
   [[nodiscard]] const std::vector<Diagnostic>& kept() const { return kept_; }
   /// Returns one entry per code, in order of first appearance.

@@ -154,4 +154,8 @@ void finish(Model& model);
 /// Appends the files, groups, shapes, objects, bodies and diagnostics of `other`.
 void append(Model& model, Model&& other);
 
+/// Joins finished models into one, which is finished as if its files had been read at once: labels
+/// that repeat gain folders.
+[[nodiscard]] Model join(std::span<Model> models);
+
 }  // namespace strake::model

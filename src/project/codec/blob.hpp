@@ -34,14 +34,19 @@ class BlobWriter {
   }
   void reals(std::span<const double> values);
   void reals(std::span<const float> values);
+  /// Appends numbers that are much alike, so that they compress well: BlobReader::planes() has
+  /// them.
+  void planes(std::span<const double> values);
+  void planes(std::span<const std::uint32_t> values);
   void flags(const std::vector<bool>& values);
   void texts(std::span<const std::string> values);
 
-  /// Returns the compressed bytes, by so many workers of zstd at most.
+  /// Returns the head and the compressed bytes; `level` is that of zstd. Errors: memory.
   [[nodiscard]] Result<std::vector<std::byte>> finish(int level = 1);
 
  private:
   void raw(std::span<const std::byte> bytes);
+  void raw_planes(std::span<const std::byte> values, std::size_t width);
   std::string bytes_;
 };
 
@@ -52,6 +57,9 @@ class BlobReader {
  public:
   /// `what` names the row for errors, as "the objects of a.rvm".
   [[nodiscard]] static Result<BlobReader> open(std::span<const std::byte> blob, std::string what);
+  /// Returns how many bytes open() would unpack, so that room is made for no more than they can
+  /// fill; 0 where the blob is none.
+  [[nodiscard]] static std::uint64_t raw_size(std::span<const std::byte> blob);
   [[nodiscard]] std::uint64_t number();
   [[nodiscard]] std::int64_t integer();
   [[nodiscard]] double real();
@@ -66,6 +74,13 @@ class BlobReader {
     copy(std::as_writable_bytes(std::span(values)));
     return values;
   }
+  template <class T>
+  [[nodiscard]] std::vector<T> planes() {
+    static_assert(std::is_same_v<T, double> || std::is_same_v<T, std::uint32_t>);
+    std::vector<T> values(count(sizeof(T)));
+    copy_planes(std::as_writable_bytes(std::span(values)), sizeof(T));
+    return values;
+  }
   [[nodiscard]] std::vector<bool> flags();
   [[nodiscard]] std::vector<std::string> texts();
   /// Reports a value that cannot be, found by who knows its meaning.
@@ -77,6 +92,7 @@ class BlobReader {
  private:
   [[nodiscard]] std::size_t count(std::size_t size_of_each);
   void copy(std::span<std::byte> into);
+  void copy_planes(std::span<std::byte> into, std::size_t width);
   std::vector<std::byte> bytes_;
   std::size_t at_ = 0;
   std::string what_, fault_;

@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
@@ -56,14 +57,28 @@ class Statement {
  private:
   friend class Database;
   Statement(Database& database, sqlite3_stmt* statement);
+  Statement& bound(int code);
   Database* database_ = nullptr;
   sqlite3_stmt* statement_ = nullptr;
   int fault_ = 0;
 };
 
-/// A connection.
+/// A connection, whose tables are known to be those of a project of this version.
 class Database {
  public:
+  /// Opens a project. Older versions are brought up to this one, for which they must be writable.
+  /// Errors: those of Project::open().
+  [[nodiscard]] static Result<std::unique_ptr<Database>> open(const std::filesystem::path& file,
+                                                              const OpenOptions& options);
+  /// Returns a database in memory, without tables. Errors: memory.
+  [[nodiscard]] static Result<std::unique_ptr<Database>> in_memory();
+  ~Database();
+  Database(const Database&) = delete;
+  Database& operator=(const Database&) = delete;
+  Database(Database&&) = delete;
+  Database& operator=(Database&&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
   [[nodiscard]] Result<Statement> prepare(std::string_view sql);
   /// Runs statements without parameters or rows.
   [[nodiscard]] Status execute(std::string_view sql);
@@ -71,13 +86,40 @@ class Database {
   [[nodiscard]] std::int64_t changes() const;
   /// Returns the error for what SQLite said last: it names the file, and how to mend it.
   [[nodiscard]] Error error(int code) const;
+  /// Returns the error for something in the tables that no version of the program has stored.
+  [[nodiscard]] Error damaged(std::string_view what) const;
+  /// Returns the bytes of a file with the same contents. Errors: memory.
+  [[nodiscard]] Result<std::string> serialized() const;
+  /// Whether what was read is of one moment, where SQLite cannot see to it: on read-only media,
+  /// which somebody else may still write to. Errors: input.
+  [[nodiscard]] Status check_unchanged() const;
 
  private:
-  friend class Project;
   friend class Statement;
   friend class Transaction;
+  friend class ReadScope;
+  friend class Opening;
+  Database() = default;
   sqlite3* handle_ = nullptr;
   std::filesystem::path file_;
+  int wait_ms_ = 0;
+  /// Size and time of change of a file that is read as if nobody wrote to it.
+  std::optional<std::pair<std::int64_t, std::int64_t>> immutable_;
+};
+
+/// Reads of one moment, unless a transaction sees to that already.
+class ReadScope {
+ public:
+  [[nodiscard]] static Result<ReadScope> begin(Database& database);
+  ~ReadScope();
+  ReadScope(ReadScope&& other) noexcept;
+  ReadScope& operator=(ReadScope&&) = delete;
+  ReadScope(const ReadScope&) = delete;
+  ReadScope& operator=(const ReadScope&) = delete;
+
+ private:
+  explicit ReadScope(Database* database) : database_(database) {}
+  Database* database_ = nullptr;  ///< null: somebody else's transaction
 };
 
 /// All that is written between begin() and commit(), or nothing of it.

@@ -16,8 +16,9 @@ std::uint64_t fewest_ids(std::uint64_t places, std::uint64_t other_places, std::
   return places > 0 && other_places > 0 && common == 0 ? kFewestElsewhere : kFewest;
 }
 
-/// Returns how many hashes two ascending lists share.
-std::uint64_t count_common(const std::vector<Hash128>& x, const std::vector<Hash128>& y) {
+/// Returns how many values two ascending lists share.
+template <class T>
+std::uint64_t count_common(const std::vector<T>& x, const std::vector<T>& y) {
   std::uint64_t count = 0;
   auto a = x.begin();
   auto b = y.begin();
@@ -30,6 +31,23 @@ std::uint64_t count_common(const std::vector<Hash128>& x, const std::vector<Hash
       ++b;
   }
   return count;
+}
+
+/// Counts the ids of either file that the run of the other has.
+void look_up_ids(FileLikeness& l, const RunFiles& before, const FileContents& old_file,
+                 const RunFiles& after, const FileContents& new_file) {
+  for (const std::string& id : old_file.ids)
+    if (has_object(after, new_file, id)) ++l.found_after;
+  std::uint64_t named_by_both = 0, found_of_new_only = 0;
+  for (const std::string& id : new_file.ids) {
+    const bool named = std::ranges::binary_search(old_file.ids, id);
+    if (named) ++named_by_both;
+    if (!named && !has_object(before, old_file, id)) continue;
+    ++l.found_before;
+    if (!named) ++found_of_new_only;
+  }
+  l.common = l.found_after + found_of_new_only;
+  l.of = l.ids_before + l.ids_after - named_by_both;
 }
 
 bool places_agree(const FileLikeness& l) {
@@ -55,18 +73,13 @@ FileLikeness likeness(const RunFiles& before, const FileContents& old_file, cons
   l.is_excerpt = before.is_excerpt;
   l.ids_before = old_file.ids.size();
   l.ids_after = new_file.ids.size();
-  for (const std::string& id : old_file.ids)
-    if (has_object(after, new_file, id)) ++l.found_after;
-  std::uint64_t named_by_both = 0, found_of_new_only = 0;
-  for (const std::string& id : new_file.ids) {
-    const bool named = std::ranges::binary_search(old_file.ids, id);
-    if (named) ++named_by_both;
-    if (!named && !has_object(before, old_file, id)) continue;
-    ++l.found_before;
-    if (!named) ++found_of_new_only;
+  if (before.has || after.has) {
+    look_up_ids(l, before, old_file, after, new_file);
+  } else {
+    // The ids are all that there are: one walk along both lists finds those of both.
+    l.common = l.found_after = l.found_before = count_common(old_file.ids, new_file.ids);
+    l.of = l.ids_before + l.ids_after - l.common;
   }
-  l.common = l.found_after + found_of_new_only;
-  l.of = l.ids_before + l.ids_after - named_by_both;
   l.places_before = old_file.places.size();
   l.places_after = new_file.places.size();
   l.common_places = count_common(old_file.places, new_file.places);

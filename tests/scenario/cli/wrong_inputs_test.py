@@ -22,7 +22,9 @@ LENGTHS = ['clash a.obj --clearance', 'clash a.obj --touch-gap', 'clash a.obj --
            'clash a.obj --decisions d.csv --deeper',
            'info a.obj --weld', 'draw a.obj -o x.svg --contact-distance',
            'draw a.obj -o x.svg --eye 1m,1m,1m --target 0,0,0 --near', 'draw diff v.view v.view --tolerance']
-COUNTS = ['info a.obj --objects', 'clash a.obj --most-pairs', 'clash a.obj --most-spheres', 'clash a.obj --regions',
+SECONDS = [('long', 'no number of seconds'), ('-1', 'no number of seconds'), ('1e9', 'from 0 to 3600'), ('nan', 'no number of seconds'),
+           ("''", 'the value is empty')]
+COUNTS = ['info a.obj --objects', 'project list p.strake --rows', 'clash a.obj --most-pairs', 'clash a.obj --most-spheres', 'clash a.obj --regions',
           'generate ship -o x.glb --objects', 'generate ship -o x.glb --seed',
           'generate ship -o x.glb --imported-detail',
           'generate ship -o x.glb --imported-detail 1 --imported-triangles']
@@ -43,7 +45,8 @@ def behind(lines, values):
 
 
 USAGE = [
-    *behind(LENGTHS, LENGTH), *behind(COUNTS, COUNT),
+    *behind(LENGTHS, LENGTH), *behind(COUNTS, COUNT), *behind(['project remove p.strake a.obj --wait'], SECONDS),
+    ('project list p.strake things', 'what', "'things' is not one of"),
     *behind(CHOICES, [('sideways', "'sideways' is not one of"), ("''", "'' is not one of")]),
     *behind(['draw a.obj -o x.svg --sharp-angle', 'draw a.obj -o x.svg --eye 1m,1m,1m --target 0,0,0 --field-of-view'], ANGLE),
     *behind(['draw a.obj -o x.svg --target 1,2,3 --eye', 'draw a.obj -o x.svg --eye 1,2,3 --target'], POINT),
@@ -351,7 +354,8 @@ class WrongInputs(Scenario):
         named = ' '.join(line for line, _, _ in USAGE + OUTPUT) + ' --rules --sheet'
         flags = {'--help', '--version', '--json', '--stats', '--strict', '--obstructions', '--insulation', '--curves', '--volumes',
                  '--turned', '--fresh', '--attributes', '--title', '--output', '--compare'}
-        for verb in (['clash'], ['clash', 'diff'], ['draw'], ['draw', 'diff'], ['info'], ['evaluate'], ['generate', 'ship']):
+        for verb in (['clash'], ['clash', 'diff'], ['draw'], ['draw', 'diff'], ['info'], ['evaluate'], ['generate', 'ship'],
+                     *(['project', verb] for verb in ('new', 'add', 'update', 'remove', 'list', 'info', 'check', 'export'))):
             for option in self.options(verb) - flags:
                 with self.subTest(verb=verb, option=option):
                     self.assertRegex(named, re.escape(option) + r'\b')

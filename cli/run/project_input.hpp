@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cli/run/load.hpp"
+#include "strake/project/project.hpp"
+
+/// A project that a verb works in: -p FILE in place of model files.
+namespace strake::cli {
+
+/// The options -p and --wait, as written.
+struct ProjectOptions {
+  std::string file, wait;
+};
+
+/// Adds --wait alone, for verbs whose project is an argument.
+void add_wait_option(CLI::App& command, std::string& wait);
+/// Parses --wait as seconds; none is 0.
+[[nodiscard]] Result<double> wait_seconds(const std::string& wait);
+/// Adds -p,--project FILE, in place of model files, and --wait.
+void add_project_options(CLI::App& command, ProjectOptions& options);
+
+/// Checks that -p stands in place of model files, and that no option speaks of files beside it.
+/// Errors: usage. All is well without -p.
+[[nodiscard]] Status check_project_options(const ProjectOptions& options,
+                                           const InputOptions& input);
+
+/// A project of the command line, open.
+struct OpenedProject {
+  std::string file;  ///< as it was written
+  project::Project project;
+};
+
+/// Opens the project that the options name. Errors: usage for --wait; those of
+/// project::Project::open().
+[[nodiscard]] Result<OpenedProject> open_project(Session& session, const ProjectOptions& options,
+                                                 project::Access access);
+
+/// Takes the model out of a project. Errors: input for a project without files; those of
+/// project::Project::model().
+[[nodiscard]] Result<model::Model> project_model(Session& session, project::Project& project);
+
+/// Takes the model out of the project, puts it on the grid, and prints what was noticed, as load()
+/// does for files. Errors: those of project_model().
+[[nodiscard]] Result<Loaded> load_project(Session& session, OpenedProject& opened,
+                                          const model::SceneOptions& options);
+
+}  // namespace strake::cli

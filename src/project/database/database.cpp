@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/database/database.hpp"
+
+#include <sqlite3.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "project/database/file_facts.hpp"
+
+namespace strake::project {
+namespace {
+
+/// What people are told of a code of SQLite.
+struct Meaning {
+  ErrorCode code = ErrorCode::internal;
+  std::string message, mend;
+};
+
+Meaning meaning_of(int code) {
+  switch (code & 0xff) {
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return {ErrorCode::output, "another program writes to the project",
+              "try again when it is done, or wait for it (--wait SECONDS)"};
+    case SQLITE_FULL:
+      return {ErrorCode::output, "cannot be written: no space left on device",
+              "make room or choose another disk; what was stored before is whole"};
+    case SQLITE_READONLY:
+      return {ErrorCode::output, "cannot be written: it, its folder or its disk is read-only",
+              "copy it to where you may write"};
+    case SQLITE_CANTOPEN:
+      return {ErrorCode::output, "cannot be opened for writing beside itself (-wal, -shm)",
+              "choose a folder you may write to"};
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+      return {ErrorCode::input, "is damaged",
+              "take a copy of the project, or make it anew of its model files"};
+    case SQLITE_NOMEM:
+      return {ErrorCode::memory, out_of_memory().message, out_of_memory().mend};
+    case SQLITE_TOOBIG:
+      return {ErrorCode::output, "cannot hold a single value of more than a gigabyte",
+              "split the model into files"};
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+      return {ErrorCode::input, "cannot be read: permission denied", "check the permissions"};
+    case SQLITE_IOERR:
+      return {ErrorCode::output, "cannot be read or written: the disk reports an error",
+              "check the disk; what was stored before is whole"};
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+Database::~Database() {
+  if (handle_ != nullptr) sqlite3_close_v2(handle_);
+}
+
+Error Database::error(int code) const {
+  Meaning meaning = meaning_of(code);
+  if (meaning.message.empty()) {
+    meaning.message = "the database refuses: ";
+    meaning.message += handle_ != nullptr ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
+  }
+  return {meaning.code, std::move(meaning.message), file_.string(), std::move(meaning.mend)};
+}
+
+Error Database::damaged(std::string_view what) const {
+  Meaning meaning = meaning_of(SQLITE_CORRUPT);
+  meaning.message += ": ";
+  meaning.message += what;
+  return {meaning.code, std::move(meaning.message), file_.string(), std::move(meaning.mend)};
+}
+
+Result<Statement> Database::prepare(std::string_view sql) {
+  sqlite3_stmt* statement = nullptr;
+  const int code =
+      sqlite3_prepare_v2(handle_, sql.data(), static_cast<int>(sql.size()), &statement, nullptr);
+  if (code != SQLITE_OK) return error(code);
+  return Statement(*this, statement);
+}
+
+Status Database::execute(std::string_view sql) {
+  const int code = sqlite3_exec(handle_, std::string(sql).c_str(), nullptr, nullptr, nullptr);
+  if (code != SQLITE_OK) return error(code);
+  return {};
+}
+
+std::int64_t Database::last_insert_id() const { return sqlite3_last_insert_rowid(handle_); }
+std::int64_t Database::changes() const { return sqlite3_changes64(handle_); }
+
+Result<std::unique_ptr<Database>> Database::in_memory() {
+  std::unique_ptr<Database> database(new Database());
+  const int code = sqlite3_open_v2(":memory:", &database->handle_,
+                                   SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX, nullptr);
+  if (code != SQLITE_OK) return database->error(code);
+  return database;
+}
+
+Result<std::string> Database::serialized() const {
+  sqlite3_int64 size = 0;
+  const std::unique_ptr<unsigned char, decltype(&sqlite3_free)> bytes(
+      sqlite3_serialize(handle_, "main", &size, 0), &sqlite3_free);
+  if (bytes == nullptr) return out_of_memory();
+  return std::string(reinterpret_cast<const char*>(bytes.get()), static_cast<std::size_t>(size));
+}
+
+Status Database::check_unchanged() const {
+  if (!immutable_ || size_and_time(file_) == immutable_) return {};
+  return Error{ErrorCode::input, "was written to while it was read", file_.string(), "try again"};
+}
+
+}  // namespace strake::project

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <sqlite3.h>
+
+#include <utility>
+
+#include "project/database/database.hpp"
+#include "project/database/opening.hpp"
+
+namespace strake::project {
+
+Result<ReadScope> ReadScope::begin(Database& database) {
+  if (sqlite3_get_autocommit(database.handle_) == 0) return ReadScope(nullptr);
+  if (const Status begun = database.execute("BEGIN"); !begun) return begun.error();
+  return ReadScope(&database);
+}
+
+ReadScope::~ReadScope() {
+  if (database_ != nullptr && sqlite3_get_autocommit(database_->handle_) == 0)
+    static_cast<void>(database_->execute("COMMIT"));
+}
+
+ReadScope::ReadScope(ReadScope&& other) noexcept
+    : database_(std::exchange(other.database_, nullptr)) {}
+
+Result<Transaction> Transaction::begin(Database& database) {
+  if (sqlite3_db_readonly(database.handle_, "main") != 0) return database.error(SQLITE_READONLY);
+  sqlite3_busy_timeout(database.handle_, database.wait_ms_);
+  const Status begun = database.execute("BEGIN IMMEDIATE");
+  sqlite3_busy_timeout(database.handle_, kRecoveryMs);
+  if (!begun) return begun.error();
+  return Transaction(database);
+}
+
+Transaction::~Transaction() {
+  // Where a fault has ended it already, there is nothing to take back.
+  if (database_ != nullptr && sqlite3_get_autocommit(database_->handle_) == 0)
+    static_cast<void>(database_->execute("ROLLBACK"));
+}
+
+Transaction::Transaction(Transaction&& other) noexcept
+    : database_(std::exchange(other.database_, nullptr)) {}
+
+Status Transaction::commit() {
+  const Status committed = database_->execute("COMMIT");
+  if (!committed) return committed.error();
+  database_ = nullptr;
+  return {};
+}
+
+}  // namespace strake::project

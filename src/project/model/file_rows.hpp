@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "project/database/database.hpp"
+#include "project/model/blocks.hpp"
+#include "strake/core/result.hpp"
+#include "strake/model/model.hpp"
+#include "strake/project/project.hpp"
+
+namespace strake::project {
+
+/// A row of the table of files: StoredFile::source has the label that results call it by.
+struct FileRow {
+  StoredFile file;
+  std::int64_t position = 0;
+  std::string given;  ///< the path by which it was read
+  std::string name;   ///< its label where it is alone
+  std::uint64_t shapes = 0, groups = 0, group_attributes = 0;
+};
+
+/// Returns all files, in the order in which they are read. Errors: input for a row that cannot be.
+[[nodiscard]] Result<std::vector<FileRow>> read_rows(Database& database);
+
+/// Writes a row: a new one where the id is 0.
+[[nodiscard]] Status write_row(Database& database, FileRow& row);
+
+/// Gives all files the labels that they have beside each other.
+[[nodiscard]] Status write_labels(Database& database);
+
+/// Returns what model::finish() makes of the files' names: the files by label, and the number of
+/// each of `rows` among them.
+struct LabelledFiles {
+  std::vector<model::SourceFile> files;
+  std::vector<std::uint32_t> number;
+};
+[[nodiscard]] LabelledFiles labelled(const std::vector<FileRow>& rows);
+
+}  // namespace strake::project
