@@ -141,11 +141,11 @@ class Yard:
         self.files[file] = dict(things)
 
     def rename(self):
-        """A file under another name; the old one is no more. Returns both names."""
+        """A file under another name, which may come before or behind others; the old one is no more. Returns both names."""
         old = self.some()[0]
         self.revision += 1
         stem, ending = old.split('.')
-        new = f'{stem.split("_")[0]}_r{self.revision}.{ending}'
+        new = f'{self.random.choice("amz")}_{self.revision}_{stem.split("_")[-1]}.{ending}'
         self.files = {new if name == old else name: things for name, things in self.files.items()}
         (self.folder / old).unlink(missing_ok=True)
         return old, new
