@@ -8,7 +8,7 @@
 #include <span>
 #include <variant>
 
-#include "core/word_hash.hpp"
+#include "core/hashing/word_hash.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::clash {

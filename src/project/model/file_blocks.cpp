@@ -10,23 +10,23 @@
 namespace strake::project {
 namespace {
 
-struct KindFacts {
+struct BlockFacts {
   std::string_view name;
   std::uint64_t least_bytes;  ///< of an item, before it is compressed
 };
 
-constexpr std::array<KindFacts, 6> kKindFacts{{{"objects", kLeastOfObject},
-                                               {"bodies", kLeastOfBody},
-                                               {"shapes", kLeastOfShape},
-                                               {"groups", kLeastOfGroup},
-                                               {"group attributes", kLeastOfAttributes},
-                                               {"diagnostics", 0}}};
+constexpr std::array<BlockFacts, 6> kKindFacts{{{"objects", kLeastOfObject},
+                                                {"bodies", kLeastOfBody},
+                                                {"shapes", kLeastOfShape},
+                                                {"groups", kLeastOfGroup},
+                                                {"group attributes", kLeastOfAttributes},
+                                                {"diagnostics", 0}}};
 
-const KindFacts& facts(BlockKind kind) { return kKindFacts[static_cast<std::size_t>(kind)]; }
+const BlockFacts& facts_of(BlockKind kind) { return kKindFacts[static_cast<std::size_t>(kind)]; }
 
 }  // namespace
 
-std::string_view kind_name(BlockKind kind) { return facts(kind).name; }
+std::string_view kind_name(BlockKind kind) { return facts_of(kind).name; }
 
 std::string block_name(const Database& database, const FileRow& row, BlockKind kind) {
   return fmt::format("{}: the {} of {}", database.file().string(), kind_name(kind),
@@ -50,7 +50,8 @@ Result<std::vector<Blob>> read_blocks(Database& database, std::int64_t file, Blo
       return database.damaged(
           fmt::format("there are not all {} of file {}, or too many", kind_name(kind), file));
     const std::span<const std::byte> data = statement->bytes(1);
-    if (BlobReader::raw_size(data) < items_of_block(items, blocks.size()) * facts(kind).least_bytes)
+    if (BlobReader::raw_size(data) <
+        items_of_block(items, blocks.size()) * facts_of(kind).least_bytes)
       return database.damaged(
           fmt::format("there are fewer {} of file {} than it says", kind_name(kind), file));
     blocks.emplace_back(data.begin(), data.end());

@@ -17,7 +17,7 @@ using Kind = JsonReader::Kind;
 
 drawing::PaperPoint paper_point(const std::array<double, 2>& mm) { return {mm[0], mm[1]}; }
 
-std::string place(std::string_view list, std::size_t number) {
+std::string place_in(std::string_view list, std::size_t number) {
   return std::string(list) + "[" + std::to_string(number) + "]";
 }
 
@@ -50,7 +50,7 @@ void take_curves(JsonReader& json, ViewRest& rest) {
   fields.must_be(Kind::array, "the document", "curves", "list");
   json.items([&] {
     const std::size_t number = rest.curves.all.size();
-    const auto where = [number] { return place("curves", number); };
+    const auto where = [number] { return place_in("curves", number); };
     if (json.kind() != Kind::object) throw DocumentFault{where(), "is no object"};
     drawing::PaperCurve curve;
     std::array<std::pair<std::string_view, drawing::PaperPoint*>, 3> points{
@@ -74,7 +74,7 @@ void take_defects(JsonReader& json, ViewRest& rest) {
   DocumentFields fields(json);
   fields.must_be(Kind::array, "the document", "defects", "list");
   json.items([&] {
-    const std::string where = place("defects", rest.defects.size());
+    const std::string where = place_in("defects", rest.defects.size());
     if (json.kind() != Kind::object) throw DocumentFault{where, "is no object"};
     ViewDefect defect;
     json.members([&](std::string_view key) {

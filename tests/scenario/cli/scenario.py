@@ -11,11 +11,10 @@ import tempfile
 import unittest
 from pathlib import Path
 
-VERBS = [[], ['clash'], ['clash', 'diff'], ['draw'], ['draw', 'diff'], ['info'],
+VERBS = [[], ['clash'], ['clash', 'diff'], ['clash', 'set'], ['clash', 'list'], ['clash', 'history'],
+         ['draw'], ['draw', 'diff'], ['info'],
          *[['project', *verb] for verb in ([], ['new'], ['add'], ['update'], ['remove'], ['list'], ['info'], ['check'],
                                            ['export'])],
-VERBS = [[], ['clash'], ['clash', 'diff'], ['clash', 'set'], ['clash', 'list'],
-         ['clash', 'history'], ['draw'], ['draw', 'diff'], ['info'],
          ['rules'], ['rules', 'list'], ['rules', 'show'], ['evaluate'], ['generate'],
          ['generate', 'ship'], ['help'], ['man'], ['completion']]
 CUBE_FACES = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8)]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "clash/results/volume_bracket.hpp"
+#include "clash/volumes/volume_bracket.hpp"
 
 #include <array>
 #include <cstddef>

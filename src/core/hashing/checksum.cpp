@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/checksum.hpp"
+#include "core/hashing/checksum.hpp"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>

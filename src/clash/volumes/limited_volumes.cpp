@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "clash/results/limited_volumes.hpp"
+#include "clash/volumes/limited_volumes.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <span>
 
-#include "clash/results/common_volumes.hpp"
-#include "clash/results/volume_bracket.hpp"
+#include "clash/volumes/common_volumes.hpp"
+#include "clash/volumes/volume_bracket.hpp"
 #include "geometry/intersection_volume/intersection_volume.hpp"
 #include "strake/parallel/transform.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "clash/results/common_volumes.hpp"
+#include "clash/volumes/common_volumes.hpp"
 
 #include <cstddef>
 #include <cstdint>
