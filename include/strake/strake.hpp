@@ -20,6 +20,7 @@
 #include "strake/model/scene.hpp"
 #include "strake/model/selection.hpp"
 #include "strake/parallel/team.hpp"
+#include "strake/project/project.hpp"
 #include "strake/report/clash.hpp"
 #include "strake/rules/rules.hpp"
 #include "strake/sheets/sheet_file.hpp"

@@ -272,7 +272,7 @@ Status ModelLoader::share_shapes() {
       ++uses[shared.from.pack][shared.from.number];
     }
   }
-  for (BlockFindings& findings : findings_)
+  for (const BlockFindings& findings : findings_)
     for (const SharedShape& shared : findings.shared) {
       model::Shape& shape = packs[shared.from.pack].shapes[shared.from.number];
       if (--uses[shared.from.pack][shared.from.number] == 0)

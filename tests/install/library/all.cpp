@@ -29,6 +29,8 @@ int main() {
   const auto alone = hlr::draw(*scene, *in_a, {}, {}, context);
   if (!between || between->pairs.size() != 1 || !alone) return 1;
   if (alone->account.of(hlr::Fate::unselected) != 1) return 1;
+  const auto project = project::Project::open("two_boxes.obj", {});
+  if (project || project.error().code != ErrorCode::input) return 1;
   std::printf("Strake %s: %zu pairs, %zu pieces\n", version().data(), report->pairs.size(),
               lines->pieces.size());
   return report->pairs.size() == 1 && !lines->pieces.empty() ? 0 : 1;

@@ -23,6 +23,20 @@ TEST(Diagnostics, counts_all_and_keeps_the_first) {
   EXPECT_EQ(all.kept()[99].message, "99");
 }
 
+TEST(Diagnostics, more_are_counted_where_all_that_may_be_are_kept) {
+  Diagnostics all;
+  for (std::size_t i = 0; i < Diagnostics::kMaxPerCode; ++i)
+    all.add(Severity::skipped, "many", "", "");
+  all.add(Severity::note, "few", "", "");
+  all.count_more("many", 900);
+  all.count_more("few", 900);
+  all.count_more("none", 900);
+  EXPECT_EQ(all.count("many"), Diagnostics::kMaxPerCode + 900);
+  EXPECT_EQ(all.count("few"), 1U);
+  EXPECT_EQ(all.counts().size(), 2U);
+  EXPECT_EQ(all.kept().size(), Diagnostics::kMaxPerCode + 1);
+}
+
 TEST(Diagnostics, append_is_adding_one_by_one) {
   for (const int first : {0, 60, 100, 150})
     for (const int second : {0, 60, 100, 150}) {

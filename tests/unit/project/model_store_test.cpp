@@ -204,7 +204,7 @@ TEST_F(ModelStoreTest, RenamedFilesTakePlaces) {
     ASSERT_FALSE(stored);
     EXPECT_EQ(stored.error().code, ErrorCode::usage) << stored.error().text();
   };
-  FileToStore twice = files[0];
+  const FileToStore twice = files[0];
   refuses({twice, twice});
   FileToStore other = files[0];  // would be where another one is
   other.replaces = id("c.rvm");
