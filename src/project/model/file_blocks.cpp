@@ -15,14 +15,14 @@ struct KindFacts {
   std::uint64_t least_bytes;  ///< of an item, before it is compressed
 };
 
-constexpr std::array<KindFacts, 6> kKinds{{{"objects", kLeastOfObject},
-                                           {"bodies", kLeastOfBody},
-                                           {"shapes", kLeastOfShape},
-                                           {"groups", kLeastOfGroup},
-                                           {"group attributes", kLeastOfAttributes},
-                                           {"diagnostics", 0}}};
+constexpr std::array<KindFacts, 6> kKindFacts{{{"objects", kLeastOfObject},
+                                               {"bodies", kLeastOfBody},
+                                               {"shapes", kLeastOfShape},
+                                               {"groups", kLeastOfGroup},
+                                               {"group attributes", kLeastOfAttributes},
+                                               {"diagnostics", 0}}};
 
-const KindFacts& facts(BlockKind kind) { return kKinds[static_cast<std::size_t>(kind)]; }
+const KindFacts& facts(BlockKind kind) { return kKindFacts[static_cast<std::size_t>(kind)]; }
 
 }  // namespace
 

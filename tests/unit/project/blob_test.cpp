@@ -90,14 +90,22 @@ TEST(Blob, EmptyColumnsAreColumns) {
 
 TEST(Blob, AnyChangedByteIsSeen) {
   const Bytes bytes = sample();
+  int unseen = 0;
   for (std::size_t at = 0; at < bytes.size(); ++at) {
     Bytes changed = bytes;
     changed[at] ^= std::byte{0x10};
-    const auto in = BlobReader::open(changed, "the objects of a.rvm");
-    ASSERT_FALSE(in) << "byte " << at;
+    auto in = BlobReader::open(changed, "the objects of a.rvm");
+    // A bit of zstd's own head has no meaning.
+    if (in) {
+      EXPECT_EQ(in->number(), 7U) << "byte " << at;
+      EXPECT_EQ(in->text(), "plate") << "byte " << at;
+      ++unseen;
+      continue;
+    }
     EXPECT_EQ(in.error().code, ErrorCode::input);
     EXPECT_EQ(in.error().where, "the objects of a.rvm");
   }
+  EXPECT_LE(unseen, 1);
   for (std::size_t length = 0; length < bytes.size(); ++length)
     EXPECT_FALSE(BlobReader::open(std::span(bytes).first(length), "cut")) << length;
 }

@@ -204,7 +204,7 @@ TEST_F(ProjectFileTest, FaultsOfStatementsAreTold) {
   auto project = Project::open(file_, {.access = Access::write});
   ASSERT_TRUE(project);
   Database& database = project->database();
-  expect_error(database.prepare("SELECT nothing"), ErrorCode::internal, "no such column");
+  expect_error(database.prepare("SELECT none"), ErrorCode::internal, "no such column");
   auto statement = database.prepare("SELECT ?1");
   ASSERT_TRUE(statement);
   statement->bind(2, std::int64_t{1});
