@@ -185,13 +185,15 @@ class Engine {
   /// Appends the regions of a pair of parts, or its result as a whole.
   void append_regions(std::size_t pair, const Candidate& c, std::vector<PartResult>& found) const {
     const std::uint32_t number = unique_pairs_.of[pair];
-    if (regions_.empty() || regions_[number].empty()) {
-      found.push_back({pair, &c.evaluation.answer, nullptr, c.region_count_uncertain});
+    const std::span<const PartRegion> regions = regions_.of(pair, number);
+    if (regions.empty()) {
+      found.push_back(
+          {pair, &c.evaluation.answer, nullptr, regions_.is_count_uncertain(pair, number)});
       return;
     }
     const EvaluatedPairs all = evaluated();
     const bool each = rules_.may_allow(all.a(pair).object, all.b(pair).object);
-    for (const PartRegion& region : regions_[number])
+    for (const PartRegion& region : regions)
       found.push_back({pair, &region.answer, &region.extent, false, each || region.is_whole});
   }
 
@@ -260,9 +262,9 @@ class Engine {
   std::vector<IndexPair> pairs_;
   UniquePairs unique_pairs_;
   ObjectPairs objects_;
-  std::vector<Candidate> candidates_;             ///< one per unique pair
-  std::vector<std::vector<PartRegion>> regions_;  ///< by unique pair, where told apart
-  std::vector<CommonVolume> common_volumes_;      ///< where a rule or the test limits them
+  std::vector<Candidate> candidates_;         ///< one per unique pair
+  PartRegions regions_;                       ///< where told apart
+  std::vector<CommonVolume> common_volumes_;  ///< where a rule or the test limits them
 };
 
 }  // namespace

@@ -51,7 +51,6 @@ struct Candidate {
   bool done = false;
   bool too_large = false;
   bool in_open = false;  ///< one part lies within the other, which is open: see mark_enclosed()
-  bool region_count_uncertain = false;  ///< too near: it has one region or several
 };
 
 /// Evaluates a candidate, with a team's help where it is heavy, and adds what it cost:

@@ -24,11 +24,11 @@ namespace strake::clash {
 namespace {
 
 struct DetailRequest {
-  std::uint32_t number = 0;  ///< the number of the unique pair
+  std::size_t pair = 0;
   RegionDetail detail = RegionDetail::whole;
 };
 
-/// Requests the detail that the k-th pair of objects needs of its unique pairs.
+/// Requests the detail that the k-th pair of objects needs of its pairs of parts.
 void request_detail(const EvaluatedPairs& evaluated, const ObjectPairs& objects, std::size_t k,
                     bool may_allow, std::vector<DetailRequest>& out) {
   const std::size_t first = objects.begin(k), end = objects.end(k), before = out.size();
@@ -43,8 +43,7 @@ void request_detail(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
     // The regions of a line and any other part are not told apart.
     if (has_wire(*evaluated.a(i).placed.part, *evaluated.b(i).placed.part)) continue;
     const bool copies = evaluated.of(i).evaluation.answer.relation == Relation::duplicate;
-    out.push_back(
-        {evaluated.unique_pairs.of[i], copies ? RegionDetail::whole : RegionDetail::if_several});
+    out.push_back({i, copies ? RegionDetail::whole : RegionDetail::if_several});
   }
   if (may_allow || out.size() - before > 1)
     for (std::size_t i = before; i < out.size(); ++i)
@@ -67,8 +66,8 @@ Result<std::vector<RegionDetail>> region_detail_of(const EvaluatedPairs& evaluat
           request_detail(evaluated, objects, k, may_allow, out);
       });
   if (!all) return all.error();
-  std::vector<RegionDetail> detail(evaluated.candidates.size(), RegionDetail::whole);
-  for (const DetailRequest& a : *all) detail[a.number] = std::max(detail[a.number], a.detail);
+  std::vector<RegionDetail> detail(evaluated.pairs.size(), RegionDetail::whole);
+  for (const DetailRequest& a : *all) detail[a.pair] = a.detail;
   return detail;
 }
 
@@ -374,20 +373,19 @@ namespace {
 
 class RegionStage {
  public:
+  /// `detail`: that of each unique pair.
   RegionStage(const StageInputs& stage, const EvaluatedPairs& evaluated,
-              std::vector<Candidate>& candidates)
+              std::vector<Candidate>& candidates, std::vector<RegionDetail> detail)
       : stage_(stage),
         work_(stage.work),
         cache_(stage.cache),
         evaluated_(evaluated),
         candidates_(candidates),
-        regions_(candidates.size()) {}
+        detail_(std::move(detail)) {}
 
-  Result<std::vector<std::vector<PartRegion>>> run() {
-    auto detail =
-        region_detail_of(evaluated_, stage_.objects, stage_.rules, stage_.options, work_.context());
-    if (!detail) return detail.error();
-    detail_ = std::move(*detail);
+  Result<DetailedRegions> run() {
+    found_.of_unique.resize(candidates_.size());
+    found_.too_near.resize(candidates_.size(), 0);
     std::vector<std::size_t> alone, unresolved;
     for (std::size_t i = 0; i < detail_.size(); ++i) {
       if (detail_[i] == RegionDetail::if_several) alone.push_back(i);
@@ -399,7 +397,7 @@ class RegionStage {
     if (const Status s = measure_simple(*simple); !s) return s.error();
     unresolved.insert(unresolved.end(), alone.begin(), alone.end());
     if (const Status s = find_open_regions(unresolved); !s) return s.error();
-    return std::move(regions_);
+    return std::move(found_);
   }
 
  private:
@@ -474,10 +472,11 @@ class RegionStage {
           const PairOperand x = cache_.treed(a), y = cache_.treed(b);
           const PartPairResult& answer = candidates_[i].evaluation.answer;
           const double reach = region_reach(x, y, answer, stage_.pair_tolerances.of(a, b));
-          regions_[i] = {{answer,
-                          geometry::overlap_extent({a.placed, x.frame, x.treed.tree},
-                                                   {b.placed, y.frame, y.treed.tree}, reach),
-                          true}};
+          found_.of_unique[i] = {
+              {answer,
+               geometry::overlap_extent({a.placed, x.frame, x.treed.tree},
+                                        {b.placed, y.frame, y.treed.tree}, reach),
+               true}};
         });
   }
 
@@ -493,8 +492,8 @@ class RegionStage {
             return find_part_regions(cache_.planed(a), cache_.planed(b), c.evaluation.answer,
                                      stage_.pair_tolerances.of(a, b), detail_[i], work);
           });
-          c.region_count_uncertain = !found;
-          if (found) regions_[i] = std::move(*found);
+          found_.too_near[i] = found ? 0 : 1;
+          if (found) found_.of_unique[i] = std::move(*found);
         });
   }
 
@@ -512,14 +511,30 @@ class RegionStage {
   const EvaluatedPairs& evaluated_;
   std::vector<Candidate>& candidates_;
   std::vector<RegionDetail> detail_;
-  std::vector<std::vector<PartRegion>> regions_;
+  DetailedRegions found_;
 };
 
 }  // namespace
 
-Result<std::vector<std::vector<PartRegion>>> compute_part_regions(
-    const StageInputs& stage, const EvaluatedPairs& evaluated, std::vector<Candidate>& candidates) {
-  return RegionStage(stage, evaluated, candidates).run();
+Result<PartRegions> compute_part_regions(const StageInputs& stage, const EvaluatedPairs& evaluated,
+                                         std::vector<Candidate>& candidates) {
+  auto detail =
+      region_detail_of(evaluated, stage.objects, stage.rules, stage.options, stage.work.context());
+  if (!detail) return detail.error();
+  // Where two pairs of objects need an equal pair of parts in different detail, it is done for
+  // each.
+  std::vector<RegionDetail> several(candidates.size(), RegionDetail::whole), each = several;
+  for (std::size_t i = 0; i < detail->size(); ++i) {
+    const std::uint32_t unique = evaluated.unique_pairs.of[i];
+    const RegionDetail own = (*detail)[i];
+    RegionDetail& wanted = (own == RegionDetail::if_several ? several : each)[unique];
+    wanted = std::max(wanted, own);
+  }
+  auto at_one = RegionStage(stage, evaluated, candidates, std::move(several)).run();
+  if (!at_one) return at_one.error();
+  auto at_each = RegionStage(stage, evaluated, candidates, std::move(each)).run();
+  if (!at_each) return at_each.error();
+  return PartRegions(std::move(*detail), std::move(*at_one), std::move(*at_each));
 }
 
 }  // namespace strake::clash

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "clash/broad_phase/broad_phase.hpp"
@@ -22,8 +25,8 @@ enum class RegionDetail : std::uint8_t {
   all,         ///< those within the clearance too: a rule may allow what is worse
 };
 
-/// Returns for each unique pair the detail that lists of regions need, and rules that may allow one
-/// region and not the other. Errors: cancelled.
+/// Returns for each pair the detail that lists of regions need, and rules that may allow one region
+/// and not the other. Errors: cancelled.
 [[nodiscard]] Result<std::vector<RegionDetail>> region_detail_of(const EvaluatedPairs& evaluated,
                                                                  const ObjectPairs& objects,
                                                                  const RuleMatcher& rules,
@@ -50,10 +53,46 @@ struct PartRegion {
 [[nodiscard]] double region_reach(const PairOperand& a, const PairOperand& b,
                                   const PartPairResult& whole, const PairTolerances& options);
 
-/// Returns, by unique pair, the regions of its parts, where lists or rules need them apart; none
-/// where the result as a whole says all. Marks the candidates whose regions are too near each other
-/// to be told apart. Errors: cancelled.
-[[nodiscard]] Result<std::vector<std::vector<PartRegion>>> compute_part_regions(
-    const StageInputs& stage, const EvaluatedPairs& evaluated, std::vector<Candidate>& candidates);
+/// The regions of unique pairs, told apart to one detail.
+struct DetailedRegions {
+  std::vector<std::vector<PartRegion>> of_unique;
+  std::vector<std::uint8_t> too_near;  ///< whether they cannot be told apart
+};
+
+/// The regions of the parts of all pairs. Equal pairs of parts share them only where their pairs of
+/// objects need them in the same detail, so that none shows in the result of another.
+class PartRegions {
+ public:
+  PartRegions() = default;
+  PartRegions(std::vector<RegionDetail> detail, DetailedRegions several, DetailedRegions each)
+      : detail_(std::move(detail)), several_(std::move(several)), each_(std::move(each)) {}
+
+  /// Returns the regions of a pair; none where the result as a whole says all. `unique` is the
+  /// number of its unique pair.
+  [[nodiscard]] std::span<const PartRegion> of(std::size_t pair, std::uint32_t unique) const {
+    if (!is_told_apart(pair)) return {};
+    return level(pair).of_unique[unique];
+  }
+  /// Whether the regions of a pair are too near each other: it has one or several.
+  [[nodiscard]] bool is_count_uncertain(std::size_t pair, std::uint32_t unique) const {
+    return is_told_apart(pair) && level(pair).too_near[unique] != 0;
+  }
+
+ private:
+  [[nodiscard]] bool is_told_apart(std::size_t pair) const {
+    return pair < detail_.size() && detail_[pair] != RegionDetail::whole;
+  }
+  [[nodiscard]] const DetailedRegions& level(std::size_t pair) const {
+    return detail_[pair] == RegionDetail::if_several ? several_ : each_;
+  }
+
+  std::vector<RegionDetail> detail_;  ///< by pair
+  DetailedRegions several_, each_;
+};
+
+/// Finds the regions where lists or rules need them apart. Errors: cancelled.
+[[nodiscard]] Result<PartRegions> compute_part_regions(const StageInputs& stage,
+                                                       const EvaluatedPairs& evaluated,
+                                                       std::vector<Candidate>& candidates);
 
 }  // namespace strake::clash

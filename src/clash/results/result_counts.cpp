@@ -66,16 +66,20 @@ Status record_not_compared(const EvaluatedPairs& evaluated, const ObjectPairs& o
                          model::ObjectId{evaluated.b(first).object}, code});
       });
   if (!pairs) return pairs.error();
-  for (const NotCompared& pair : *pairs) {
-    report.not_compared.push_back(pair);
-    report.diagnostics.add(
-        Severity::skipped, pair.code,
-        pair.code == kTooLarge
-            ? "the pair spans more than 2.1 km and was not compared"
-            : "one lies within the other, whose surface does not close: meant as solids, they hit",
-        scene.model->object(pair.a).id + " and " + scene.model->object(*pair.b).id);
-  }
+  report.not_compared.insert(report.not_compared.end(), pairs->begin(), pairs->end());
+  tell_not_compared(*scene.model, report);
   return {};
+}
+
+void tell_not_compared(const model::Model& model, Report& report) {
+  for (const NotCompared& pair : report.not_compared)
+    if (pair.b)
+      report.diagnostics.add(Severity::skipped, pair.code,
+                             pair.code == kTooLarge
+                                 ? "the pair spans more than 2.1 km and was not compared"
+                                 : "one lies within the other, whose surface does not close: meant "
+                                   "as solids, they hit",
+                             model.object(pair.a).id + " and " + model.object(*pair.b).id);
 }
 
 void count_sheets(const ScenePartList& list, Report& report) {
@@ -101,13 +105,18 @@ Status warn_of_unknown_sag(const ScenePartList& list, const model::Model& model,
         for (std::size_t f = 0; f < into.size(); ++f) into[f] |= partial[f];
       });
   if (!unknown) return unknown.error();
-  for (std::size_t f = 0; f < unknown->size(); ++f)
-    if ((*unknown)[f] != 0)
+  tell_unknown_sag(*unknown, model, diagnostics);
+  return {};
+}
+
+void tell_unknown_sag(std::span<const std::uint8_t> by_file, const model::Model& model,
+                      Diagnostics& diagnostics) {
+  for (std::size_t f = 0; f < by_file.size(); ++f)
+    if (by_file[f] != 0)
       diagnostics.add(Severity::note, "unknown-sag",
                       "meshes are used as they are; their deviation from the original surfaces "
                       "is unknown",
                       model.files[f].label);
-  return {};
 }
 
 Status fill_counters(const EvaluatedPairs& evaluated, const ObjectPairs& objects,

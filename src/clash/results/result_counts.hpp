@@ -3,6 +3,9 @@
 
 // Decision 0020 says what counts as not compared, and which of it stops a run.
 
+#include <cstdint>
+#include <span>
+
 #include "clash/broad_phase/broad_phase.hpp"
 #include "clash/pairs/pair_tasks.hpp"
 #include "clash/rules/rule_matcher.hpp"
@@ -17,6 +20,9 @@ namespace strake::clash {
                                          const ObjectPairs& objects, const model::Scene& scene,
                                          const parallel::Context& context, Report& report);
 
+/// Adds the messages about pairs in Report::not_compared.
+void tell_not_compared(const model::Model& model, Report& report);
+
 /// Fills Report::sheets.
 void count_sheets(const ScenePartList& list, Report& report);
 
@@ -24,6 +30,10 @@ void count_sheets(const ScenePartList& list, Report& report);
 [[nodiscard]] Status warn_of_unknown_sag(const ScenePartList& list, const model::Model& model,
                                          const parallel::Context& context,
                                          Diagnostics& diagnostics);
+
+/// Adds it for the files that an entry other than 0 says to have parts of unknown sag.
+void tell_unknown_sag(std::span<const std::uint8_t> by_file, const model::Model& model,
+                      Diagnostics& diagnostics);
 
 /// Fills Report::counters, and the candidates of each rule.
 [[nodiscard]] Status fill_counters(const EvaluatedPairs& evaluated, const ObjectPairs& objects,

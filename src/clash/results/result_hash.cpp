@@ -15,12 +15,12 @@ namespace {
 
 constexpr std::size_t kHashGrain = 4096;
 
-void add_point(WordHash& hash, const geometry::Vec3d& p) { hash.add(p.x).add(p.y).add(p.z); }
+void add_place(WordHash& hash, const geometry::Vec3d& p) { hash.add(p.x).add(p.y).add(p.z); }
 
 void add_region(WordHash& hash, const Region& region) {
   hash.add(static_cast<std::uint8_t>(region.cls)).add(region.d_mm);
   for (const geometry::Vec3d& p : {region.point_mm, region.box_mm.lo, region.box_mm.hi})
-    add_point(hash, p);
+    add_place(hash, p);
 }
 
 void add_allowed(WordHash& hash, std::int32_t rule, const Report& report) {
@@ -46,7 +46,7 @@ Hash128 hash_of(const Pair& pair, const Report& report, std::uint64_t a, std::ui
   hash.add(static_cast<std::uint8_t>(pair.cls)).add(static_cast<std::uint8_t>(pair.relation));
   hash.add(pair.d_mm);
   for (const geometry::Vec3d& p : {pair.point_mm, pair.on_a_mm, pair.on_b_mm, pair.away})
-    add_point(hash, p);
+    add_place(hash, p);
   if (report.options.engine.most_regions > 0) {
     hash.add(pair.regions);
     const std::uint32_t listed = pair.regions_listed(report.options);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "clash/results/listed_regions.hpp"
 #include "clash/results/result_hash.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/reduce.hpp"
@@ -77,7 +78,9 @@ Status leave_out_contacts(const parallel::Context& context, Report& report,
   if (report.kept)
     if (const Status s = keep_unlisted(context, is_unlisted, report); !s) return s;
   report.unlisted = *unlisted;
+  const bool some = kept->size() < report.pairs.size();
   report.pairs = std::move(*kept);
+  if (some) put_regions_in_order(report);
   return {};
 }
 

@@ -156,7 +156,7 @@ using geometry::IndexPair;
 /// Pairs per block where results are counted.
 constexpr std::size_t kMatchesPerBlock = 65536;
 /// Pairs per block where each has a rule or more of its own.
-constexpr std::size_t kPairsPerBlock = 4096;
+constexpr std::size_t kRuledPairsPerBlock = 4096;
 
 /// Returns the reach of tolerances where the objects of a pair add so much to its clearance.
 double reach_of(const Tolerances& t, double added_mm) {
@@ -175,6 +175,15 @@ std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& opti
   std::vector<Tolerances> all{options.tolerances};
   all.insert(all.end(), policy.tolerances.begin(), policy.tolerances.end());
   return all;
+}
+
+void set_cell_tolerances(const Policy& policy, std::span<const Tolerances> all, Report& report) {
+  if (!policy.matrix) return;
+  const Matrix& m = *policy.matrix;
+  for (CellReport& report_cell : report.cells) {
+    const std::uint32_t cell = m.cells[report_cell.a * m.disciplines.size() + report_cell.b];
+    report_cell.tolerances = all[cell >= Matrix::kDefault ? 0 : cell + 1];
+  }
 }
 
 SearchReach search_reach(std::span<const Tolerances> all) {
@@ -306,7 +315,8 @@ Status RuleMatcher::exempt(const ScenePartList& list, std::vector<IndexPair>& pa
   const bool rules = policy_.matrix || !policy_.exemptions.empty() || policy_.levels;
   if (!rules && one_reach_) return {};
   const auto verdicts = parallel::transform(
-      context, {.name = "rules", .n = pairs.size(), .grain = kPairsPerBlock}, [&](std::size_t i) {
+      context, {.name = "rules", .n = pairs.size(), .grain = kRuledPairsPerBlock},
+      [&](std::size_t i) {
         return verdict(list.parts[pairs[i].first], list.parts[pairs[i].second]);
       });
   if (!verdicts) return verdicts.error();
@@ -377,7 +387,8 @@ Status RuleMatcher::count_candidates(const EvaluatedPairs& evaluated, const Obje
   report.counters.allowed_pairs = counts->pairs;
   if (report.kept) {
     auto concerned = parallel::collect<ConcernedPair>(
-        context, {.name = "pairs that rules concern", .n = objects.size(), .grain = kPairsPerBlock},
+        context,
+        {.name = "pairs that rules concern", .n = objects.size(), .grain = kRuledPairsPerBlock},
         [&](std::size_t k, std::vector<ConcernedPair>& out) {
           const std::size_t first = objects.begin(k);
           const std::uint32_t a = evaluated.a(first).object, b = evaluated.b(first).object;
@@ -456,8 +467,8 @@ void RuleMatcher::begin_report(const Sets& sets, Report& report) const {
       cell_report.a = a;
       cell_report.b = b;
       cell_report.checked = cell != Matrix::kNotChecked;
-      cell_report.tolerances = tolerances_[cell >= Matrix::kDefault ? 0 : cell + 1];
     }
+  set_cell_tolerances(policy_, tolerances_, report);
 }
 
 Status RuleMatcher::finish_report(const parallel::Context& context, Report& report) const {

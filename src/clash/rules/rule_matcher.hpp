@@ -132,6 +132,9 @@ struct ClassTotals {
 /// Returns the tolerances of a test: its own first, then the policy's.
 [[nodiscard]] std::vector<Tolerances> all_tolerances(const Policy& policy, const Options& options);
 
+/// Sets the tolerances of the cells of a report to those of the matrix, if there is one.
+void set_cell_tolerances(const Policy& policy, std::span<const Tolerances> all, Report& report);
+
 /// Returns how far apart parts may be for a test with these tolerances to check them: as far as the
 /// widest reach, and for each object what it may add to a clearance.
 [[nodiscard]] SearchReach search_reach(std::span<const Tolerances> all);

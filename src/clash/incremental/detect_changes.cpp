@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decision 0070 says what a run keeps for a later one, and why that is exact.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "clash/detect.hpp"
+#include "clash/incremental/neighbours.hpp"
+#include "clash/incremental/object_map.hpp"
+#include "clash/incremental/report_merge.hpp"
+#include "clash/rules/rule_matcher.hpp"
+#include "strake/clash/incremental.hpp"
+#include "strake/parallel/report.hpp"
+
+namespace strake::clash {
+namespace {
+
+/// The share of changed objects from which a full run is no slower.
+constexpr std::size_t kFewChanged = 4;
+
+bool can_follow(const Report& earlier, const Options& options) {
+  return options.engine.keep_for_changes && earlier.kept && !earlier.kept->framed &&
+         options.engine.narrow_phase == NarrowPhase::exact;
+}
+
+/// Returns the report of an earlier run over the same objects as one of this test: what objects add
+/// to clearances is not among the values of a report that was stored.
+Report taken_over(Report report, const Options& options, const Policy& policy) {
+  report.options = options;
+  set_cell_tolerances(policy, all_tolerances(policy, options), report);
+  report.counters = {};
+  report.log.clear();
+  return report;
+}
+
+}  // namespace
+
+Result<Report> detect_changes(const model::Scene& scene, const Sets& sets, const Options& options,
+                              const Policy& policy, EarlierRun earlier,
+                              const parallel::Context& context) {
+  if (const Status s = check_inputs(scene, sets, options, policy); !s) return s.error();
+  const std::size_t objects = scene.model->objects.size();
+  const auto map = map_objects(earlier.now, objects);
+  if (!map) return map.error();
+  const auto full = [&] { return detect(scene, sets, options, policy, context); };
+  if (!can_follow(earlier.report, options)) return full();
+  if (map->is_identity() && earlier.report.in_a.size() == objects)
+    return taken_over(std::move(earlier.report), options, policy);
+  if (map->changed > objects / kFewChanged) return full();
+
+  std::optional<parallel::StageTimer> timer;
+  timer.emplace(context.report, "what changed");
+  const SearchReach reach = search_reach(all_tolerances(policy, options));
+  const auto neighbours = find_neighbours(scene, sets, options, reach, *map, context);
+  if (!neighbours) return neighbours.error();
+  // So few that a full run needs no boxes along faces either; it may find fewer than this counts.
+  const std::uint64_t most = most_unframed_pairs(neighbours->parts, options);
+  const std::uint64_t before = earlier.report.kept->box_pairs;
+  timer.reset();
+  if (before > most) return full();
+  auto fresh = detect_among(scene, sets, options, policy,
+                            {neighbours->change, neighbours->asked, most - before}, context);
+  if (!fresh) return fresh.error();
+  if (!*fresh) return full();
+  if (!fits(earlier.report, **fresh, earlier.now.size()))
+    return Error{ErrorCode::usage, "the report of an earlier run is not about this test",
+                 "earlier run", "give one whose rules had the same signature"};
+  timer.emplace(context.report, "results put together");
+  return merge(std::move(earlier.report), std::move(**fresh),
+               {policy, options, *scene.model, *map, *neighbours}, context);
+}
+
+}  // namespace strake::clash

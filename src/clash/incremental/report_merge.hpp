@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "clash/incremental/neighbours.hpp"
+#include "clash/incremental/object_map.hpp"
+#include "strake/clash/clash.hpp"
+#include "strake/clash/policy.hpp"
+#include "strake/model/model.hpp"
+#include "strake/parallel/context.hpp"
+
+namespace strake::clash {
+
+/// What a report is brought up to date by.
+struct MergeInputs {
+  const Policy& policy;
+  const Options& options;
+  const model::Model& model;
+  const ObjectMap& map;
+  const Neighbours& neighbours;
+};
+
+/// Whether the lists of a report of an earlier run, which kept what changes need, fit a map of so
+/// many objects and the rules of a later one.
+[[nodiscard]] bool fits(const Report& earlier, const Report& fresh, std::size_t objects);
+
+/// Brings the report of an earlier run up to date by one about the pairs of changed objects, from
+/// detect_among(). Errors: cancelled.
+[[nodiscard]] Result<Report> merge(Report earlier, Report fresh, const MergeInputs& inputs,
+                                   const parallel::Context& context);
+
+}  // namespace strake::clash

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run that follows changes reports what a full run does, bit by bit, whatever was edited.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "strake/clash/incremental.hpp"
+#include "strake/parallel/team.hpp"
+#include "support/edited_model.hpp"
+#include "support/rounds.hpp"
+#include "support/same_reports.hpp"
+
+namespace strake::clash {
+namespace {
+
+using test::EditedInputs;
+using test::EditedModel;
+using test::ReportDifference;
+
+Signatures signatures_of(const EditedInputs& in, const parallel::Context& context) {
+  return signatures(in.scene, in.sets, in.options, in.policy, context).value();
+}
+
+/// A run, and what a later one has to know of it.
+struct Earlier {
+  Report report;
+  Signatures signatures;
+  std::vector<std::string> names;
+};
+
+std::vector<std::string> names_of(const model::Model& model) {
+  std::vector<std::string> names;
+  for (const model::Object& o : model.objects) names.push_back(model.files[o.file].label + o.id);
+  return names;
+}
+
+std::vector<std::uint32_t> mapped(const Earlier& earlier, const std::vector<std::string>& names,
+                                  const Signatures& now) {
+  std::unordered_map<std::string, std::uint32_t> numbers;
+  for (std::uint32_t o = 0; o < names.size(); ++o) numbers[names[o]] = o;
+  std::vector<std::uint32_t> map;
+  for (std::size_t o = 0; o < earlier.names.size(); ++o) {
+    const auto at = numbers.find(earlier.names[o]);
+    const bool same =
+        at != numbers.end() && now.objects[at->second] == earlier.signatures.objects[o];
+    map.push_back(same ? at->second : kChanged);
+  }
+  return map;
+}
+
+class IncrementalLaw : public testing::TestWithParam<std::uint64_t> {
+ protected:
+  /// Compares a run that follows the changes, for each team, with a full one.
+  void compare(const EditedInputs& in, const Earlier& earlier, const Signatures& now,
+               const Report& full) {
+    const std::vector<std::uint32_t> map = mapped(earlier, names_of(*in.model), now);
+    for (parallel::Team* const team : {&one_, &two_, &three_, &eight_}) {
+      const parallel::Context context{.team = team, .stop = {}};
+      EXPECT_EQ(signatures_of(in, context).objects, now.objects);
+      const Result<Report> followed =
+          detect_changes(in.scene, in.sets, in.options, in.policy, {earlier.report, map}, context);
+      ASSERT_TRUE(followed) << followed.error().text();
+      EXPECT_EQ(ReportDifference::of(full, *followed), "");
+      work_ += followed->counters.part_pairs;
+    }
+    full_work_ += 4 * full.counters.part_pairs;
+  }
+
+  parallel::Team one_{1}, two_{2}, three_{3}, eight_{8};
+  std::uint64_t work_ = 0, full_work_ = 0;
+};
+
+TEST_P(IncrementalLaw, EqualsTheFullRunBitByBit) {
+  const int steps = test::rounds(12, 40);
+  EditedModel edited(GetParam());
+  Earlier earlier;
+  for (int step = 0; step < steps; ++step) {
+    SCOPED_TRACE("step " + std::to_string(step));
+    if (step > 0) edited.edit();
+    const EditedInputs in = edited.inputs();
+    const Signatures now = signatures_of(in, {});
+    Report full =
+        detect(in.scene, in.sets, in.options, in.policy, {.team = &two_, .stop = {}}).value();
+    if (step > 0 && now.rules == earlier.signatures.rules) {
+      compare(in, earlier, now, full);
+      if (HasFailure()) return;
+    }
+    earlier = {std::move(full), now, names_of(*in.model)};
+  }
+  // It would be equal as well if every run were a full one.
+  EXPECT_LT(work_, full_work_);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, IncrementalLaw,
+                         testing::Range<std::uint64_t>(1, test::rounds<std::uint64_t>(20, 400)));
+
+/// What follows from its own result step by step: nothing that is kept may drift.
+TEST(IncrementalChain, FollowsItsOwnResults) {
+  for (std::uint64_t seed = 1000; seed < test::rounds<std::uint64_t>(1008, 1100); ++seed) {
+    SCOPED_TRACE(seed);
+    EditedModel edited(seed);
+    Earlier earlier;
+    for (int step = 0; step < 20; ++step) {
+      if (step > 0) edited.edit();
+      const EditedInputs in = edited.inputs();
+      const Signatures now = signatures_of(in, {});
+      const Report full = detect(in.scene, in.sets, in.options, in.policy, {}).value();
+      Report followed = full;
+      if (step > 0 && now.rules == earlier.signatures.rules)
+        followed = detect_changes(
+                       in.scene, in.sets, in.options, in.policy,
+                       {std::move(earlier.report), mapped(earlier, names_of(*in.model), now)}, {})
+                       .value();
+      ASSERT_EQ(ReportDifference::of(full, followed), "") << "step " << step;
+      earlier = {std::move(followed), now, names_of(*in.model)};
+    }
+  }
+}
+
+/// Labels, links and groups are numbered anew by every call of inputs(), and objects are in another
+/// order there.
+TEST(IncrementalSignatures, NumbersDoNotShowInThem) {
+  for (std::uint64_t seed = 1; seed < test::rounds<std::uint64_t>(30, 300); ++seed) {
+    EditedModel edited(seed);
+    const EditedInputs once = edited.inputs();
+    std::ranges::reverse(edited.objects);
+    const EditedInputs again = edited.inputs();
+    const Signatures first = signatures_of(once, {}), second = signatures_of(again, {});
+    EXPECT_EQ(first.rules, second.rules) << seed;
+    EXPECT_EQ(first.objects, second.objects) << seed;
+  }
+}
+
+}  // namespace
+}  // namespace strake::clash
