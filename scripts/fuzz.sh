@@ -8,7 +8,7 @@ set -euo pipefail
 need build test
 seconds=600
 [ "${1:-}" = --seconds ] && { seconds=$2; shift 2; }
-formats=${*:-gltf obj stl rvm rvm_attributes rules sheets clash_document view_document}
+formats=${*:-gltf obj stl rvm rvm_attributes rules sheets clash_document view_document project project_blob}
 # shellcheck disable=SC2086 # a word for each fuzzer
 configure_and_build fuzz write_seeds $(printf '%s_fuzzer ' $formats)
 build/fuzz/bin/write_seeds build/fuzz/seeds
@@ -24,7 +24,10 @@ for format in $formats; do
   folders=("build/fuzz/corpus/$format" "build/fuzz/seeds/$format")
   [ -d "${STRAKE_DATA:-}/$real" ] && folders+=("$STRAKE_DATA/$real")
   # Small inputs: a find in a kilobyte is one in a gigabyte, and there are a hundred times as many.
-  "build/fuzz/bin/${format}_fuzzer" -max_total_time="$seconds" -max_len=16384 -timeout=10 \
+  # A project is made of pages, and no smaller.
+  longest=16384
+  [ "$format" = project ] && longest=524288
+  "build/fuzz/bin/${format}_fuzzer" -max_total_time="$seconds" -max_len="$longest" -timeout=10 \
     -rss_limit_mb=2048 -print_final_stats=1 -artifact_prefix="build/fuzz/found/$format/" \
     "${folders[@]}" 2>&1 | grep -vE '^#|NEW_FUNC' || { say "found something: build/fuzz/found/$format"; exit 1; }
 done

@@ -121,6 +121,19 @@ Result<model::Model> read_models(std::span<const std::filesystem::path> paths,
   return read_models(files, context);
 }
 
+std::vector<std::filesystem::path> Reader::companions(const FileBytes& /*file*/,
+                                                      const parallel::Context& /*context*/) const {
+  return {};
+}
+
+std::vector<std::filesystem::path> files_read_with(const FileBytes& file,
+                                                   const parallel::Context& context) {
+  const Readers readers = all_readers();
+  const Reader* const reader = best_reader(readers, file);
+  return reader == nullptr ? std::vector<std::filesystem::path>()
+                           : reader->companions(file, context);
+}
+
 std::vector<std::unique_ptr<Reader>> all_readers() {
   std::vector<std::unique_ptr<Reader>> readers;
   readers.push_back(make_rvm_reader());

@@ -44,6 +44,9 @@ class Reader {
   /// Reads the objects of the file as one model with one SourceFile; finish() is not called.
   [[nodiscard]] virtual Result<model::Model> read(const FileBytes& file, const ReadOptions& options,
                                                   const parallel::Context& context) const = 0;
+  /// Returns the files beside it that read() would read with it, whether or not they are there.
+  [[nodiscard]] virtual std::vector<std::filesystem::path> companions(
+      const FileBytes& file, const parallel::Context& context) const;
 };
 
 [[nodiscard]] std::unique_ptr<Reader> make_rvm_reader();
@@ -53,6 +56,11 @@ class Reader {
 
 /// Returns all readers of this build, in a fixed order.
 [[nodiscard]] std::vector<std::unique_ptr<Reader>> all_readers();
+
+/// Returns the files that are read with a model file, as the attributes of an RVM file; none where
+/// no reader recognises it.
+[[nodiscard]] std::vector<std::filesystem::path> files_read_with(const FileBytes& file,
+                                                                 const parallel::Context& context);
 
 /// Reads files into one finished model, each by the reader that recognises it best.
 /// A file that no reader recognises, or that holds nothing usable, is an error that names it.

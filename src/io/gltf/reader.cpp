@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/gltf/accessor.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/document.hpp"
 #include "io/gltf/import.hpp"
@@ -71,6 +72,25 @@ class GltfReader final : public Reader {
     if (extension == ".glb") return 20;
     // The asset is required and usually comes first, but may come anywhere.
     return !object ? 0 : text.find("\"asset\"") != std::string_view::npos ? 70 : 5;
+  }
+
+  [[nodiscard]] std::vector<std::filesystem::path> companions(
+      const FileBytes& file, const parallel::Context& context) const override {
+    std::vector<std::filesystem::path> found;
+    const Result<gltf::Container> container = gltf::open_container(file);
+    // Most files name no other, and their JSON is long.
+    if (!container || (container->json.find("\"uri\"") == std::string_view::npos &&
+                       container->json.find("\\u") == std::string_view::npos))
+      return found;
+    const Result<gltf::Document> document = gltf::Document::open(container->json, context);
+    if (!document) return found;
+    for (const gltf::JsonValue& buffer : document->root()["buffers"].items()) {
+      const gltf::JsonValue uri = buffer["uri"];
+      if (!uri.is_string() || uri.raw().starts_with("data:")) continue;
+      const auto path = safe_relative_path(file.path, gltf::decode_uri(uri.text_value()));
+      if (path) found.push_back(*path);
+    }
+    return found;
   }
 
   [[nodiscard]] Result<model::Model> read(const FileBytes& file, const ReadOptions& options,

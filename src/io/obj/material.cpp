@@ -65,6 +65,24 @@ void load_library(std::string_view name, const std::filesystem::path& obj_path,
   parse_materials(without_byte_order_mark(as_text(content->bytes())), materials);
 }
 
+/// Returns the names on an `mtllib` line. Names with blanks are common, lists of names as well: the
+/// whole line is a name if such a file exists.
+std::vector<std::string_view> library_names(std::string_view line,
+                                            const std::filesystem::path& obj_path) {
+  const std::optional<std::filesystem::path> whole = safe_relative_path(obj_path, line);
+  std::error_code failed;
+  const bool single = line.find_first_of(" \t") == std::string_view::npos ||
+                      (whole && std::filesystem::is_regular_file(*whole, failed));
+  if (single) return {line};
+  std::vector<std::string_view> names;
+  while (!line.empty()) {
+    const std::size_t length = std::min(line.find_first_of(" \t"), line.size());
+    names.push_back(line.substr(0, length));
+    line = trimmed(line.substr(length), kBlanks);
+  }
+  return names;
+}
+
 }  // namespace
 
 void parse_materials(std::string_view text, Materials& materials) {
@@ -87,18 +105,22 @@ void parse_materials(std::string_view text, Materials& materials) {
 
 void load_materials(std::string_view names, const std::filesystem::path& obj_path,
                     Materials& materials, Diagnostics& diagnostics) {
-  // Names with blanks are common, lists of names as well: the whole line is a name if such a file
-  // exists.
-  const std::optional<std::filesystem::path> whole = safe_relative_path(obj_path, names);
-  std::error_code failed;
-  const bool single = names.find_first_of(" \t") == std::string_view::npos ||
-                      (whole && std::filesystem::is_regular_file(*whole, failed));
-  if (single) return load_library(names, obj_path, materials, diagnostics);
-  while (!names.empty()) {
-    const std::size_t length = std::min(names.find_first_of(" \t"), names.size());
-    load_library(names.substr(0, length), obj_path, materials, diagnostics);
-    names = trimmed(names.substr(length), kBlanks);
+  for (const std::string_view name : library_names(names, obj_path))
+    load_library(name, obj_path, materials, diagnostics);
+}
+
+std::vector<std::filesystem::path> named_libraries(std::string_view text,
+                                                   const std::filesystem::path& obj_path) {
+  constexpr std::string_view kWord = "mtllib";
+  std::vector<std::filesystem::path> found;
+  for (std::size_t at = text.find(kWord); at != std::string_view::npos;
+       at = text.find(kWord, at + 1)) {
+    const std::string_view rest = text.substr(at + kWord.size());
+    const std::string_view names = trimmed(rest.substr(0, rest.find('\n')), kBlanks);
+    for (const std::string_view name : library_names(names, obj_path))
+      if (const auto path = safe_relative_path(obj_path, name)) found.push_back(*path);
   }
+  return found;
 }
 
 }  // namespace strake::io::obj

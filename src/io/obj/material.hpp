@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "strake/core/diagnostics.hpp"
 #include "strake/model/model.hpp"
@@ -22,5 +23,10 @@ void parse_materials(std::string_view text, Materials& materials);
 /// colour and a diagnostic.
 void load_materials(std::string_view names, const std::filesystem::path& obj_path,
                     Materials& materials, Diagnostics& diagnostics);
+
+/// Returns the files that load_materials() reads, or would if they were there, for the `mtllib`
+/// lines of the text of an OBJ file.
+[[nodiscard]] std::vector<std::filesystem::path> named_libraries(
+    std::string_view text, const std::filesystem::path& obj_path);
 
 }  // namespace strake::io::obj

@@ -251,6 +251,11 @@ class ObjReader final : public Reader {
  public:
   [[nodiscard]] std::string_view format() const override { return "OBJ"; }
 
+  [[nodiscard]] std::vector<std::filesystem::path> companions(
+      const FileBytes& file, const parallel::Context& /*context*/) const override {
+    return obj::named_libraries(as_text(file.bytes), file.path);
+  }
+
   [[nodiscard]] int recognise(const FileBytes& file) const override {
     const std::string_view text = without_byte_order_mark(as_text(file.bytes));
     if (text.substr(0, 4096).find('\0') != std::string_view::npos) return 0;

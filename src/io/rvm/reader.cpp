@@ -110,6 +110,13 @@ class RvmReader final : public Reader {
  public:
   [[nodiscard]] std::string_view format() const override { return "RVM"; }
 
+  [[nodiscard]] std::vector<std::filesystem::path> companions(
+      const FileBytes& file, const parallel::Context& /*context*/) const override {
+    const auto attributes = find_attribute_file(file.path);
+    if (!attributes) return {};
+    return {*attributes};
+  }
+
   [[nodiscard]] int recognise(const FileBytes& file) const override {
     const std::string extension = lower_extension(file.path);
     const bool named = extension == ".rvm" || extension == ".rev";

@@ -167,6 +167,11 @@ std::uint64_t BlobReader::raw_size(std::span<const std::byte> blob) {
   return head ? head->raw_size : 0;
 }
 
+Hash128 BlobReader::raw_hash(std::span<const std::byte> blob) {
+  const auto head = head_of(blob);
+  return head ? head->hash : Hash128();
+}
+
 Result<BlobReader> BlobReader::open(std::span<const std::byte> blob, std::string what) {
   BlobReader reader;
   reader.what_ = std::move(what);

@@ -60,6 +60,8 @@ class BlobReader {
   /// Returns how many bytes open() would unpack, so that room is made for no more than they can
   /// fill; 0 where the blob is none.
   [[nodiscard]] static std::uint64_t raw_size(std::span<const std::byte> blob);
+  /// Returns the hash of what open() would unpack; zeros where the blob is none.
+  [[nodiscard]] static Hash128 raw_hash(std::span<const std::byte> blob);
   [[nodiscard]] std::uint64_t number();
   [[nodiscard]] std::int64_t integer();
   [[nodiscard]] double real();

@@ -97,6 +97,7 @@ class Database {
  private:
   friend class Statement;
   friend class Transaction;
+  friend class ReadScope;
   friend class Opening;
   Database() = default;
   sqlite3* handle_ = nullptr;
@@ -104,6 +105,21 @@ class Database {
   int wait_ms_ = 0;
   /// Size and time of change of a file that is read as if nobody wrote to it.
   std::optional<std::pair<std::int64_t, std::int64_t>> immutable_;
+};
+
+/// Reads of one moment, unless a transaction sees to that already.
+class ReadScope {
+ public:
+  [[nodiscard]] static Result<ReadScope> begin(Database& database);
+  ~ReadScope();
+  ReadScope(ReadScope&& other) noexcept;
+  ReadScope& operator=(ReadScope&&) = delete;
+  ReadScope(const ReadScope&) = delete;
+  ReadScope& operator=(const ReadScope&) = delete;
+
+ private:
+  explicit ReadScope(Database* database) : database_(database) {}
+  Database* database_ = nullptr;  ///< null: somebody else's transaction
 };
 
 /// All that is written between begin() and commit(), or nothing of it.

@@ -28,8 +28,15 @@ CREATE TABLE file (
   bodies INTEGER NOT NULL,
   shapes INTEGER NOT NULL,
   groups INTEGER NOT NULL,
-  group_attributes INTEGER NOT NULL -- groups that state some
+  group_attributes INTEGER NOT NULL, -- groups that state some
+  blocks BLOB NOT NULL              -- hash of what is in all its blocks
 ) STRICT;
+
+CREATE TABLE model_seal (           -- without it, a file that is missing would not be missed
+  id INTEGER PRIMARY KEY CHECK (id = 1),
+  files BLOB NOT NULL               -- hash of the rows of all files; zeros: there are none
+) STRICT;
+INSERT INTO model_seal VALUES (1, zeroblob(16));
 
 CREATE TABLE file_block (           -- 32768 of one kind, the last block fewer
   id INTEGER PRIMARY KEY,

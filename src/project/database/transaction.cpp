@@ -8,6 +8,20 @@
 
 namespace strake::project {
 
+Result<ReadScope> ReadScope::begin(Database& database) {
+  if (sqlite3_get_autocommit(database.handle_) == 0) return ReadScope(nullptr);
+  if (const Status begun = database.execute("BEGIN"); !begun) return begun.error();
+  return ReadScope(&database);
+}
+
+ReadScope::~ReadScope() {
+  if (database_ != nullptr && sqlite3_get_autocommit(database_->handle_) == 0)
+    static_cast<void>(database_->execute("COMMIT"));
+}
+
+ReadScope::ReadScope(ReadScope&& other) noexcept
+    : database_(std::exchange(other.database_, nullptr)) {}
+
 Result<Transaction> Transaction::begin(Database& database) {
   if (sqlite3_db_readonly(database.handle_, "main") != 0) return database.error(SQLITE_READONLY);
   sqlite3_busy_timeout(database.handle_, database.wait_ms_);

@@ -84,6 +84,9 @@ std::optional<FileRow> row_of(const Statement& statement) {
   row.shapes = in.count();
   row.groups = in.count();
   row.group_attributes = in.count();
+  const auto blocks = in.hash();
+  if (!blocks) in.refuse();
+  row.blocks = blocks.value_or(Hash128());
   if (!in.sound()) return std::nullopt;
   return row;
 }
@@ -91,8 +94,8 @@ std::optional<FileRow> row_of(const Statement& statement) {
 constexpr std::string_view kColumns =
     "position, path, given, name, label, format, unit, up_axis, bytes, precision_mm, folders, "
     "ends_early, option_unit_mm, option_up_axis, option_encoding, content, objects, bodies, "
-    "shapes, groups, group_attributes";
-constexpr int kColumnCount = 21;
+    "shapes, groups, group_attributes, blocks";
+constexpr int kColumnCount = 22;
 
 /// Binds the values of a row to parameters 1, 2, … `path` must last until the statement has run.
 void bind_row(Statement& out, const FileRow& row, std::string_view path) {
@@ -126,6 +129,30 @@ void bind_row(Statement& out, const FileRow& row, std::string_view path) {
   integer(row.shapes);
   integer(row.groups);
   integer(row.group_attributes);
+  out.bind(++at, row.blocks);
+}
+
+/// Returns the hash of all that the rows say.
+Hash128 seal_of(const std::vector<FileRow>& rows) {
+  if (rows.empty()) return {};
+  Hasher hasher;
+  for (const FileRow& row : rows) {
+    const model::SourceFile& source = row.file.source;
+    const io::ReadOptions& options = row.file.options;
+    hasher.add(row.file.id).add(row.position).add(row.file.path.string()).add(row.given);
+    for (const std::string* const text :
+         {&row.name, &source.label, &source.format, &source.unit, &source.up_axis, &source.folders})
+      hasher.add(*text);
+    hasher.add(source.bytes).add(source.precision_mm).add(std::uint64_t{source.ends_early});
+    hasher.add(std::uint64_t{options.unit_mm.has_value()}).add(options.unit_mm.value_or(0));
+    hasher.add(options.up_axis ? static_cast<std::int64_t>(*options.up_axis) : std::int64_t{-1});
+    hasher.add(std::uint64_t{options.encoding.has_value()}).add(options.encoding.value_or(""));
+    for (const Hash128& hash : {row.file.content, row.blocks}) hasher.add(hash.high).add(hash.low);
+    for (const std::uint64_t count :
+         {row.file.objects, row.file.bodies, row.shapes, row.groups, row.group_attributes})
+      hasher.add(count);
+  }
+  return hasher.value();
 }
 
 }  // namespace
@@ -144,6 +171,18 @@ Result<std::vector<FileRow>> read_rows(Database& database) {
       return database.damaged("a row of the table 'file' cannot be");
     rows.push_back(std::move(*row));
   }
+}
+
+Result<std::vector<FileRow>> read_sealed_rows(Database& database) {
+  Result<std::vector<FileRow>> rows = read_rows(database);
+  if (!rows) return rows;
+  Result<Statement> seal = database.prepare("SELECT files FROM model_seal");
+  if (!seal) return seal.error();
+  const Result<bool> found = seal->step();
+  if (!found) return found.error();
+  if (!*found || seal->hash(0) != seal_of(*rows))
+    return database.damaged("the rows of 'file' are not those that were stored");
+  return rows;
 }
 
 Status write_row(Database& database, FileRow& row) {
@@ -189,7 +228,11 @@ Status write_labels(Database& database) {
     statement->bind(2, (*rows)[i].file.id);
     if (const Status status = statement->run(); !status) return status;
   }
-  return {};
+  const Result<std::vector<FileRow>> written = read_rows(database);
+  if (!written) return written.error();
+  Result<Statement> seal = database.prepare("UPDATE model_seal SET files = ?1");
+  if (!seal) return seal.error();
+  return seal->bind(1, seal_of(*written)).run();
 }
 
 }  // namespace strake::project

@@ -20,15 +20,21 @@ struct FileRow {
   std::string given;  ///< the path by which it was read
   std::string name;   ///< its label where it is alone
   std::uint64_t shapes = 0, groups = 0, group_attributes = 0;
+  Hash128 blocks;  ///< of what is in its blocks
 };
 
 /// Returns all files, in the order in which they are read. Errors: input for a row that cannot be.
 [[nodiscard]] Result<std::vector<FileRow>> read_rows(Database& database);
 
+/// The same, where no file is missing and none has been changed by other than this program. Errors:
+/// input.
+[[nodiscard]] Result<std::vector<FileRow>> read_sealed_rows(Database& database);
+
 /// Writes a row: a new one where the id is 0.
 [[nodiscard]] Status write_row(Database& database, FileRow& row);
 
-/// Gives all files the labels that they have beside each other.
+/// Gives all files the labels that they have beside each other, and seals the rows: the last step
+/// of every change of them.
 [[nodiscard]] Status write_labels(Database& database);
 
 /// Returns what model::finish() makes of the files' names: the files by label, and the number of

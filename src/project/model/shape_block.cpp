@@ -16,10 +16,10 @@ namespace {
 using geometry::Primitive;
 
 /// Kinds are numbered as the variant is: a new primitive comes last, or is a new version of tables.
-constexpr std::size_t kKinds = std::variant_size_v<Primitive>;
-static_assert(kKinds == 10 &&
+constexpr std::size_t kPrimitiveKinds = std::variant_size_v<Primitive>;
+static_assert(kPrimitiveKinds == 10 &&
               std::is_same_v<std::variant_alternative_t<9, Primitive>, geometry::LinePrimitive>);
-constexpr auto kSharedKind = static_cast<std::uint8_t>(kKinds);
+constexpr auto kSharedKind = static_cast<std::uint8_t>(kPrimitiveKinds);
 
 template <std::size_t Kind>
 using Lengths =
@@ -88,7 +88,7 @@ Result<Blob> pack_shapes(std::span<const model::Shape> shapes,
   }
   BlobWriter out;
   out.column<std::uint8_t>(kinds);
-  write_kinds(out, shapes, std::make_index_sequence<kKinds>());
+  write_kinds(out, shapes, std::make_index_sequence<kPrimitiveKinds>());
   out.planes(packs);
   write_steps(out, numbers);
   return out.finish();
@@ -102,7 +102,7 @@ Result<std::vector<SharedShape>> unpack_shapes(std::span<const std::byte> blob, 
   if (kinds.size() != shapes.size() ||
       std::ranges::any_of(kinds, [](std::uint8_t kind) { return kind > kSharedKind; }))
     in->refuse("kinds lack");
-  read_kinds(*in, kinds, shapes, std::make_index_sequence<kKinds>());
+  read_kinds(*in, kinds, shapes, std::make_index_sequence<kPrimitiveKinds>());
   const auto count = static_cast<std::size_t>(std::ranges::count(kinds, kSharedKind));
   const std::vector<std::uint32_t> packs = read_planes(*in, count);
   const std::vector<std::uint32_t> numbers = read_steps(*in, count);

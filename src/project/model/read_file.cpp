@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <new>
+#include <utility>
+
+#include "io/source/input_file.hpp"
+#include "project/model/model_store.hpp"
+
+namespace strake::project {
+namespace {
+
+Result<Hash128> hash_of_file(const std::filesystem::path& path, const parallel::Context& context) {
+  const Result<io::FileContent> content = io::FileContent::read(path, context);
+  if (!content) return content.error();
+  Hasher hasher;
+  hasher.add(content->bytes());
+  for (const std::filesystem::path& other :
+       io::files_read_with({path, content->bytes()}, context)) {
+    // That one cannot be read changes what is read of the model, too.
+    hasher.add(other.filename().string());
+    const Result<io::FileContent> more = io::FileContent::read(other, context);
+    hasher.add(std::uint64_t{more ? 1U : 0U});
+    if (more) hasher.add(more->bytes());
+  }
+  return hasher.value();
+}
+
+Result<FileToStore> read_one(const io::FileToRead& file, const parallel::Context& context) {
+  const Result<Hash128> before = hash_of_file(file.path, context);
+  if (!before) return before.error();
+  Result<model::Model> model = io::read_models(std::array{file}, context);
+  if (!model) return model.error();
+  const Result<Hash128> after = hash_of_file(file.path, context);
+  if (!after) return after.error();
+  if (*before != *after)
+    return Error{ErrorCode::input, "is being written while it is read", file.path.string(),
+                 "try again when it is whole"};
+  return FileToStore{file.path, file.options, *after, std::move(*model)};
+}
+
+}  // namespace
+
+Result<Hash128> content_hash(const std::filesystem::path& path, const parallel::Context& context) {
+  try {
+    return hash_of_file(path, context);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+Result<FileToStore> read_file(const io::FileToRead& file, const parallel::Context& context) {
+  try {
+    return read_one(file, context);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+}  // namespace strake::project

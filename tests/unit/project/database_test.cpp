@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/database/database.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "project/database/schema.hpp"
+#include "strake/project/project.hpp"
+#include "support/io_files.hpp"
+#include "support/stored_models.hpp"
+
+namespace strake::project {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contents(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+void expect_error(const auto& result, ErrorCode code, std::string_view says) {
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, code) << result.error().text();
+  EXPECT_NE(result.error().text().find(says), std::string::npos) << result.error().text();
+}
+
+class ProjectFileTest : public ::testing::Test {
+ protected:
+  /// Makes an empty project and closes it.
+  [[nodiscard]] fs::path make() const {
+    EXPECT_TRUE(Project::create(file_));
+    return file_;
+  }
+  /// Writes SQL into the file as another program would.
+  void edit(const char* sql) const {
+    auto project = Project::open(file_, {.access = Access::write});
+    ASSERT_TRUE(project) << project.error().text();
+    const Status done = project->database().execute(sql);
+    ASSERT_TRUE(done) << done.error().text();
+  }
+
+  test::TemporaryFolder folder_;
+  fs::path file_ = folder_.path() / "ship.strake";
+};
+
+TEST_F(ProjectFileTest, ANewProjectIsOneFileAndKnown) {
+  static_cast<void>(make());
+  EXPECT_TRUE(is_project(file_));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
+  auto project = Project::open(file_, {});
+  ASSERT_TRUE(project) << project.error().text();
+  EXPECT_EQ(project->path(), file_);
+  const auto files = project->files();
+  ASSERT_TRUE(files);
+  EXPECT_TRUE(files->empty());
+  const auto model = project->model({});
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_TRUE(model->objects.empty());
+}
+
+TEST_F(ProjectFileTest, AFileThatExistsIsLeftAlone) {
+  static_cast<void>(folder_.write("ship.strake", "something of mine"));
+  expect_error(Project::create(file_), ErrorCode::output, "exists already");
+  EXPECT_EQ(contents(file_), "something of mine");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
+}
+
+TEST_F(ProjectFileTest, NoFolderNoProject) {
+  expect_error(Project::create(folder_.path() / "none" / "ship.strake"), ErrorCode::output,
+               "cannot be written");
+}
+
+TEST_F(ProjectFileTest, WhatIsNoProjectIsTold) {
+  expect_error(Project::open(file_, {}), ErrorCode::input, "cannot be read");
+  expect_error(Project::open(folder_.path(), {}), ErrorCode::input, "cannot be read");
+  const fs::path text = folder_.write("a.txt", "solid\n");
+  EXPECT_FALSE(is_project(text));
+  expect_error(Project::open(text, {}), ErrorCode::input, "is no project");
+  static_cast<void>(make());
+  std::string bytes = contents(file_);
+  bytes[68] = 'X';
+  expect_error(Project::open(folder_.write("other.db", bytes), {}), ErrorCode::input,
+               "another program");
+}
+
+TEST_F(ProjectFileTest, ANewerProjectIsRefused) {
+  static_cast<void>(make());
+  edit("PRAGMA user_version = 99");
+  for (const Access access : {Access::read, Access::write})
+    expect_error(Project::open(file_, {.access = access}), ErrorCode::input, "newer Strake");
+}
+
+TEST_F(ProjectFileTest, AVersionThatNeverWasIsDamage) {
+  static_cast<void>(make());
+  edit("PRAGMA user_version = 0");
+  expect_error(Project::open(file_, {}), ErrorCode::input, "no version 0");
+}
+
+TEST_F(ProjectFileTest, OtherTablesAreRefused) {
+  for (const char* sql : {"CREATE TABLE other (a)", "CREATE VIEW other AS SELECT * FROM file",
+                          "CREATE TRIGGER other AFTER INSERT ON file BEGIN DELETE FROM file; END",
+                          "CREATE INDEX other ON file (bytes)", "DROP TABLE model_seal",
+                          "ALTER TABLE file ADD COLUMN other TEXT"}) {
+    SCOPED_TRACE(sql);
+    static_cast<void>(make());
+    edit(sql);
+    expect_error(Project::open(file_, {}), ErrorCode::input, "damaged");
+    fs::remove(file_);
+  }
+  static_cast<void>(make());
+  edit("ANALYZE");
+  EXPECT_TRUE(Project::open(file_, {}));
+}
+
+TEST_F(ProjectFileTest, AJournalOfTheOldKindIsRefused) {
+  static_cast<void>(make());
+  static_cast<void>(folder_.write("ship.strake-journal", "hostile"));
+  expect_error(Project::open(file_, {}), ErrorCode::input, "WAL");
+}
+
+TEST_F(ProjectFileTest, ReadersNeitherWaitNorSeeHalf) {
+  static_cast<void>(make());
+  auto writer = Project::open(file_, {.access = Access::write});
+  ASSERT_TRUE(writer) << writer.error().text();
+  auto transaction = Transaction::begin(writer->database());
+  ASSERT_TRUE(transaction) << transaction.error().text();
+  ASSERT_TRUE(writer->database().execute("UPDATE model_seal SET files = zeroblob(15)"));
+  auto reader = Project::open(file_, {});
+  ASSERT_TRUE(reader) << reader.error().text();
+  EXPECT_EQ(test::number(*reader, "SELECT length(files) FROM model_seal"), 16);
+  ASSERT_TRUE(transaction->commit());
+  // Open, it sees what was there then.
+  EXPECT_EQ(test::number(*reader, "SELECT length(files) FROM model_seal"), 16);
+  auto later = Project::open(file_, {});
+  ASSERT_TRUE(later);
+  EXPECT_EQ(test::number(*later, "SELECT length(files) FROM model_seal"), 15);
+}
+
+TEST_F(ProjectFileTest, ASecondWriterIsTold) {
+  static_cast<void>(make());
+  auto first = Project::open(file_, {.access = Access::write});
+  ASSERT_TRUE(first);
+  auto second = Project::open(file_, {.access = Access::write, .wait_s = 0.2});
+  ASSERT_TRUE(second);
+  {
+    auto transaction = Transaction::begin(first->database());
+    ASSERT_TRUE(transaction);
+    const auto start = std::chrono::steady_clock::now();
+    expect_error(Transaction::begin(second->database()), ErrorCode::output, "another program");
+    EXPECT_GE(std::chrono::steady_clock::now() - start, std::chrono::milliseconds(150));
+    expect_error(Project::open(file_, {.access = Access::write}), ErrorCode::output,
+                 "another program");
+  }
+  EXPECT_TRUE(Transaction::begin(second->database()));
+}
+
+TEST_F(ProjectFileTest, WithoutACommitNothingIsWritten) {
+  static_cast<void>(make());
+  auto project = Project::open(file_, {.access = Access::write});
+  ASSERT_TRUE(project);
+  {
+    auto transaction = Transaction::begin(project->database());
+    ASSERT_TRUE(transaction);
+    ASSERT_TRUE(project->database().execute("DELETE FROM model_seal"));
+  }
+  EXPECT_EQ(test::number(*project, "SELECT count(*) FROM model_seal"), 1);
+}
+
+TEST_F(ProjectFileTest, AReaderCannotWrite) {
+  static_cast<void>(make());
+  auto reader = Project::open(file_, {});
+  ASSERT_TRUE(reader);
+  expect_error(Transaction::begin(reader->database()), ErrorCode::output, "read-only");
+  EXPECT_FALSE(reader->database().execute("DELETE FROM model_seal"));
+}
+
+TEST_F(ProjectFileTest, AFolderThatMayNotBeWrittenIsReadAllTheSame) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  static_cast<void>(make());
+  ASSERT_EQ(::chmod(file_.c_str(), 0444), 0);
+  ASSERT_EQ(::chmod(folder_.path().c_str(), 0555), 0);
+  {
+    auto reader = Project::open(file_, {});
+    EXPECT_TRUE(reader) << (reader ? "" : reader.error().text());
+    if (reader) {
+      EXPECT_TRUE(reader->model({}));
+    }
+    expect_error(Project::open(file_, {.access = Access::write}), ErrorCode::output, "cannot be");
+  }
+  ASSERT_EQ(::chmod(folder_.path().c_str(), 0755), 0);
+}
+
+TEST_F(ProjectFileTest, FaultsOfStatementsAreTold) {
+  static_cast<void>(make());
+  auto project = Project::open(file_, {.access = Access::write});
+  ASSERT_TRUE(project);
+  Database& database = project->database();
+  expect_error(database.prepare("SELECT none"), ErrorCode::internal, "no such column");
+  auto statement = database.prepare("SELECT ?1");
+  ASSERT_TRUE(statement);
+  statement->bind(2, std::int64_t{1});
+  EXPECT_FALSE(statement->step());
+  statement->reset();
+  const Hash128 hash{0x0123456789abcdefULL, 0xfedcba9876543210ULL};
+  statement->bind(1, hash);
+  ASSERT_TRUE(statement->step().value());
+  EXPECT_EQ(statement->hash(0), hash);
+  // The digits in the shell are those that messages show.
+  auto digits = database.prepare("SELECT lower(hex(?1))");
+  ASSERT_TRUE(digits);
+  digits->bind(1, hash);
+  ASSERT_TRUE(digits->step().value());
+  EXPECT_EQ(digits->text(0), hash.text());
+}
+
+TEST(ProjectMigration, StepsLeadFromVersionToVersion) {
+  auto database = Database::in_memory();
+  ASSERT_TRUE(database);
+  ASSERT_TRUE((*database)->execute("CREATE TABLE t (a); PRAGMA user_version = 1"));
+  constexpr std::array<MigrationStep, 2> kSteps{
+      {{2, "ALTER TABLE t ADD COLUMN c"}, {1, "ALTER TABLE t ADD COLUMN b"}}};
+  ASSERT_TRUE(migrate(**database, 3, kSteps));
+  EXPECT_EQ(schema_version(**database).value(), 3);
+  EXPECT_TRUE((*database)->execute("INSERT INTO t (a, b, c) VALUES (1, 2, 3)"));
+}
+
+TEST(ProjectMigration, AStepThatFailsLeavesAllAsItWas) {
+  auto database = Database::in_memory();
+  ASSERT_TRUE(database);
+  ASSERT_TRUE((*database)->execute("CREATE TABLE t (a); PRAGMA user_version = 1"));
+  constexpr std::array<MigrationStep, 2> kSteps{
+      {{1, "ALTER TABLE t ADD COLUMN b"}, {2, "ALTER TABLE none ADD COLUMN c"}}};
+  EXPECT_FALSE(migrate(**database, 3, kSteps));
+  EXPECT_EQ(schema_version(**database).value(), 1);
+  EXPECT_FALSE((*database)->execute("SELECT b FROM t"));
+  // And where no step goes on.
+  EXPECT_FALSE(migrate(**database, 5, std::span(kSteps).first(1)));
+  EXPECT_EQ(schema_version(**database).value(), 1);
+}
+
+/// A step for every version that there has ever been, so that none is forgotten.
+TEST(ProjectMigration, ThereIsAStepFromEachVersion) {
+  EXPECT_EQ(static_cast<std::int64_t>(migration_steps().size()), kSchemaVersion - 1);
+}
+
+}  // namespace
+}  // namespace strake::project
