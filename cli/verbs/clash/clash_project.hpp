@@ -36,8 +36,7 @@ void add_clash_project_options(CLI::App& command, ClashProjectInput& options);
 /// finds and tells the same.
 class ProjectClashes {
  public:
-  /// Opens the project that is given. Errors: those of open_project(), and usage for --full with
-  /// nothing to do.
+  /// Opens the project that is given. Errors: those of open_project().
   [[nodiscard]] static Result<ProjectClashes> open(Session& session,
                                                    const ClashProjectInput& input);
 

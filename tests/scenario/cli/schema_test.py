@@ -123,6 +123,20 @@ class Schemas(unittest.TestCase):
             self.assertEqual(classes.count(name), count)
             self.assertGreater(count, 0)
 
+    def test_clashes_of_a_project(self):
+        self.run_strake('project', 'new', 'ship.strake', 'ship.glb')
+        of_project = ['-p', 'ship.strake', '--json']
+        self.follows(self.run_strake('clash', *of_project), 'clash')
+        clashes = self.follows(self.run_strake('clash', 'list', *of_project), 'clash-list')['clashes']
+        self.assertGreater(len(clashes), 10)
+        key = clashes[0]['key']
+        self.run_strake('clash', 'set', '-p', 'ship.strake', key, '--status', 'approved', '--comment', 'meant')
+        self.assertEqual(self.follows(self.run_strake('clash', *of_project), 'clash')['decisions']['counts']['approved'], 1)
+        runs = self.follows(self.run_strake('clash', 'history', *of_project), 'clash-list')['runs']
+        self.assertEqual([run['how'] for run in runs], ['full', 'nothing'])
+        events = self.follows(self.run_strake('clash', 'history', key, *of_project), 'clash-list')['events']
+        self.assertEqual([event['after'] for event in events], ['approved'])
+
     def test_clash(self):
         report = self.follows(self.run_strake('clash', 'odd.obj', '--json'), 'clash')
         self.assertEqual({flag for result in report['results'] for flag in result['flags']},

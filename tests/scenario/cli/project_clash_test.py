@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""A week of clash tests over a project: what is found, decided, mended and found again."""
+import csv
+import io
+import json
+import re
+
+from scenario import Scenario, cube, main
+
+ROW = [(0, 0, 0), (80, 0, 0), (160, 0, 0), (240, 0, 0)]
+
+
+def cubes(places):
+    """An OBJ file of cubes c0, c1 and so on, 100 mm wide; in a row each is 20 mm in the next."""
+    return ''.join(cube(f'c{n}', n, at, 100) for n, at in enumerate(places))
+
+
+class ProjectClash(Scenario):
+    def setUp(self):
+        super().setUp()
+        self.write('row.obj', cubes(ROW))
+        self.done('project', 'new', 'ship.strake', 'row.obj', '--unit', 'mm')
+
+    def done(self, *arguments, exit_code=0):
+        done = self.run_strake(*arguments)
+        self.assertEqual(done.returncode, exit_code, done.stderr)
+        return done
+
+    def clash(self, *arguments, exit_code=0):
+        return self.done('clash', '-p', 'ship.strake', *arguments, exit_code=exit_code)
+
+    def change(self, places, name='row.obj'):
+        self.write(name, cubes(places))
+        self.done('project', 'update', 'ship.strake')
+
+    def listed(self, *arguments):
+        return json.loads(self.done('clash', 'list', '-p', 'ship.strake', '--json', *arguments).stdout)['clashes']
+
+    def statuses(self):
+        return [clash['status'] for clash in self.listed()]
+
+    def set(self, *arguments, exit_code=0):
+        return self.done('clash', 'set', '-p', 'ship.strake', *arguments, exit_code=exit_code)
+
+    def test_a_week(self):
+        # Monday: everything is new.
+        monday = self.clash('--fail-on', 'hit', exit_code=1)
+        self.assertIn('all of 4 objects tested', monday.stderr)
+        self.assertEqual(self.statuses(), ['new'] * 3)
+        keys = [clash['key'] for clash in self.listed()]
+        # Tuesday: nothing changed.
+        tuesday = self.clash()
+        self.assertIn('nothing changed, 3 results kept', tuesday.stderr)
+        self.assertEqual(self.statuses(), ['active'] * 3)
+        self.set(keys[0], keys[1], '--status', 'approved', '--comment', 'as agreed', '--by', 'Ann')
+        self.set(keys[2], '--assignee', 'Bob')
+        self.assertEqual(self.statuses(), ['approved', 'approved', 'active'])
+        self.assertIn('1 hit, 0 contacts, 0 clearance violations, 2 approved', self.clash().stdout)
+        # Wednesday: one got deeper, and comes back.
+        self.change([(1.5, 0, 0), *ROW[1:]])
+        wednesday = self.clash('--verify')
+        self.assertRegex(wednesday.stderr, r'1 of 4 objects changed, \d+ pairs? tested again, 2 results kept')
+        self.assertIn('the same as by a full test', wednesday.stderr)
+        self.assertRegex(wednesday.stdout, r'(?m)^HIT +deeper +-21[.]500 .* c0 +c1$')
+        self.assertEqual(self.statuses(), ['active', 'approved', 'active'])
+        events = json.loads(self.done('clash', 'history', '-p', 'ship.strake', keys[0], '--json').stdout)['events']
+        self.assertEqual([(e['who'], e['before'], e['after']) for e in events],
+                         [('Ann', 'active', 'approved'), ('strake', 'approved', 'active')])
+        # Thursday: one is mended, and an element is missing.
+        self.change([(1.5, 0, 0), (80, 500, 0), ROW[2]])
+        self.clash('--verify')
+        clashes = self.listed()
+        self.assertEqual([clash['status'] for clash in clashes], ['resolved', 'resolved', 'active'])
+        self.assertIn('is not in the model', clashes[2]['cannot_tell'])
+        # Friday: all is as on Monday.
+        self.change(ROW)
+        self.clash('--verify')
+        self.assertEqual(self.statuses(), ['new', 'new', 'active'])
+        self.assertEqual([clash['key'] for clash in self.listed()], keys)
+        runs = json.loads(self.done('clash', 'history', '-p', 'ship.strake', '--json').stdout)['runs']
+        self.assertEqual([run['how'] for run in runs], ['full', 'nothing', 'nothing', 'changes', 'changes', 'changes'])
+        self.assertEqual([run['appeared'] for run in runs], [3, 0, 0, 0, 0, 2])
+        self.assertEqual([run['gone'] for run in runs], [0, 0, 0, 0, 2, 0])
+        self.assertEqual([run['hit'] for run in runs], [3, 3, 3, 3, 0, 3])
+
+    def test_the_result_is_that_of_the_files(self):
+        told = json.loads(self.clash('--json').stdout)
+        self.change([(1.5, 0, 0), *ROW[1:]])
+        told = json.loads(self.clash('--json').stdout)
+        plain = json.loads(self.done('clash', 'row.obj', '--unit', 'mm', '--json').stdout)
+        self.assertEqual(told['hash'], plain['hash'])
+        for result in told['results']:
+            result.pop('decision', None)
+        self.assertEqual(told['results'], plain['results'])
+        self.assertEqual(told['tests'], plain['tests'])
+
+    def test_decisions_stop_no_fail_on_and_hold_for_a_renamed_file(self):
+        self.clash()
+        self.set('--select', '*', '--status', 'approved')
+        self.clash('--fail-on', 'hit')
+        (self.folder / 'row.obj').rename(self.folder / 'row_revB.obj')
+        self.done('project', 'update', 'ship.strake', 'row_revB.obj', '--match-files', 'row.obj=row_revB.obj')
+        self.clash('--fail-on', 'hit', '--verify')
+        self.assertEqual({(c['status'], c['a_file']) for c in self.listed()}, {('approved', 'row_revB.obj')})
+
+    def test_a_group_is_decided_about_at_once(self):
+        self.clash('--group-by', 'element')
+        self.set('--group', '1', '--status', 'reviewed')
+        self.assertEqual(sorted(self.statuses()).count('reviewed'), 2, 'two clashes share an element')
+        self.assertIn('there is no group', self.set('--group', '9', '--status', 'reviewed', exit_code=2).stderr)
+
+    def test_the_list_is_a_file_of_decisions(self):
+        self.clash()
+        key = self.listed()[0]['key']
+        self.set(key, '--status', 'approved', '--by', 'Ann', '--comment', '=1+1')
+        self.done('clash', 'list', '-p', 'ship.strake', '-o', 'decided.csv')
+        rows = list(csv.DictReader(io.StringIO((self.folder / 'decided.csv').read_text(encoding='utf-8'))))
+        self.assertEqual(rows[0]['status'], 'approved')
+        done = self.done('clash', 'row.obj', '--unit', 'mm', '--decisions', 'decided.csv')
+        self.assertIn('2 hits, 0 contacts, 0 clearance violations, 1 approved', done.stdout)
+
+    def test_a_run_that_cannot_be_told_is_not_remembered(self):
+        (self.folder / 'full').mkdir()
+        self.done('clash', '-p', 'ship.strake', '-o', 'full', exit_code=2)
+        self.assertEqual(self.listed(), [])
+        self.clash()
+        before = self.statuses()
+        self.set('0' * 26, '--status', 'approved', exit_code=2)
+        self.assertEqual(self.statuses(), before)
+
+    def test_rules_that_change_test_everything_and_tests_have_names(self):
+        self.write('r.toml', '[[test]]\nname = "all"\n')
+        self.assertIn("test 'all': all of 4 objects tested", self.clash('--rules', 'r.toml').stderr)
+        self.assertIn("test 'all': nothing changed", self.clash('--rules', 'r.toml').stderr)
+        self.write('r.toml', '[[test]]\nname = "all"\nclearance = "25mm"\n')
+        self.assertIn("test 'all': all of 4 objects tested", self.clash('--rules', 'r.toml').stderr)
+        self.assertEqual({clash['test'] for clash in self.listed()}, {'all'})
+        self.assertEqual(len(self.listed('--test', 'all', '--status', 'active')), 3)
+        self.assertIn('all of 4 objects', self.clash('--rules', 'r.toml', '--full').stderr)
+
+    def test_what_makes_no_sense(self):
+        for wrong in (['-p', 'ship.strake', 'row.obj'], ['row.obj', '--full'], ['row.obj', '--verify'],
+                      ['-p', 'ship.strake', '--decisions', 'x.csv'], ['row.obj', '--deeper', '2mm']):
+            self.done('clash', *wrong, exit_code=2)
+        for wrong in ([], ['--status', 'approved'], ['--select', '*'], ['a', '--select', '*', '--status', 'new']):
+            self.set(*wrong, exit_code=2)
+
+    def test_help_names_the_keys_as_results_do(self):
+        key = re.search(r'"key": "([^"]+)"', self.clash('--json').stdout)
+        self.assertEqual(key.group(1), self.listed()[0]['key'])
+
+
+if __name__ == '__main__':
+    main()
