@@ -2,14 +2,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "clash/detect.hpp"
 #include "clash/incremental/rule_signatures.hpp"
 #include "clash/incremental/shape_signatures.hpp"
-#include "clash/narrow_phase/source_errors.hpp"
 #include "strake/clash/incremental.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -19,10 +17,9 @@ namespace {
 /// Hashes what a scene and a test have about single objects.
 class ObjectSignatures {
  public:
-  ObjectSignatures(const model::Scene& scene, const std::vector<Hash128>& shapes,
-                   const SourceErrors& errors, const ElementHashes& elements,
-                   const RuleSignatures& rules)
-      : scene_(scene), shapes_(shapes), errors_(errors), elements_(elements), rules_(rules) {}
+  ObjectSignatures(const model::Scene& scene, const ShapeSignatures& shapes,
+                   const ElementHashes& elements, const RuleSignatures& rules)
+      : scene_(scene), shapes_(shapes), elements_(elements), rules_(rules) {}
 
   [[nodiscard]] Hash128 of(std::uint32_t o) const {
     WordHash hash;
@@ -39,18 +36,16 @@ class ObjectSignatures {
  private:
   void add_body(const model::GridBody& placed, WordHash& hash) const {
     const model::Body& body = scene_.model->bodies[placed.body];
-    hash.add(shapes_[placed.grid_shape]);
+    // What the snap moved follows from the source's numbers.
+    hash.add(shapes_.on_grid[placed.grid_shape]).add(shapes_.of_source[index(body.shape)]);
     for (int k = 0; k < 3; ++k) hash.add(placed.origin[k]).add(body.placement.translation[k]);
     for (const geometry::Vec3d& row : body.placement.linear.row)
       hash.add(row.x).add(row.y).add(row.z);
-    hash.add(static_cast<double>(errors_.moved_by_snap(body)))
-        .add(static_cast<double>(body.precision_um))
-        .add(static_cast<std::uint8_t>(body.category));
+    hash.add(static_cast<double>(body.precision_um)).add(static_cast<std::uint8_t>(body.category));
   }
 
   const model::Scene& scene_;
-  const std::vector<Hash128>& shapes_;
-  const SourceErrors& errors_;
+  const ShapeSignatures& shapes_;
   const ElementHashes& elements_;
   const RuleSignatures& rules_;
 };
@@ -63,11 +58,9 @@ Result<Signatures> signatures(const model::Scene& scene, const Sets& sets, const
   if (const Status s = check_inputs(scene, sets, options, policy); !s) return s.error();
   const auto shapes = shape_signatures(scene, context);
   if (!shapes) return shapes.error();
-  const auto errors = SourceErrors::measure(*scene.model, std::nullopt, context);
-  if (!errors) return errors.error();
   const ElementHashes elements(*scene.model);
   const RuleSignatures rules(sets, options, policy, elements);
-  const ObjectSignatures of_objects(scene, *shapes, *errors, elements, rules);
+  const ObjectSignatures of_objects(scene, *shapes, elements, rules);
   auto objects = parallel::transform(
       context, {.name = "signatures of objects", .n = scene.model->objects.size(), .grain = kGrain},
       [&](std::size_t o) { return of_objects.of(static_cast<std::uint32_t>(o)); });
