@@ -31,9 +31,7 @@ class WordHash {
     constexpr std::uint64_t kNan = 0x7ff8000000000000ULL;
     return add(std::isnan(value) ? kNan : std::bit_cast<std::uint64_t>(value + 0.0));
   }
-  WordHash& add(std::string_view text) {
-    return add(hash_bytes(std::as_bytes(std::span(text)))).add(text.size());
-  }
+  WordHash& add(std::string_view text) { return add(hash_bytes(std::as_bytes(std::span(text)))); }
 
   /// Returns the hash of the words so far; more may follow.
   [[nodiscard]] Hash128 value() {
@@ -57,7 +55,8 @@ class WordHash {
     size_ = 3;
   }
 
-  std::array<std::uint64_t, kRoom> words_{};  ///< their number, then the words
+  // Zeros would take as long as all the rest.
+  std::array<std::uint64_t, kRoom> words_;  ///< their number, then the words
   std::size_t size_ = 1;
   std::uint64_t count_ = 0;
 };

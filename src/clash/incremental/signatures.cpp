@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,7 +25,8 @@ class ObjectSignatures {
 
   [[nodiscard]] Hash128 of(std::uint32_t o) const {
     WordHash hash;
-    hash.add(elements_.of(o)).add(scene_.model->objects[o].incomplete);
+    hash.add(elements_.of(o));
+    if (scene_.model->objects[o].incomplete) hash.add(std::string_view("incomplete"));
     for (const model::GridBody& body : scene_.bodies_of(model::ObjectId{o})) add_body(body, hash);
     for (auto at = std::ranges::lower_bound(scene_.lacking, model::ObjectId{o}, {},
                                             &model::IncompleteObject::object);
@@ -39,9 +42,13 @@ class ObjectSignatures {
     // What the snap moved follows from the source's numbers.
     hash.add(shapes_.on_grid[placed.grid_shape]).add(shapes_.of_source[index(body.shape)]);
     for (int k = 0; k < 3; ++k) hash.add(placed.origin[k]).add(body.placement.translation[k]);
+    // Most are not turned: so few words take half the time.
+    const bool turned = !(body.placement.linear == geometry::Mat3d{});
+    hash.add(std::uint64_t{std::bit_cast<std::uint32_t>(body.precision_um)} << 32U |
+             static_cast<std::uint64_t>(body.category) << 1U | (turned ? 1U : 0U));
+    if (!turned) return;
     for (const geometry::Vec3d& row : body.placement.linear.row)
       hash.add(row.x).add(row.y).add(row.z);
-    hash.add(static_cast<double>(body.precision_um)).add(static_cast<std::uint8_t>(body.category));
   }
 
   const model::Scene& scene_;
