@@ -57,11 +57,12 @@ bool meets_any(const SceneBvh& tree, const Box3l& box, std::vector<std::uint32_t
   return false;
 }
 
-/// What the pass adds up.
+/// What the pass adds up, and memory that its searches share.
 struct Totals {
   std::uint64_t parts = 0;
   float widest_precision_um = 0;
   std::vector<std::uint8_t> unknown_sag;
+  std::vector<std::uint32_t> stack = {};
 };
 
 class NeighbourSearch {
@@ -137,7 +138,6 @@ class NeighbourSearch {
           if (is_changed(o)) change[o] = Change::changed;
           if (!is_tested(o)) return;
           bool near = is_changed(o) || tree.nodes().empty();  // then it need not be looked for
-          std::vector<std::uint32_t> stack;
           for (const model::GridBody& body :
                scene_.bodies_of(model::ObjectId{static_cast<std::uint32_t>(o)})) {
             const ShapeExtent& extent = extents_[body.grid_shape];
@@ -147,7 +147,7 @@ class NeighbourSearch {
             totals.widest_precision_um = std::max(totals.widest_precision_um, precision_um);
             if (extent.unknown_sag) totals.unknown_sag[scene_.model->objects[o].file] = 1;
             if (near) continue;
-            near = meets_any(tree, box_of(body, extent, o, precision_um), stack);
+            near = meets_any(tree, box_of(body, extent, o, precision_um), totals.stack);
             if (near) change[o] = Change::near;
           }
         },

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <variant>
 
 #include "core/hashing/word_hash.hpp"
@@ -47,18 +48,36 @@ void add_part(WordHash& hash, const Part& part) {
   for (const double value : {part.sag, part.weld, part.volume, part.area}) hash.add(value);
 }
 
+Hash128 hash_of_part_list(const std::vector<Part>& parts) {
+  WordHash hash;
+  for (const Part& part : parts) add_part(hash, part);
+  return hash.value();
+}
+
+Hash128 hash_of_source(const model::Shape& shape) {
+  WordHash hash;
+  if (const auto* const mesh = std::get_if<geometry::TriangleMesh>(&shape))
+    add_list(hash, mesh->vertices);
+  if (const auto* const lines = std::get_if<geometry::Polylines>(&shape))
+    add_list(hash, lines->points);
+  return hash.value();
+}
+
 }  // namespace
 
-Result<std::vector<Hash128>> shape_signatures(const model::Scene& scene,
-                                              const parallel::Context& context) {
+Result<ShapeSignatures> shape_signatures(const model::Scene& scene,
+                                         const parallel::Context& context) {
   constexpr std::size_t kGrain = 16;
-  return parallel::transform(
+  auto on_grid = parallel::transform(
       context, {.name = "signatures of shapes", .n = scene.shapes.size(), .grain = kGrain},
-      [&](std::size_t s) {
-        WordHash hash;
-        for (const Part& part : scene.shapes[s].parts) add_part(hash, part);
-        return hash.value();
-      });
+      [&](std::size_t s) { return hash_of_part_list(scene.shapes[s].parts); });
+  if (!on_grid) return on_grid.error();
+  const std::vector<model::Shape>& shapes = scene.model->shapes;
+  auto of_source = parallel::transform(
+      context, {.name = "signatures of sources", .n = shapes.size(), .grain = kGrain},
+      [&](std::size_t s) { return hash_of_source(shapes[s]); });
+  if (!of_source) return of_source.error();
+  return ShapeSignatures{std::move(*on_grid), std::move(*of_source)};
 }
 
 }  // namespace strake::clash

@@ -10,9 +10,17 @@
 
 namespace strake::clash {
 
-/// Returns for each shape of a scene a hash of all that is known of its parts on the grid: what
-/// follows from vertices and triangles alone, as edges do, is left out. Errors: cancelled.
-[[nodiscard]] Result<std::vector<Hash128>> shape_signatures(const model::Scene& scene,
-                                                            const parallel::Context& context);
+/// Hashes of shapes, each made once.
+struct ShapeSignatures {
+  /// By shape of the scene: all that is known of its parts on the grid. What follows from vertices
+  /// and triangles alone, as edges do, is left out.
+  std::vector<Hash128> on_grid;
+  /// By shape of the model: the points of a mesh or of polylines, as the source has them.
+  std::vector<Hash128> of_source;
+};
+
+/// Hashes the shapes of a scene. Errors: cancelled.
+[[nodiscard]] Result<ShapeSignatures> shape_signatures(const model::Scene& scene,
+                                                       const parallel::Context& context);
 
 }  // namespace strake::clash

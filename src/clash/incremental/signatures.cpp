@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "clash/detect.hpp"
 #include "clash/incremental/rule_signatures.hpp"
 #include "clash/incremental/shape_signatures.hpp"
-#include "clash/narrow_phase/source_errors.hpp"
 #include "strake/clash/incremental.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -19,14 +19,14 @@ namespace {
 /// Hashes what a scene and a test have about single objects.
 class ObjectSignatures {
  public:
-  ObjectSignatures(const model::Scene& scene, const std::vector<Hash128>& shapes,
-                   const SourceErrors& errors, const ElementHashes& elements,
-                   const RuleSignatures& rules)
-      : scene_(scene), shapes_(shapes), errors_(errors), elements_(elements), rules_(rules) {}
+  ObjectSignatures(const model::Scene& scene, const ShapeSignatures& shapes,
+                   const ElementHashes& elements, const RuleSignatures& rules)
+      : scene_(scene), shapes_(shapes), elements_(elements), rules_(rules) {}
 
   [[nodiscard]] Hash128 of(std::uint32_t o) const {
     WordHash hash;
-    hash.add(elements_.of(o)).add(scene_.model->objects[o].incomplete);
+    hash.add(elements_.of(o));
+    if (scene_.model->objects[o].incomplete) hash.add(std::string_view("incomplete"));
     for (const model::GridBody& body : scene_.bodies_of(model::ObjectId{o})) add_body(body, hash);
     for (auto at = std::ranges::lower_bound(scene_.lacking, model::ObjectId{o}, {},
                                             &model::IncompleteObject::object);
@@ -39,18 +39,20 @@ class ObjectSignatures {
  private:
   void add_body(const model::GridBody& placed, WordHash& hash) const {
     const model::Body& body = scene_.model->bodies[placed.body];
-    hash.add(shapes_[placed.grid_shape]);
+    // What the snap moved follows from the source's numbers.
+    hash.add(shapes_.on_grid[placed.grid_shape]).add(shapes_.of_source[index(body.shape)]);
     for (int k = 0; k < 3; ++k) hash.add(placed.origin[k]).add(body.placement.translation[k]);
+    // Most are not turned: so few words take half the time.
+    const bool turned = !(body.placement.linear == geometry::Mat3d{});
+    hash.add(std::uint64_t{std::bit_cast<std::uint32_t>(body.precision_um)} << 32U |
+             static_cast<std::uint64_t>(body.category) << 1U | (turned ? 1U : 0U));
+    if (!turned) return;
     for (const geometry::Vec3d& row : body.placement.linear.row)
       hash.add(row.x).add(row.y).add(row.z);
-    hash.add(static_cast<double>(errors_.moved_by_snap(body)))
-        .add(static_cast<double>(body.precision_um))
-        .add(static_cast<std::uint8_t>(body.category));
   }
 
   const model::Scene& scene_;
-  const std::vector<Hash128>& shapes_;
-  const SourceErrors& errors_;
+  const ShapeSignatures& shapes_;
   const ElementHashes& elements_;
   const RuleSignatures& rules_;
 };
@@ -63,11 +65,9 @@ Result<Signatures> signatures(const model::Scene& scene, const Sets& sets, const
   if (const Status s = check_inputs(scene, sets, options, policy); !s) return s.error();
   const auto shapes = shape_signatures(scene, context);
   if (!shapes) return shapes.error();
-  const auto errors = SourceErrors::measure(*scene.model, std::nullopt, context);
-  if (!errors) return errors.error();
   const ElementHashes elements(*scene.model);
   const RuleSignatures rules(sets, options, policy, elements);
-  const ObjectSignatures of_objects(scene, *shapes, *errors, elements, rules);
+  const ObjectSignatures of_objects(scene, *shapes, elements, rules);
   auto objects = parallel::transform(
       context, {.name = "signatures of objects", .n = scene.model->objects.size(), .grain = kGrain},
       [&](std::size_t o) { return of_objects.of(static_cast<std::uint32_t>(o)); });

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <span>
 #include <utility>
 #include <variant>
@@ -65,19 +64,14 @@ constexpr std::uint32_t kNoBody = std::numeric_limits<std::uint32_t>::max();
 }  // namespace
 
 Result<SourceErrors> SourceErrors::measure(const model::Model& model,
-                                           std::optional<std::span<const std::uint32_t>> bodies,
+                                           std::span<const std::uint32_t> bodies,
                                            const parallel::Context& context) {
   SourceErrors errors(model);
   std::vector<std::uint32_t>& first = errors.first_;
   first.assign(model.shapes.size(), kNoBody);
-  const auto take = [&](std::uint32_t b) {
+  for (const std::uint32_t b : bodies) {
     const std::size_t shape = index(model.bodies[b].shape);
     if (shape < first.size() && first[shape] == kNoBody) first[shape] = b;
-  };
-  if (bodies) {
-    for (const std::uint32_t b : *bodies) take(b);
-  } else {
-    for (std::uint32_t b = 0; b < model.bodies.size(); ++b) take(b);
   }
   constexpr std::size_t kGrain = 64;
   auto all = parallel::transform(

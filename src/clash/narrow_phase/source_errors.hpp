@@ -4,7 +4,6 @@
 // Decision 0043 says why the bracket counts what the grid and the source leave open.
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,11 +14,11 @@ namespace strake::clash {
 /// How far the snap moved bodies from what their sources state.
 class SourceErrors {
  public:
-  /// Measures the vertices of each shape once, for the first of some bodies that have it; of all
-  /// bodies where none are given. The model must outlive the result. Errors: cancelled.
-  [[nodiscard]] static Result<SourceErrors> measure(
-      const model::Model& model, std::optional<std::span<const std::uint32_t>> bodies,
-      const parallel::Context& context);
+  /// Measures the vertices of each shape once, for the first of some bodies that have it. The
+  /// model must outlive the result. Errors: cancelled.
+  [[nodiscard]] static Result<SourceErrors> measure(const model::Model& model,
+                                                    std::span<const std::uint32_t> bodies,
+                                                    const parallel::Context& context);
 
   /// Returns how far the place and the vertices of one of these bodies were moved, grid units.
   [[nodiscard]] float moved_by_snap(const model::Body& body) const;

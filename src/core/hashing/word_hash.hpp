@@ -31,14 +31,12 @@ class WordHash {
     constexpr std::uint64_t kNan = 0x7ff8000000000000ULL;
     return add(std::isnan(value) ? kNan : std::bit_cast<std::uint64_t>(value + 0.0));
   }
-  WordHash& add(std::string_view text) {
-    return add(hash_bytes(std::as_bytes(std::span(text)))).add(text.size());
-  }
+  WordHash& add(std::string_view text) { return add(hash_bytes(std::as_bytes(std::span(text)))); }
 
-  [[nodiscard]] Hash128 value() const {
-    WordHash all = *this;
-    all.add(all.count_);
-    return all.folded();
+  /// Returns the hash of the words so far; more may follow.
+  [[nodiscard]] Hash128 value() {
+    words_[0] = little(count_);
+    return hash_bytes(std::as_bytes(std::span(words_.data(), size_)));
   }
 
  private:
@@ -50,18 +48,16 @@ class WordHash {
     for (int byte = 0; byte < 8; ++byte, word >>= 8U) turned = (turned << 8U) | (word & 0xffU);
     return turned;
   }
-  [[nodiscard]] Hash128 folded() const {
-    return hash_bytes(std::as_bytes(std::span(words_.data(), size_)));
-  }
   void fold() {
-    const Hash128 all = folded();
-    words_[0] = little(all.high);
-    words_[1] = little(all.low);
-    size_ = 2;
+    const Hash128 all = value();
+    words_[1] = little(all.high);
+    words_[2] = little(all.low);
+    size_ = 3;
   }
 
-  std::array<std::uint64_t, kRoom> words_{};
-  std::size_t size_ = 0;
+  // Zeros would take as long as all the rest.
+  std::array<std::uint64_t, kRoom> words_;  ///< their number, then the words
+  std::size_t size_ = 1;
   std::uint64_t count_ = 0;
 };
 

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "strake/clash/incremental.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/clash_model.hpp"
+#include "support/same_reports.hpp"
+
+namespace strake::clash {
+namespace {
+
+using test::ClashModel;
+using test::ReportDifference;
+
+/// Four cubes in a row, each 10 into the next, under a rule of every kind.
+struct RuledCubes {
+  ClashModel cubes;
+  Sets sets;
+  Options options;
+  Policy policy;
+
+  RuledCubes() {
+    for (const char* const id : {"a", "b", "c", "d"}) {
+      const double x = 90.0 * (id[0] - 'a');
+      cubes.box(id, {x, 0, 0}, {x + 100, 100, 100});
+    }
+    options.engine.keep_for_changes = true;
+    sets.in_a = sets.in_b = {true, true, true, true};
+    sets.group = {0, 1, 2, 3};
+    sets.group_names = {{0, 1}, {0, 2}, {0, 3}, {0, 4}};
+    options.tolerances.object_clearances =
+        std::make_shared<ObjectClearances>(ObjectClearances{"INSU", {0, 0, 0, 0}});
+    policy.tolerances = {{}};
+    policy.matrix = Matrix{.disciplines = {"hull", "pipe"},
+                           .discipline = {0, 1, 0, 1},
+                           .cells = {0, 0, 0, Matrix::kDefault}};
+    policy.exemptions = {
+        {"label", SameLabel{{0, 0, kNoLabel, kNoLabel}}},
+        {"links", Linked{{{0, 1, 1, 1, 1}, {0}}, {{0, 0, 0, 1, 1}, {0}}}},
+        {"between", Between{{true, false, false, false}, {false, false, false, true}}}};
+    policy.levels = Levels{.object = std::vector<Level>(4, Level::hard)};
+    Allowed allowed;
+    allowed.rule = "meant";
+    allowed.a = allowed.b = {false, false, true, true};
+    allowed.max_depth_mm = 1;
+    policy.allowed = {allowed};
+  }
+
+  [[nodiscard]] model::Scene scene() const {
+    return make_scene(cubes.model, scene_options(options), {}).value();
+  }
+  [[nodiscard]] Signatures signatures() const {
+    return clash::signatures(scene(), sets, options, policy, {}).value();
+  }
+};
+
+struct Mutation {
+  const char* what;
+  std::function<void(RuledCubes&)> apply;
+};
+
+TEST(ClashSignatures, EveryInputOfAnObjectShowsInItsSignature) {
+  const std::vector<Mutation> mutations{
+      {"id", [](RuledCubes& t) { t.cubes.model.objects[0].id = "a2"; }},
+      {"incomplete", [](RuledCubes& t) { t.cubes.model.objects[0].incomplete = true; }},
+      {"place", [](RuledCubes& t) { t.cubes.model.bodies[0].placement.translation.y = 1; }},
+      {"place off the grid",
+       [](RuledCubes& t) { t.cubes.model.bodies[0].placement.translation.y = 1e-4; }},
+      {"turn", [](RuledCubes& t) { t.cubes.model.bodies[0].placement.linear.row[0].x = 0.5; }},
+      {"category",
+       [](RuledCubes& t) { t.cubes.model.bodies[0].category = model::Category::obstruction; }},
+      {"precision", [](RuledCubes& t) { t.cubes.model.bodies[0].precision_um = 1; }},
+      {"shape",
+       [](RuledCubes& t) {
+         std::get<geometry::TriangleMesh>(t.cubes.model.shapes[0]).vertices[0].x -= 1;
+       }},
+      {"set A", [](RuledCubes& t) { t.sets.in_a[0] = false; }},
+      {"set B", [](RuledCubes& t) { t.sets.in_b[0] = false; }},
+      {"group", [](RuledCubes& t) { t.sets.group[0] = 1; }},
+      {"clearance",
+       [](RuledCubes& t) {
+         t.options.tolerances.object_clearances =
+             std::make_shared<ObjectClearances>(ObjectClearances{"INSU", {5, 0, 0, 0}});
+       }},
+      {"discipline", [](RuledCubes& t) { t.policy.matrix->discipline[0] = 1; }},
+      {"label",
+       [](RuledCubes& t) { std::get<SameLabel>(t.policy.exemptions[0].test).label[0] = kNoLabel; }},
+      {"link",
+       [](RuledCubes& t) {
+         std::get<Linked>(t.policy.exemptions[1].test).answers_to = {{0, 0, 1, 1, 1}, {0}};
+       }},
+      {"between",
+       [](RuledCubes& t) { std::get<Between>(t.policy.exemptions[2].test).a[0] = false; }},
+      {"level", [](RuledCubes& t) { t.policy.levels->object[0] = Level::soft; }},
+      {"allowed", [](RuledCubes& t) { t.policy.allowed[0].a[0] = true; }}};
+  const Signatures before = RuledCubes().signatures();
+  for (const Mutation& mutation : mutations) {
+    RuledCubes test;
+    mutation.apply(test);
+    const Signatures now = test.signatures();
+    EXPECT_NE(now.objects[0], before.objects[0]) << mutation.what;
+    EXPECT_EQ(now.objects[3], before.objects[3]) << mutation.what;
+    EXPECT_EQ(now.rules, before.rules) << mutation.what;
+  }
+}
+
+TEST(ClashSignatures, EverySettingShowsInTheRules) {
+  const std::vector<Mutation> mutations{
+      {"clearance", [](RuledCubes& t) { t.options.tolerances.clearance_mm = 5; }},
+      {"gap", [](RuledCubes& t) { t.options.tolerances.touch_gap_mm = 2; }},
+      {"cap", [](RuledCubes& t) { t.options.tolerances.thickness_cap = ThicknessCap::off; }},
+      {"contact distance", [](RuledCubes& t) { t.options.contact_distance_mm = 0.1; }},
+      {"volumes", [](RuledCubes& t) { t.options.engine.volumes = Volumes::on; }},
+      {"curves", [](RuledCubes& t) { t.options.engine.curves = Curves::on; }},
+      {"contacts", [](RuledCubes& t) { t.options.engine.contacts = Contacts::count; }},
+      {"regions", [](RuledCubes& t) { t.options.engine.most_regions = 3; }},
+      {"relations", [](RuledCubes& t) { t.options.reporting.relations = {Relation::cross}; }},
+      {"least volume", [](RuledCubes& t) { t.options.reporting.min_volume_mm3 = 3; }},
+      {"name of a set", [](RuledCubes& t) { t.sets.name_a = "x"; }},
+      {"groups", [](RuledCubes& t) { t.sets.group.clear(); }},
+      {"tolerances", [](RuledCubes& t) { t.policy.tolerances[0].clearance_mm = 7; }},
+      {"discipline", [](RuledCubes& t) { t.policy.matrix->disciplines[0] = "x"; }},
+      {"cell", [](RuledCubes& t) { t.policy.matrix->cells[3] = Matrix::kNotChecked; }},
+      {"exemption", [](RuledCubes& t) { t.policy.exemptions[0].rule = "x"; }},
+      {"levels", [](RuledCubes& t) { t.policy.levels->left_out[0][0] = "x"; }},
+      {"allowance", [](RuledCubes& t) { t.policy.allowed[0].rule = "x"; }},
+      {"depth", [](RuledCubes& t) { t.policy.allowed[0].max_depth_mm = 2; }},
+      {"volume", [](RuledCubes& t) { t.policy.allowed[0].max_volume_mm3 = 2; }},
+      {"relation", [](RuledCubes& t) { t.policy.allowed[0].relations = {Relation::cross}; }},
+      {"region", [](RuledCubes& t) { t.policy.allowed[0].region_mm = geometry::Box3d{}; }},
+      {"cavity", [](RuledCubes& t) { t.policy.allowed[0].cavity = {{{}, {1, 0, 0}}}; }},
+      {"list", [](RuledCubes& t) { t.policy.list_exempted = true; }}};
+  const Signatures before = RuledCubes().signatures();
+  for (const Mutation& mutation : mutations) {
+    RuledCubes test;
+    mutation.apply(test);
+    EXPECT_NE(test.signatures().rules, before.rules) << mutation.what;
+  }
+}
+
+TEST(ClashSignatures, ANameKeepsALabelApartFromItsMembers) {
+  RuledCubes before, now;
+  auto& named = std::get<SameLabel>(now.policy.exemptions[0].test);
+  auto& earlier = std::get<SameLabel>(before.policy.exemptions[0].test);
+  earlier.names = {{1, 2}};
+  named.names = {{1, 2}};
+  named.label[0] = kNoLabel;  // its first object leaves
+  EXPECT_EQ(before.signatures().objects[1], now.signatures().objects[1]);
+  earlier.names = named.names = {};
+  EXPECT_NE(before.signatures().objects[1], now.signatures().objects[1]);
+}
+
+Result<Report> followed(const RuledCubes& test, Report earlier,
+                        const std::vector<std::uint32_t>& now) {
+  const model::Scene scene = test.scene();
+  return detect_changes(scene, test.sets, test.options, test.policy, {std::move(earlier), now}, {});
+}
+
+Report full(const RuledCubes& test) {
+  const model::Scene scene = test.scene();
+  return detect(scene, test.sets, test.options, test.policy, {}).value();
+}
+
+TEST(DetectChanges, TestsOnlyPairsOfWhatChanged) {
+  RuledCubes test;
+  test.policy = {};
+  test.sets.group.clear();
+  const Report before = full(test);
+  ASSERT_EQ(before.pairs.size(), 3U);
+  test.cubes.model.bodies[3].placement.translation.x = -2;
+  const Report now = followed(test, before, {0, 1, 2, kChanged}).value();
+  EXPECT_EQ(ReportDifference::of(full(test), now), "");
+  EXPECT_EQ(now.counters.part_pairs, 1U);
+  EXPECT_NE(now.hash, before.hash);
+}
+
+TEST(DetectChanges, TestsNothingWhereNothingChanged) {
+  const RuledCubes test;
+  const Report before = full(test);
+  const Report now = followed(test, before, {0, 1, 2, 3}).value();
+  EXPECT_EQ(ReportDifference::of(before, now), "");
+  EXPECT_EQ(now.counters.part_pairs, 0U);
+}
+
+TEST(DetectChanges, IsAFullRunWhereTheEarlierOneKeptNothing) {
+  RuledCubes test;
+  test.options.engine.keep_for_changes = false;
+  const Report before = full(test);
+  EXPECT_FALSE(before.kept);
+  const Report now = followed(test, before, {0, 1, 2, 3}).value();
+  EXPECT_EQ(ReportDifference::of(before, now), "");
+  EXPECT_EQ(now.counters.part_pairs, before.counters.part_pairs);
+}
+
+TEST(DetectChanges, ObjectsThatChangedPlacesCountAsChanged) {
+  RuledCubes test;
+  test.policy = {};
+  test.sets.group.clear();
+  const Report before = full(test);
+  std::swap(test.cubes.model.objects[0], test.cubes.model.objects[1]);
+  test.cubes.model.objects[0].id = "a";
+  test.cubes.model.objects[1].id = "b";
+  const Report now = followed(test, before, {1, 0, 2, 3}).value();
+  EXPECT_EQ(now.pairs.size(), 3U);
+  EXPECT_EQ(now.count_hit, before.count_hit);
+}
+
+TEST(DetectChanges, RefusesAMapThatDoesNotFit) {
+  const RuledCubes test;
+  const Report before = full(test);
+  for (const std::vector<std::uint32_t>& map :
+       {std::vector<std::uint32_t>{0, 0, 1, 2}, std::vector<std::uint32_t>{0, 1, 2, 4}}) {
+    const Result<Report> now = followed(test, before, map);
+    ASSERT_FALSE(now);
+    EXPECT_EQ(now.error().code, ErrorCode::usage);
+  }
+}
+
+}  // namespace
+}  // namespace strake::clash
