@@ -162,7 +162,7 @@ std::vector<std::uint32_t> mapped(const Seen& before, const Seen& now) {
   return result;
 }
 
-constexpr auto kSequences = test::rounds<std::uint64_t>(150, 3000);
+constexpr auto kSequences = test::rounds<std::uint64_t>(100, 3000);
 constexpr std::uint64_t kSteps = 6;
 
 TEST(IncrementalLaw, AfterAnyEditsTheDrawingIsThatMadeAnew) {
