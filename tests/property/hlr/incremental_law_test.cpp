@@ -207,6 +207,35 @@ TEST(IncrementalLaw, AfterAnyEditsTheDrawingIsThatMadeAnew) {
   EXPECT_LT(3 * solved, all);
 }
 
+/// A pin through the middle of a deck, and a cover that is pushed over it: of the deck only the
+/// line around the pin, far from its edges, is hidden then.
+TEST(IncrementalLaw, LinesFarFromAllEdgesFollow) {
+  ChangingModel changing(1, 0);
+  const auto add = [&](const geometry::Vec3d& lo, const geometry::Vec3d& hi) {
+    test::ChangingObject one{.identity = changing.objects().size(), .name = "box", .bodies = {}};
+    one.bodies.push_back({.shape = test::box_mesh(lo, hi), .placement = {}});
+    changing.objects().push_back(one);
+  };
+  add({-500, -500, 0}, {500, 500, 10});
+  add({-5, -5, -20}, {5, 5, 30});
+  add({80, -10, 50}, {100, 10, 60});
+  // Enough beside them for a change to be a small one.
+  for (int i = 0; i < 20; ++i) add({1000.0 + 10 * i, 0, 0}, {1005.0 + 10 * i, 5, 5});
+  const hlr::View view{.direction = {0, 0, 1}};
+  const Seen before = seen(changing, view, {}, {});
+  const auto drawing = hlr::draw(before.scene, before.drawn, view, {}, {}).value();
+  changing.objects()[2].bodies[0].placement.translation = {-90, 0, 0};
+  const Seen now = seen(changing, view, {}, {});
+  const auto full = hlr::draw(now.scene, now.drawn, view, {}, {}).value();
+  ASSERT_NE(difference(drawing, full), "");
+  const auto redrawn = hlr::draw_changes(
+      now.scene, now.drawn, view, {}, {drawing, mapped(before, now), before.signatures.boxes}, {});
+  ASSERT_TRUE(redrawn.has_value());
+  EXPECT_EQ(difference(full, redrawn->drawing), "");
+  EXPECT_FALSE(redrawn->in_full);
+  EXPECT_EQ(redrawn->objects_solved, 3U);
+}
+
 TEST(IncrementalLaw, NothingIsSolvedWhereNothingChanged) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Draw draw(seed);
