@@ -115,6 +115,7 @@ strake_component(drawing
     drawing/view.hpp
     drawing/write.hpp
     hlr/hlr.hpp
+    hlr/incremental.hpp
     sheets/sheet.hpp
     sheets/sheet_file.hpp
     sheets/write.hpp)

@@ -164,10 +164,12 @@ class ChangingModel {
       case 4:
         return geometry::Polylines{.points = {{0, 0, 0}, {size(), 0, size()}, {size(), size(), 0}},
                                    .first = {0, 3}};
-      case 5:  // a plate or a beam along the corridor
-        if (draw_.one_in(3))
-          return box_mesh({-1.0 * draw_.whole(10, kLength), 0, 0},
-                          {1.0 * draw_.whole(10, kLength), size(), 0.5 * size()});
+      case 5:  // a deck, which others pass through far from its edges, or a beam along it
+        if (draw_.one_in(2)) {
+          const double beside = draw_.one_in(2) ? 8 : 0;
+          return box_mesh({-1.0 * draw_.whole(10, kLength), -beside, 0},
+                          {1.0 * draw_.whole(10, kLength), beside + size(), 0.5 * size()});
+        }
         [[fallthrough]];
       default:
         return box_mesh({0, 0, 0}, {size(), size(), size()});

@@ -25,13 +25,6 @@ constexpr std::size_t kBodiesPerItem = 4096;
 constexpr double kSags = 3;
 constexpr std::int64_t kSnaps = 4;
 
-/// Whether bodies that share this shape are tessellated anew for views.
-bool is_made_for_views(const model::GridShape& shape) {
-  return std::ranges::any_of(shape.parts, [](const geometry::Part& part) {
-    return part.primitive && geometry::is_curved(*part.primitive);
-  });
-}
-
 ShapeExtent extent_of(const model::GridShape& shape) {
   ShapeExtent extent;
   if (shape.box.empty()) return extent;
@@ -86,6 +79,12 @@ Result<Box3l> box_in_view(const model::Scene& scene, const std::vector<bool>& ob
 }
 
 }  // namespace
+
+bool is_made_for_views(const model::GridShape& shape) {
+  return std::ranges::any_of(shape.parts, [](const geometry::Part& part) {
+    return part.primitive && geometry::is_curved(*part.primitive);
+  });
+}
 
 Result<std::vector<ShapeExtent>> shape_extents(const model::Scene& scene,
                                                const parallel::Context& context) {

@@ -14,6 +14,9 @@
 
 namespace strake::hlr {
 
+/// Returns whether views tessellate a shape anew, as its true surface is curved.
+[[nodiscard]] bool is_made_for_views(const model::GridShape& shape);
+
 /// Where a shape lies, in the coordinates of the bodies that place it.
 struct ShapeExtent {
   geometry::Box3l box = geometry::empty_box<std::int64_t>();  ///< as the scene has it

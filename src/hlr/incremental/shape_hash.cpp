@@ -8,6 +8,7 @@
 #include <span>
 #include <variant>
 
+#include "hlr/incremental/extents.hpp"
 #include "strake/geometry/part.hpp"
 #include "strake/geometry/primitive.hpp"
 #include "strake/parallel/transform.hpp"
@@ -68,8 +69,8 @@ void add(Words& words, const geometry::Part& part, const geometry::Vec3i& from) 
 
 }  // namespace
 
-Result<std::vector<Hash128>> hash_shapes(const model::Scene& scene,
-                                         const parallel::Context& context) {
+Result<std::vector<HashedShape>> hash_shapes(const model::Scene& scene,
+                                             const parallel::Context& context) {
   return parallel::transform_with(
       context, {.name = "signatures: shapes", .n = scene.shapes.size(), .grain = 64},
       [] { return Words(); },
@@ -77,7 +78,10 @@ Result<std::vector<Hash128>> hash_shapes(const model::Scene& scene,
         const model::GridShape& shape = scene.shapes[s];
         words.add(std::uint64_t{shape.parts.size()});
         for (const geometry::Part& part : shape.parts) add(words, part, shape.box.lo);
-        return words.take();
+        HashedShape hashed{.hash = words.take(), .corner = {}};
+        if (!shape.box.empty()) hashed.corner = shape.box.lo.as<std::int64_t>();
+        hashed.made_for_views = is_made_for_views(shape);
+        return hashed;
       });
 }
 

@@ -14,8 +14,6 @@
 #include "hlr/prepare/view_diagnostics.hpp"
 #include "hlr/prepare/view_job.hpp"
 #include "hlr/view/projection.hpp"
-#include "strake/geometry/part.hpp"
-#include "strake/geometry/primitive.hpp"
 #include "strake/hlr/incremental.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -68,7 +66,7 @@ void add(Hasher& hasher, const Options& options) {
 class ObjectWords {
  public:
   ObjectWords(const model::Scene& scene, const View& view, const Options& options,
-              std::span<const Hash128> shapes, const model::ViewTessellation& plan)
+              std::span<const HashedShape> shapes, const model::ViewTessellation& plan)
       : scene_(scene),
         options_(options),
         shapes_(shapes),
@@ -109,22 +107,17 @@ class ObjectWords {
 
   void add(std::vector<std::uint64_t>& words, const model::GridBody& body) const {
     const model::Body& placed = scene_.model->bodies[body.body];
-    const model::GridShape& shape = scene_.shapes[body.grid_shape];
-    const Hash128& hash = shapes_[body.grid_shape];
-    const Vec3l at =
-        shape.box.empty() ? body.origin : body.origin + shape.box.lo.as<std::int64_t>();
+    const HashedShape& shape = shapes_[body.grid_shape];
+    const Vec3l at = body.origin + shape.corner;
     const model::Color& color = placed.color;
     const std::uint64_t ink =
         sees_colours_ ? std::uint64_t{color.red} << 16U | std::uint64_t{color.green} << 8U |
                             std::uint64_t{color.blue} | std::uint64_t{color.alpha} << 24U
                       : std::uint64_t{color.alpha == 255};
-    words.insert(words.end(), {hash.high, hash.low, static_cast<std::uint64_t>(at.x),
+    words.insert(words.end(), {shape.hash.high, shape.hash.low, static_cast<std::uint64_t>(at.x),
                                static_cast<std::uint64_t>(at.y), static_cast<std::uint64_t>(at.z),
                                static_cast<std::uint64_t>(contact_of(placed, options_)), ink});
-    const bool curved = std::ranges::any_of(shape.parts, [](const geometry::Part& part) {
-      return part.primitive && geometry::is_curved(*part.primitive);
-    });
-    if (curved) add_tessellation(words, body, placed);
+    if (shape.made_for_views) add_tessellation(words, body, placed);
   }
 
   /// The view makes the mesh from the primitive, as fine as the other bodies of the shape ask for.
@@ -141,7 +134,7 @@ class ObjectWords {
 
   const model::Scene& scene_;
   const Options& options_;
-  std::span<const Hash128> shapes_;
+  std::span<const HashedShape> shapes_;
   const model::ViewTessellation& plan_;
   bool sees_colours_, sees_names_;  ///< reports on sections and the eye tell names
 };
