@@ -98,6 +98,7 @@ strake_component(clash
   HEADERS
     clash/clash.hpp
     clash/group.hpp
+    clash/incremental.hpp
     clash/options.hpp
     clash/overlaps.hpp
     clash/policy.hpp
@@ -115,6 +116,7 @@ strake_component(drawing
     drawing/view.hpp
     drawing/write.hpp
     hlr/hlr.hpp
+    hlr/incremental.hpp
     hlr/incremental.hpp
     sheets/sheet.hpp
     sheets/sheet_file.hpp
