@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cli/evaluate/record.hpp"
-#include "core/hashing/checksum.hpp"
+#include "core/checksum.hpp"
 #include "strake/clash/clash.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/drawing/drawing.hpp"

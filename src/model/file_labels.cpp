@@ -14,7 +14,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "core/hashing/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
 
 namespace strake::model {
 namespace {

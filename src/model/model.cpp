@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/hashing/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
 #include "model/file_labels.hpp"
 #include "model/string_sort.hpp"
 

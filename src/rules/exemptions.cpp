@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/glob.hpp"
-#include "core/hashing/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
 #include "core/number.hpp"
 #include "model/assemblies.hpp"
 #include "model/attributes.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/hashing/word_hash.hpp"
+#include "core/word_hash.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::clash {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "core/hashing/checksum.hpp"
+#include "core/checksum.hpp"
 #include "drawing/buffered_writer.hpp"
 #include "drawing/neutral/neutral_json.hpp"
 #include "strake/drawing/write.hpp"

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/hashing/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
 #include "io/mesh/mesh_building.hpp"
 #include "io/mesh/transparent_shells.hpp"
 #include "io/source/precision.hpp"

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/hashing/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
 #include "core/text_encoding.hpp"
 #include "io/source/input_file.hpp"
 #include "io/source/text_number.hpp"

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/hashing/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
 #include "io/rvm/diagnostic_log.hpp"
 #include "io/rvm/palette.hpp"
 #include "io/rvm/primitive_chunk.hpp"

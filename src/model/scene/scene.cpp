@@ -12,7 +12,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/hashing/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
 #include "model/scene/grid_shape.hpp"
 #include "model/scene/instancing.hpp"
 #include "strake/geometry/grid.hpp"

@@ -6,7 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "core/hashing/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
 
 namespace strake::project {
 namespace {

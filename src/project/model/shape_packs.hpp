@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/hashing/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
 #include "project/database/database.hpp"
 #include "project/model/shape_block.hpp"
 #include "strake/core/hash.hpp"

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/hashing/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
 #include "report/document/document_reader.hpp"
 #include "report/json/json_reader.hpp"
 #include "strake/core/hash.hpp"

@@ -13,7 +13,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/hashing/checksum.hpp"
+#include "core/checksum.hpp"
 #include "drawing/neutral/neutral_rows.hpp"
 #include "report/document/document_reader.hpp"
 #include "report/json/json_reader.hpp"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/hashing/checksum.hpp"
+#include "core/checksum.hpp"
 #include "report/document/document_reader.hpp"
 #include "report/json/json_reader.hpp"
 #include "strake/drawing/drawing.hpp"

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/hashing/checksum.hpp"
-#include "core/hashing/seeded_hash.hpp"
+#include "core/checksum.hpp"
+#include "core/seeded_hash.hpp"
 
 namespace strake {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/hashing/checksum.hpp"
+#include "core/checksum.hpp"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/hashing/seeded_hash.hpp"
+#include "core/seeded_hash.hpp"
 
 #include <random>
 
