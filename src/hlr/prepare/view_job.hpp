@@ -86,9 +86,7 @@ struct ViewJob {
     return body.origin - origin;
   }
   /// Returns whether the lines of a drawn object are wanted.
-  [[nodiscard]] bool asks_for(std::uint32_t object) const {
-    return asked.empty() || asked[object];
-  }
+  [[nodiscard]] bool asks_for(std::uint32_t object) const { return asked.empty() || asked[object]; }
   /// Returns whether the object of an edge of this kind hides nothing of it, see
   /// Options::own_polylines.
   [[nodiscard]] bool spares_own(EdgeKind kind) const {
@@ -116,8 +114,8 @@ struct ViewJob {
   }
 };
 
-/// What the preparation of a part of what is drawn takes from the whole, so that what it says of the
-/// part is what the whole would say. Of views without sections.
+/// What the preparation of a part of what is drawn takes from the whole, so that what it says of
+/// the part is what the whole would say. Of views without sections.
 struct WholeView {
   geometry::Box3l box = geometry::empty_box<std::int64_t>();  ///< of all that is drawn
   double longest_side = 0;                                    ///< of the boxes of its bodies
