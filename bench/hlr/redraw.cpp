@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench_hlr_incremental [OBJECTS [THREADS]]: what a drawing of a generated ship costs in full, when
-// one object moved and when nothing changed, for several views. Objects are taken from all over the
-// ship, and the dearest is told beside the usual one. A drawing that is not equal to the full one
-// reports an error instead of times.
-#include "strake/hlr/incremental.hpp"
-
+// bench_hlr_redraw [OBJECTS [THREADS [CASE]]]: what a drawing of a generated ship costs in
+// full, when one object moved and when nothing changed, for several views. Objects are taken from
+// all over the ship, and the dearest is told beside the usual one. A drawing that is not equal to
+// the full one reports an error instead of times.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -18,6 +16,7 @@
 
 #include "clocks.hpp"
 #include "strake/generate/ship.hpp"
+#include "strake/hlr/incremental.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/team.hpp"
 
@@ -154,6 +153,7 @@ int main(int argc, char** argv) {
   const auto ship = generate::generate_ship({.objects = objects}, context).value();
   model::Scene scene = model::make_scene(ship.model, {}, context).value();
   fmt::print("{} objects, {} threads\n", objects, threads);
-  for (const Case& one : cases_of(scene)) run(scene, one, context);
+  for (const Case& one : cases_of(scene))
+    if (argc < 4 || one.name == argv[3]) run(scene, one, context);
   return 0;
 }
