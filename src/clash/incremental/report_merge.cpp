@@ -10,7 +10,6 @@
 
 #include "clash/detect.hpp"
 #include "clash/incremental/splice.hpp"
-#include "clash/results/listed_regions.hpp"
 #include "clash/results/reported.hpp"
 #include "clash/results/result_counts.hpp"
 #include "clash/results/result_hash.hpp"

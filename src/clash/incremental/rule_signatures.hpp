@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "clash/results/result_hash.hpp"
-#include "core/word_hash.hpp"
 #include "strake/clash/clash.hpp"
 #include "strake/clash/policy.hpp"
 #include "strake/core/hash.hpp"

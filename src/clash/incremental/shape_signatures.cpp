@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/word_hash.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::clash {

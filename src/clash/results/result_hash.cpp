@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/word_hash.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/parallel/reduce.hpp"
 
 namespace strake::clash {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "clash/results/listed_regions.hpp"
+#include "clash/results/reported.hpp"
 #include "clash/results/result_hash.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/reduce.hpp"

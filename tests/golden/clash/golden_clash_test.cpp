@@ -92,10 +92,10 @@ TEST_P(GoldenClash, IsTheSameForObjectsInAnyOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Ships, GoldenClash,
-                         testing::Values(Golden{false, "0d2e6409af907c01712cba46bbd42826",
-                                                "2d6f826c395b22109517a830f672d759"},
-                                         Golden{true, "14c7895e84ec421f7b9d357ebfbf0525",
-                                                "daed336c3bf1a6dbd664d5c214976570"}),
+                         testing::Values(Golden{false, "3817ebeef71b1568e610f8ad39c5e9d9",
+                                                "fd3d191d0d170cca524ed4cc7e8b1ce8"},
+                                         Golden{true, "93a04ffef828efba0a52c427ae44d748",
+                                                "3fa8bd9e3b804297f1a612e9fd47532f"}),
                          [](const auto& given) {
                            return given.param.turned ? "turned" : "straight";
                          });
