@@ -105,7 +105,7 @@ class Jobs(ProjectScenario):
         self.move_some()
         self.add_job('update', ['project', 'update', 'p.strake'])
         self.add_job('clash', CLASH, ['project', 'update', 'p.strake'])
-        self.add_job('draw', DRAW, ['project', 'update', 'p.strake'])
+        self.add_job('draw', VIEW, ['project', 'update', 'p.strake'])
 
     def add_job(self, name, command, *prepare):
         self.save('begin')
