@@ -237,7 +237,7 @@ class Week(Scenario):
         self.text('clash', 'history', '-p', 'ship.strake', '-o', 'history.csv')
         with open(self.folder / 'history.csv', encoding='utf-8-sig', newline='') as lines:
             history = list(csv.DictReader(lines))
-        self.assertEqual([row['how'] for row in history], ['full', 'nothing', 'nothing', 'changes'])
+        self.assertEqual([row['how'] for row in history], ['full', 'nothing', 'changes', 'changes'])
         self.assertEqual([int(row['hit']) for row in history],
                          [sum(result['class'] == 'HIT' for result in self.load(f'{day}.json')['results'])
                           for day in ('monday', 'tuesday', 'wednesday', 'thursday')])
