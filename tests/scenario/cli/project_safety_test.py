@@ -73,10 +73,11 @@ class ProjectScenario(Scenario):
 
     def kill(self, command, moment, took):
         """Starts the command and kills it: at any time, or soon after it began to write."""
-        journal = self.folder / 'p.strake-wal'
-
         def size():
-            return journal.stat().st_size if journal.exists() else 0
+            try:
+                return (self.folder / 'p.strake-wal').stat().st_size
+            except FileNotFoundError:
+                return 0
 
         before = size()
         with subprocess.Popen([self.STRAKE, *command], cwd=self.folder, stdout=subprocess.DEVNULL,
