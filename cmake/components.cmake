@@ -77,6 +77,7 @@ set(manual
   docs/rules.md
   docs/selection.md
   docs/sheets.md
+  docs/statuses.md
   examples/nightly.sh
   examples/ship_rules.toml
   examples/ship_sheet.toml)

@@ -34,7 +34,7 @@ def main():
 
         write_models(folder, 100)
         run('project', 'new', 'p.strake', 'hull.obj', 'pipes.obj')
-        run('clash', '-p', 'p.strake', *TESTS)
+        run('clash', '-p', 'p.strake', *TESTS, '--by', 'Ann')
         run('draw', '-p', 'p.strake', '--save', 'top', '--view', 'top', '-o', 'top.svg')
         with contextlib.closing(sqlite3.connect(folder / 'p.strake')) as project:
             keys = [key for key, in project.execute('SELECT key FROM clashes ORDER BY key LIMIT 4')]
@@ -43,7 +43,7 @@ def main():
                 '--assignee', 'Bob')
         write_models(folder, 120)
         run('project', 'update', 'p.strake')
-        run('clash', '-p', 'p.strake', *TESTS)
+        run('clash', '-p', 'p.strake', *TESTS, '--by', 'Ann')
         with contextlib.closing(sqlite3.connect(folder / 'p.strake')) as project:
             version, = project.execute('PRAGMA user_version').fetchone()
             empty = [table for table, in project.execute(

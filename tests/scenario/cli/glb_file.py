@@ -17,6 +17,11 @@ class Glb:
         """The nodes that have geometry, by id."""
         return {node['extras']['id']: node for node in self.json['nodes'] if 'mesh' in node}
 
+    def shown(self):
+        """The ids of the nodes that have geometry and are in the scene; keep() leaves the others where they are."""
+        children = {child for node in self.json['nodes'] for child in node.get('children', ())}
+        return {node['extras']['id'] for number, node in enumerate(self.json['nodes']) if 'mesh' in node and number in children}
+
     def reverse(self):
         """Puts nodes and children into the opposite order."""
         last = len(self.json['nodes']) - 1

@@ -73,10 +73,11 @@ class ProjectScenario(Scenario):
 
     def kill(self, command, moment, took):
         """Starts the command and kills it: at any time, or soon after it began to write."""
-        journal = self.folder / 'p.strake-wal'
-
         def size():
-            return journal.stat().st_size if journal.exists() else 0
+            try:
+                return (self.folder / 'p.strake-wal').stat().st_size
+            except FileNotFoundError:
+                return 0
 
         before = size()
         with subprocess.Popen([self.STRAKE, *command], cwd=self.folder, stdout=subprocess.DEVNULL,
@@ -105,7 +106,7 @@ class Jobs(ProjectScenario):
         self.move_some()
         self.add_job('update', ['project', 'update', 'p.strake'])
         self.add_job('clash', CLASH, ['project', 'update', 'p.strake'])
-        self.add_job('draw', DRAW, ['project', 'update', 'p.strake'])
+        self.add_job('draw', VIEW, ['project', 'update', 'p.strake'])
 
     def add_job(self, name, command, *prepare):
         self.save('begin')

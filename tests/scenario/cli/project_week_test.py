@@ -96,7 +96,7 @@ class Week(Scenario):
             return shell.execute(sql).fetchall()
 
     def objects(self):
-        return {id for name in self.names for id in Glb(self.folder / name).objects()}
+        return {id for name in self.names for id in Glb(self.folder / name).shown()}
 
     def changes(self, *files):
         self.text('project', 'update', 'ship.strake', *files, '-o', 'changes.json')
@@ -146,7 +146,7 @@ class Week(Scenario):
             for metres in (-.005, .005):
                 for name in self.names:
                     glb = Glb(self.folder / name)
-                    glb.move({id} & set(glb.objects()), metres).write(self.folder / f'trial_{name}')
+                    glb.move({id} & glb.shown(), metres).write(self.folder / f'trial_{name}')
                 self.text('clash', *[f'trial_{name}' for name in self.names], *NIGHT, '-o', 'trial.json')
                 now = {pair_of(other): other for other in self.load('trial.json')['results']}
                 if now[pair_of(result)]['d_mm'] < result['d_mm'] - DEEPER_MM:
@@ -193,7 +193,7 @@ class Week(Scenario):
         self.assertEqual(changes['changes'], [])
         self.assertEqual({(match['old'], match['new']) for match in changes['files_matched']},
                          {('steel.glb', 'steel_revB.glb'), ('outfit.glb', 'outfit_revB.glb')})
-        _, wednesday, appeared, gone = self.night('wednesday', 'nothing')
+        _, wednesday, appeared, gone = self.night('wednesday', 'changes')
         self.assertEqual((appeared, gone), (0, 0))
         self.assertEqual({pair_of(result) for result in wednesday}, {pair_of(result) for result in monday})
         self.assertEqual(self.query('SELECT a_id, b_id, decision, decided_by, comment, assignee FROM clash '
@@ -209,10 +209,10 @@ class Week(Scenario):
         added = sorted(pair_of(hits[3]))[0]
         for name in self.names:
             glb = Glb(self.folder / name)
-            glb.move([id for id in (moved,) if id in glb.objects()], 30)
-            glb.move([id for id in (deeper,) if id in glb.objects()], way)
-            glb.double([id for id in (added,) if id in glb.objects()], .02)
-            glb.keep(set(glb.objects()) - {removed}).write(self.folder / name)
+            glb.move([id for id in (moved,) if id in glb.shown()], 30)
+            glb.move([id for id in (deeper,) if id in glb.shown()], way)
+            glb.double([id for id in (added,) if id in glb.shown()], .02)
+            glb.keep(glb.shown() - {removed}).write(self.folder / name)
         changes = self.changes()
         self.assertEqual({(change['id'], *change['kinds']) for change in changes['changes']},
                          {(moved, 'moved'), (deeper, 'moved'), (removed, 'removed'), (added + '-2', 'added')})
@@ -237,7 +237,7 @@ class Week(Scenario):
         self.text('clash', 'history', '-p', 'ship.strake', '-o', 'history.csv')
         with open(self.folder / 'history.csv', encoding='utf-8-sig', newline='') as lines:
             history = list(csv.DictReader(lines))
-        self.assertEqual([row['how'] for row in history], ['full', 'nothing', 'nothing', 'changes'])
+        self.assertEqual([row['how'] for row in history], ['full', 'nothing', 'changes', 'changes'])
         self.assertEqual([int(row['hit']) for row in history],
                          [sum(result['class'] == 'HIT' for result in self.load(f'{day}.json')['results'])
                           for day in ('monday', 'tuesday', 'wednesday', 'thursday')])
@@ -261,7 +261,7 @@ class Week(Scenario):
         self.decide([result], 'approved', result['key'])
         outfit = (self.folder / 'outfit.glb').read_bytes()
         glb = Glb(self.folder / 'outfit.glb')
-        glb.keep(set(glb.objects()) - pair_of(result)).write(self.folder / 'outfit.glb')
+        glb.keep(glb.shown() - pair_of(result)).write(self.folder / 'outfit.glb')
         self.changes()
         self.night('tuesday', 'changes')
         self.assertIn(pair_of(result), self.truth.cannot_tell)
