@@ -191,13 +191,14 @@ class ViewDocumentReader {
       return;
     }
     fields_.must_be(Kind::array, "the document", "pieces", "list");
-    ViewPieceReader reader(json_, [this](const ReadPiece& piece) { take(piece); });
+    const auto sink = [this](const ReadPiece& piece) { take(piece); };
+    ViewPieceReader reader(json_, sink);
     json_.items([&] { reader.take(); });
   }
 
   void take(const ReadPiece& piece) {
     ++of_state_.at(static_cast<std::size_t>(piece.state));
-    if (rest_ != nullptr) return rest_->add(piece, name_of(rest_->lines.size()));
+    if (rest_ != nullptr) return rest_->add(piece, list_item());
     const auto rounded = [](const std::array<double, 2>& mm) {
       return std::array<float, 2>{static_cast<float>(mm[0]), static_cast<float>(mm[1])};
     };
@@ -205,9 +206,10 @@ class ViewDocumentReader {
                                 piece.object, piece.other, piece.kind, piece.state});
   }
 
-  /// Returns what faults call a line.
+  /// Returns what faults call a line before its number.
+  [[nodiscard]] std::string_view list_item() const { return binary_ ? "row" : "piece"; }
   [[nodiscard]] std::string name_of(std::size_t line) const {
-    return (binary_ ? "row " : "piece ") + std::to_string(line);
+    return std::string(list_item()) + " " + std::to_string(line);
   }
 
   void check_curves() const {

@@ -23,8 +23,9 @@ std::string place_in(std::string_view list, std::size_t number) {
 
 }  // namespace
 
-void ViewRest::add(const ReadPiece& piece, const std::string& where) {
-  if (piece.edge == ReadPiece::kNone) throw missing_key(where, "edge");
+void ViewRest::add(const ReadPiece& piece, std::string_view list_item) {
+  const auto where = [&] { return std::string(list_item) + " " + std::to_string(lines.size()); };
+  if (piece.edge == ReadPiece::kNone) throw missing_key(where(), "edge");
   const drawing::Line line{model::ObjectId{piece.object},
                            piece.edge,
                            piece.kind,
@@ -36,13 +37,13 @@ void ViewRest::add(const ReadPiece& piece, const std::string& where) {
                            paper_point(piece.b_paper)};
   const auto key = [](const auto& l) { return std::pair(l.object, l.edge); };
   if (!lines.empty() && key(line) < key(lines.back()))
-    throw contradiction(where, "is not in order of objects and edges");
+    throw contradiction(where(), "is not in order of objects and edges");
   lines.push_back(line);
   if (piece.curve == ReadPiece::kNone) return;
   const bool is_known = !curves.edges.empty() && key(curves.edges.back()) == key(line);
   if (!is_known) curves.edges.push_back({line.object, line.edge, piece.curve});
   if (curves.edges.back().curve != piece.curve)
-    throw contradiction(where, "is of another curve than its edge");
+    throw contradiction(where(), "is of another curve than its edge");
 }
 
 void take_curves(JsonReader& json, ViewRest& rest) {

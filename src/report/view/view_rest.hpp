@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "report/json/json_reader.hpp"
@@ -34,8 +35,9 @@ struct ViewRest {
   std::optional<drawing::PaperFrame> frame;
 
   /// Appends a line, and its curve where it has one. Throws DocumentFault for one that is not in
-  /// order or has no number of an edge; `number` is what the fault names.
-  void add(const ReadPiece& piece, const std::string& where);
+  /// order or has no number of an edge; `list_item` is what a fault calls
+  /// a line before its number.
+  void add(const ReadPiece& piece, std::string_view list_item);
 };
 
 /// Reads the members of a document, each of which must come next. They throw DocumentFault and
