@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <random>
@@ -24,6 +26,8 @@ class EditedModel {
   }
 
   std::vector<EditedObject> objects;
+  /// Labels of files, by EditedObject::file; none may be another's.
+  std::array<std::string, 3> labels{"a.obj", "b.obj", "c.obj"};
   EditedRules rules;
 
   /// Makes one to three edits.
@@ -31,18 +35,32 @@ class EditedModel {
     for (std::uint64_t n = 1 + draw_.below(3); n > 0; --n) edit_once();
   }
 
+  /// Gives a file a new name, or two files each other's: its objects stay what they are.
+  void rename_files() {
+    const std::size_t file = draw_.below(labels.size());
+    if (draw_.one_in(4)) return std::swap(labels[file], labels[draw_.below(labels.size())]);
+    // Most keep their place among the files, as revisions do.
+    const char first =
+        draw_.one_in(3) ? static_cast<char>('a' + draw_.below(26)) : labels[file].front();
+    labels[file] = first + name() + ".obj";
+  }
+
   /// Makes the inputs; labels are numbered anew each time.
   [[nodiscard]] EditedInputs inputs() {
     EditedInputs in;
     ClashModel built;
     built.model.files.clear();
-    for (const char* const label : {"a.obj", "b.obj", "c.obj"})
+    std::array<std::string, 3> in_order_of_labels = labels;
+    std::ranges::sort(in_order_of_labels);
+    for (const std::string& label : in_order_of_labels)
       built.model.files.push_back({label, "OBJ", "mm", "z", 1, 0});
     std::map<std::pair<std::uint32_t, std::string>, const EditedObject*> of;
     for (const EditedObject& o : objects) {
-      of[{o.file, o.id}] = &o;
+      const auto file = static_cast<std::uint32_t>(
+          std::ranges::find(in_order_of_labels, labels[o.file]) - in_order_of_labels.begin());
+      of[{file, o.id}] = &o;
       built.object(o.id);
-      built.model.objects.back().file = o.file;
+      built.model.objects.back().file = file;
       built.model.objects.back().incomplete = o.incomplete;
       for (const EditedBody& body : o.bodies) {
         built.body(body.shape, body.placement);
@@ -53,7 +71,10 @@ class EditedModel {
     finish(built.model);
     *in.model = std::move(built.model);
     std::vector<const EditedObject*> in_order;
-    for (const model::Object& o : in.model->objects) in_order.push_back(of.at({o.file, o.id}));
+    for (const model::Object& o : in.model->objects) {
+      in_order.push_back(of.at({o.file, o.id}));
+      in.identities.push_back(std::to_string(in_order.back()->file) + "/" + o.id);
+    }
     EditedRuleMaker(rules, shuffling_).make_rules(in_order, in);
     model::SceneOptions scene = clash::scene_options(in.options);
     scene.obstruction = scene.insulation = true;

@@ -53,6 +53,7 @@ struct EditedRules {
 struct EditedInputs {
   std::unique_ptr<model::Model> model = std::make_unique<model::Model>();
   model::Scene scene;
+  std::vector<std::string> identities;  ///< of each object, whatever its file is called
   clash::Sets sets;
   clash::Options options;
   clash::Policy policy;

@@ -162,7 +162,11 @@ Result<clash::Report> ProjectClashes::follow(Session& session, const Loaded& loa
   if (!now_of) return now_of.error();
   project::TestWork& work = tested.work;
   work.kept_results = count_kept(before.results.report, *now_of);
-  if (is_same(*now_of, loaded.model->objects.size())) {
+  // Where files have other labels, what is written of the same results is other, too.
+  const Result<bool> same_names =
+      clash::have_same_names(before.results.report, *loaded.model, session.context());
+  if (!same_names) return same_names.error();
+  if (*same_names && is_same(*now_of, loaded.model->objects.size())) {
     work.how = project::Retested::nothing;
     work.changed_objects = 0;
     clash::Report report = std::move(before.results.report);

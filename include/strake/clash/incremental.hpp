@@ -19,8 +19,9 @@ namespace strake::clash {
 /// its two objects are equal.
 struct Signatures {
   Hash128 rules;  ///< of options, rules and the program's version: what is said of no single object
-  /// Of each object: its file label and id, its bodies on the grid, and what sets and rules say of
-  /// it. Equal signatures of two runs say nothing where their `rules` differ.
+  /// Of each object: its bodies on the grid, and what sets and rules say of it; not its file label
+  /// and id, which tell whose signature it is. Equal signatures of two runs say nothing where their
+  /// `rules` differ.
   std::vector<Hash128> objects;
 };
 
@@ -41,9 +42,14 @@ inline constexpr std::uint32_t kChanged = 0xffffffffU;
 struct EarlierRun {
   Report report;
   /// For each object of that run, its number now; kChanged where there is none with the same
-  /// identity and signature.
+  /// identity and signature. Files may have other labels.
   std::span<const std::uint32_t> now;
 };
+
+/// Whether all objects of an earlier run, which has KeptForChanges, have the file labels and ids of
+/// these, in their order. Errors: cancelled.
+[[nodiscard]] Result<bool> have_same_names(const Report& earlier, const model::Model& model,
+                                           const parallel::Context& context);
 
 /// Returns the report that detect() returns, but evaluates only pairs of objects that changed,
 /// where both runs have EngineOptions::keep_for_changes.

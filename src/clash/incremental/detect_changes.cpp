@@ -9,6 +9,7 @@
 #include "clash/detect.hpp"
 #include "clash/incremental/neighbours.hpp"
 #include "clash/incremental/object_map.hpp"
+#include "clash/incremental/renamed.hpp"
 #include "clash/incremental/report_merge.hpp"
 #include "clash/rules/rule_matcher.hpp"
 #include "strake/clash/incremental.hpp"
@@ -42,12 +43,19 @@ Result<Report> detect_changes(const model::Scene& scene, const Sets& sets, const
                               const parallel::Context& context) {
   if (const Status s = check_inputs(scene, sets, options, policy); !s) return s.error();
   const std::size_t objects = scene.model->objects.size();
-  const auto map = map_objects(earlier.now, objects);
+  auto map = map_objects(earlier.now, objects);
   if (!map) return map.error();
   const auto full = [&] { return detect(scene, sets, options, policy, context); };
   if (!can_follow(earlier.report, options)) return full();
-  if (map->is_identity() && earlier.report.in_a.size() == objects)
+  const Error misfit{ErrorCode::usage, "the report of an earlier run is not about this test",
+                     "earlier run", "give one whose rules had the same signature"};
+  const KeptForChanges& kept = *earlier.report.kept;
+  if (kept.elements.size() != earlier.now.size()) return misfit;
+  const auto names = hashes_of_names(*scene.model, context);
+  if (!names) return names.error();
+  if (map->is_identity() && kept.elements == *names && earlier.report.in_a.size() == objects)
     return taken_over(std::move(earlier.report), options, policy);
+  let_go_of_hashed_contacts(kept, *names, *map);
   if (map->changed > objects / kFewChanged) return full();
 
   std::optional<parallel::StageTimer> timer;
@@ -57,19 +65,17 @@ Result<Report> detect_changes(const model::Scene& scene, const Sets& sets, const
   if (!neighbours) return neighbours.error();
   // So few that a full run needs no boxes along faces either; it may find fewer than this counts.
   const std::uint64_t most = most_unframed_pairs(neighbours->parts, options);
-  const std::uint64_t before = earlier.report.kept->box_pairs;
+  const std::uint64_t before = kept.box_pairs;
   timer.reset();
   if (before > most) return full();
   auto fresh = detect_among(scene, sets, options, policy,
                             {neighbours->change, neighbours->asked, most - before}, context);
   if (!fresh) return fresh.error();
   if (!*fresh) return full();
-  if (!fits(earlier.report, **fresh, earlier.now.size()))
-    return Error{ErrorCode::usage, "the report of an earlier run is not about this test",
-                 "earlier run", "give one whose rules had the same signature"};
+  if (!fits(earlier.report, **fresh, earlier.now.size())) return misfit;
   timer.emplace(context.report, "results put together");
   return merge(std::move(earlier.report), std::move(**fresh),
-               {policy, options, *scene.model, *map, *neighbours}, context);
+               {policy, options, *scene.model, *map, *neighbours, *names}, context);
 }
 
 }  // namespace strake::clash

@@ -40,6 +40,12 @@ bool is_ascending(std::span<const std::uint32_t> now) {
 
 }  // namespace
 
+void ObjectMap::let_go(std::uint32_t object) {
+  before[now[object]] = kChanged;
+  now[object] = kChanged;
+  ++changed;
+}
+
 Result<ObjectMap> map_objects(std::span<const std::uint32_t> now, std::size_t objects) {
   const Error misfit{ErrorCode::usage, "the objects of an earlier run are not mapped to these",
                      "earlier run", "map each to an object of this scene, and no two to one"};

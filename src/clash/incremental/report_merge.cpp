@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "clash/detect.hpp"
+#include "clash/incremental/renamed.hpp"
 #include "clash/incremental/splice.hpp"
 #include "clash/results/reported.hpp"
 #include "clash/results/result_counts.hpp"
@@ -42,6 +43,7 @@ class ReportMerge {
 
   Result<Report> run() {
     now_.name = std::move(was_.name);
+    if (const Status s = take_names(); !s) return s.error();
     if (const Status s = merge_contacts(); !s) return s.error();
     if (const Status s = merge_pairs(); !s) return s.error();
     update_counts();
@@ -60,6 +62,15 @@ class ReportMerge {
   Status take(std::vector<T>& was, std::vector<T>& now, const Gone& gone) const {
     if (const Status s = follow(was, now, inputs_.map, context_, gone); !s) return s;
     now = std::move(was);
+    return {};
+  }
+
+  /// Hashes the pairs that stay under the names of today; hashes of unlisted ones stay.
+  Status take_names() {
+    const auto change = rehash_renamed(was_, inputs_.names, inputs_.map, context_);
+    if (!change) return change.error();
+    hash_gone_ = change->gone;
+    now_.kept->hash_sum = sum(now_.kept->hash_sum, change->came);
     return {};
   }
 
@@ -202,8 +213,8 @@ class ReportMerge {
       const std::uint32_t before = inputs_.map.before[o];
       if (before == kChanged) continue;
       now_.sheets[o] = was_.sheets[before];
-      now_.kept->elements[o] = was_.kept->elements[before];
     }
+    now_.kept->elements = inputs_.names;
     const double widest =
         std::max(contact_distance(inputs_.options, 0),
                  contact_distance(inputs_.options, inputs_.neighbours.widest_precision_um));

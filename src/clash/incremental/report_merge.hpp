@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 #include "clash/incremental/neighbours.hpp"
 #include "clash/incremental/object_map.hpp"
 #include "strake/clash/clash.hpp"
@@ -17,6 +21,7 @@ struct MergeInputs {
   const model::Model& model;
   const ObjectMap& map;
   const Neighbours& neighbours;
+  const std::vector<std::uint64_t>& names;  ///< hashes_of_names() of the model
 };
 
 /// Whether the lists of a report of an earlier run, which kept what changes need, fit a map of so

@@ -20,12 +20,11 @@ namespace {
 class ObjectSignatures {
  public:
   ObjectSignatures(const model::Scene& scene, const ShapeSignatures& shapes,
-                   const ElementHashes& elements, const RuleSignatures& rules)
-      : scene_(scene), shapes_(shapes), elements_(elements), rules_(rules) {}
+                   const RuleSignatures& rules)
+      : scene_(scene), shapes_(shapes), rules_(rules) {}
 
   [[nodiscard]] Hash128 of(std::uint32_t o) const {
     WordHash hash;
-    hash.add(elements_.of(o));
     if (scene_.model->objects[o].incomplete) hash.add(std::string_view("incomplete"));
     for (const model::GridBody& body : scene_.bodies_of(model::ObjectId{o})) add_body(body, hash);
     for (auto at = std::ranges::lower_bound(scene_.lacking, model::ObjectId{o}, {},
@@ -53,7 +52,6 @@ class ObjectSignatures {
 
   const model::Scene& scene_;
   const ShapeSignatures& shapes_;
-  const ElementHashes& elements_;
   const RuleSignatures& rules_;
 };
 
@@ -67,7 +65,7 @@ Result<Signatures> signatures(const model::Scene& scene, const Sets& sets, const
   if (!shapes) return shapes.error();
   const ElementHashes elements(*scene.model);
   const RuleSignatures rules(sets, options, policy, elements);
-  const ObjectSignatures of_objects(scene, *shapes, elements, rules);
+  const ObjectSignatures of_objects(scene, *shapes, rules);
   auto objects = parallel::transform(
       context, {.name = "signatures of objects", .n = scene.model->objects.size(), .grain = kGrain},
       [&](std::size_t o) { return of_objects.of(static_cast<std::uint32_t>(o)); });

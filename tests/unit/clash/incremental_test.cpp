@@ -68,7 +68,6 @@ struct Mutation {
 
 TEST(ClashSignatures, EveryInputOfAnObjectShowsInItsSignature) {
   const std::vector<Mutation> mutations{
-      {"id", [](RuledCubes& t) { t.cubes.model.objects[0].id = "a2"; }},
       {"incomplete", [](RuledCubes& t) { t.cubes.model.objects[0].incomplete = true; }},
       {"place", [](RuledCubes& t) { t.cubes.model.bodies[0].placement.translation.y = 1; }},
       {"place off the grid",
@@ -187,6 +186,21 @@ TEST(DetectChanges, TestsNothingWhereNothingChanged) {
   const Report now = followed(test, before, {0, 1, 2, 3}).value();
   EXPECT_EQ(ReportDifference::of(before, now), "");
   EXPECT_EQ(now.counters.part_pairs, 0U);
+}
+
+TEST(DetectChanges, TestsNothingUnderANewName) {
+  RuledCubes test;
+  test.policy = {};  // labels and links without names would be named by objects
+  const Report before = full(test);
+  const Signatures then = test.signatures();
+  test.cubes.model.files[0].label = "revB.obj";
+  EXPECT_EQ(test.signatures().objects, then.objects);
+  EXPECT_FALSE(have_same_names(before, test.cubes.model, {}).value());
+  const Report now = followed(test, before, {0, 1, 2, 3}).value();
+  EXPECT_EQ(ReportDifference::of(full(test), now), "");
+  EXPECT_EQ(now.counters.part_pairs, 0U);
+  EXPECT_NE(now.hash, before.hash);
+  EXPECT_TRUE(have_same_names(now, test.cubes.model, {}).value());
 }
 
 TEST(DetectChanges, IsAFullRunWhereTheEarlierOneKeptNothing) {
