@@ -195,6 +195,8 @@ class Week(Scenario):
                          {('steel.glb', 'steel_revB.glb'), ('outfit.glb', 'outfit_revB.glb')})
         _, wednesday, appeared, gone = self.night('wednesday', 'changes')
         self.assertEqual((appeared, gone), (0, 0))
+        self.assertEqual(self.query('SELECT changed_objects, tested_pairs FROM run_test ORDER BY run DESC LIMIT 1'), [(0, 0)],
+                         'what has another name is not tested again')
         self.assertEqual({pair_of(result) for result in wednesday}, {pair_of(result) for result in monday})
         self.assertEqual(self.query('SELECT a_id, b_id, decision, decided_by, comment, assignee FROM clash '
                                     'WHERE decision IS NOT NULL ORDER BY a_id, b_id'), decisions)
