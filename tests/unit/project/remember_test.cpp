@@ -38,8 +38,8 @@ class Remembered : public ::testing::Test {
   }
 
   /// Tests the model in full and remembers the run.
-  RememberedRun run(const ClashModel& m, const clash::Policy& policy = {}, double deeper_mm = 1) {
-    const clash::Options options;
+  RememberedRun run(const ClashModel& m, const clash::Policy& policy = {}, double deeper_mm = 1,
+                    const clash::Options& options = {}) {
     const auto scene = make_scene(m.model, clash::scene_options(options), {}).value();
     const clash::Sets sets = clash::one_set(scene);
     const clash::Signatures signed_by = clash::signatures(scene, sets, options, policy, {}).value();
@@ -51,6 +51,10 @@ class Remembered : public ::testing::Test {
         *database_, m.model, {"2026-01-01T00:00:00Z", "ann", 1, deeper_mm}, {&tested, 1}, {});
     EXPECT_TRUE(run) << run.error().text();
     return std::move(run).value();
+  }
+
+  RememberedRun run(const ClashModel& m, const clash::Options& options) {
+    return run(m, {}, 1, options);
   }
 
   std::vector<ListedClash> clashes() { return list_clashes(*database_, {}).value(); }
@@ -190,6 +194,87 @@ TEST_F(Remembered, a_rule_that_allows_resolves_and_one_that_exempts_cannot_tell)
   run(row(2), exempting);
   EXPECT_EQ(clashes()[0].row.unknown, "exempted by 'same frame'");
   EXPECT_EQ(statuses(), Statuses{"active"});
+}
+
+TEST_F(Remembered, a_test_that_reaches_less_far_cannot_tell_on_any_later_night) {
+  clash::Options far;
+  far.tolerances.clearance_mm = 25;
+  run(row(2, -20), far);
+  ASSERT_EQ(clashes()[0].row.now.cls, clash::Class::clearance_violation);
+  for (int night = 0; night < 3; ++night) {
+    EXPECT_EQ(run(row(2, -20)).trends[0].cannot_tell, 1U) << night;
+    EXPECT_EQ(clashes()[0].row.unknown, "the test does not reach as far as it did") << night;
+    EXPECT_EQ(statuses(), Statuses{"active"}) << night;
+  }
+  run(row(2, -50), far);
+  EXPECT_EQ(statuses(), Statuses{"resolved"}) << "it reaches as far again, and they are apart";
+}
+
+TEST_F(Remembered, another_reason_in_between_does_not_hide_that_a_test_reaches_less_far) {
+  clash::Options far;
+  far.tolerances.clearance_mm = 25;
+  run(row(2, -20), far);
+  ClashModel early = row(2, -20);
+  early.model.files[0].ends_early = true;
+  run(early);
+  EXPECT_EQ(clashes()[0].row.unknown, "t.obj ends early");
+  run(row(2, -20));
+  EXPECT_EQ(clashes()[0].row.unknown, "the test does not reach as far as it did");
+}
+
+TEST_F(Remembered, lines_that_are_not_checked_any_more_stay_unknown) {
+  geometry::Polylines line;
+  line.points = {{-50, 50, 40}, {150, 50, 40}};
+  line.first = {0, 2};
+  ClashModel m = row(1);
+  m.object("line").body(line);
+  clash::Options curves;
+  curves.engine.curves = clash::Curves::on;
+  run(m, curves);
+  ASSERT_EQ(clashes().size(), 1U);
+  for (int night = 0; night < 3; ++night) {
+    run(m);
+    EXPECT_EQ(clashes()[0].row.unknown, "lines are not checked any more") << night;
+  }
+  EXPECT_EQ(statuses(), Statuses{"active"});
+}
+
+TEST_F(Remembered, a_mesh_that_became_open_stays_unknown_until_it_is_closed) {
+  const auto within = [](bool open) {
+    ClashModel m;
+    m.box("outer", {0, 0, 0}, {1000, 1000, 1000});
+    m.box("inner", {400, 400, 400}, {600, 600, 600});
+    auto& mesh = std::get<geometry::TriangleMesh>(m.model.shapes[0]);
+    if (open) mesh.triangles.pop_back();
+    return m;
+  };
+  run(within(false));
+  ASSERT_EQ(clashes().size(), 1U);
+  for (int night = 0; night < 3; ++night) {
+    run(within(true));
+    EXPECT_NE(clashes()[0].row.unknown.find("'outer' has surfaces that enclose nothing"),
+              std::string::npos)
+        << night;
+  }
+  EXPECT_EQ(statuses(), Statuses{"active"});
+  run(within(false));
+  EXPECT_EQ(clashes()[0].row.unknown, "");
+}
+
+TEST_F(Remembered, a_violation_that_closes_to_a_counted_contact_is_not_resolved) {
+  clash::Options options;
+  options.tolerances.clearance_mm = 25;
+  options.engine.contacts = clash::Contacts::count;
+  options.engine.keep_for_changes = true;
+  run(row(3, -20), options);
+  ASSERT_EQ(statuses(), (Statuses{"new", "new"}));
+  decide(0, DecisionStatus::approved);
+  ClashModel closed;  // The first two touch, and the third is far away.
+  closed.box("c0", {0, 0, 0}, {100, 100, 100}).box("c1", {100, 0, 0}, {200, 100, 100});
+  closed.box("c2", {900, 0, 0}, {1000, 100, 100});
+  run(closed, options);
+  EXPECT_EQ(clashes()[0].row.unknown, "it is among the contacts, which are only counted");
+  EXPECT_EQ(statuses(), (Statuses{"approved", "resolved"})) << "of the other it is known";
 }
 
 TEST_F(Remembered, one_change_among_many_writes_a_handful_of_rows) {
