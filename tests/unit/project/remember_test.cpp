@@ -245,7 +245,7 @@ TEST_F(Remembered, a_mesh_that_became_open_stays_unknown_until_it_is_closed) {
     m.box("outer", {0, 0, 0}, {1000, 1000, 1000});
     m.box("inner", {400, 400, 400}, {600, 600, 600});
     auto& mesh = std::get<geometry::TriangleMesh>(m.model.shapes[0]);
-    if (open) mesh.triangles.pop_back();
+    if (open) mesh.triangles.resize(2);
     return m;
   };
   run(within(false));
@@ -310,6 +310,25 @@ TEST_F(Remembered, an_unknown_key_is_an_error) {
   const std::vector<std::string> keys{"none"};
   EXPECT_FALSE(project::decide(*database_, keys, {}));
   EXPECT_FALSE(read_events(*database_, "none"));
+}
+
+TEST_F(Remembered, a_damaged_result_names_its_test) {
+  run(row(2));
+  ASSERT_TRUE(database_->execute("UPDATE test SET snapshot = x'00'"));
+  EXPECT_NE(read_test(*database_, "", {}).error().where.find("the test of the command line"),
+            std::string::npos);
+  ASSERT_TRUE(database_->execute("UPDATE test SET name = 'all'"));
+  EXPECT_NE(read_test(*database_, "all", {}).error().where.find("the result of test 'all'"),
+            std::string::npos);
+}
+
+TEST_F(Remembered, the_tests_of_the_last_run_are_those_that_it_ran) {
+  run(row(2));
+  EXPECT_EQ(last_tests(*database_).value(), std::vector<std::string>{""});
+  ASSERT_TRUE(database_->execute("UPDATE test SET name = 'before'"));
+  run(row(2));
+  EXPECT_EQ(test_names(*database_).value(), (std::vector<std::string>{"before", ""}));
+  EXPECT_EQ(last_tests(*database_).value(), std::vector<std::string>{""});
 }
 
 TEST_F(Remembered, the_trend_has_each_run) {
