@@ -110,6 +110,51 @@ class ProjectClash(Scenario):
         self.assertEqual(sorted(self.statuses()).count('reviewed'), 2, 'two clashes share an element')
         self.assertIn('there is no group', self.set('--group', '9', '--status', 'reviewed', exit_code=2).stderr)
 
+    def test_a_number_of_a_group_is_that_of_the_last_run_and_of_its_options(self):
+        # Another test of an earlier run has groups too, which no number means.
+        self.write('r.toml', '[[test]]\nname = "before"\n')
+        self.clash('--rules', 'r.toml')
+        self.change([*ROW, (0, 1000, 0), (100, 1000, 0), (0, 2000, 0), (110, 2000, 0)])
+        options = ['--group-by', 'files', '--group-contacts', '--class', 'contact']
+        self.clash('--clearance', '25mm', *options)
+        self.set('--group', '1', *options, '--status', 'reviewed')
+        reviewed = [clash for clash in self.listed() if clash['status'] == 'reviewed']
+        self.assertEqual({(clash['test'], clash['class']) for clash in reviewed}, {('', 'CONTACT')})
+        self.set('--group', '2', *options, '--status', 'reviewed', exit_code=2)
+        self.set(reviewed[0]['key'], '--class', 'hit', '--status', 'active', exit_code=2)
+
+    def test_what_was_said_is_taken_back(self):
+        self.clash()
+        key = self.listed()[0]['key']
+        self.set(key, '--comment', 'soon', '--assignee', 'Bob')
+        self.set(key, '--comment', '', '--assignee', '')
+        clash = self.listed()[0]
+        self.assertEqual((clash['comment'], clash['assignee']), (None, None))
+
+    def test_the_table_shows_tests_and_what_cannot_be_told(self):
+        self.clash()
+        table = self.done('clash', 'list', '-p', 'ship.strake').stdout
+        self.assertNotRegex(table.splitlines()[0], 'test|cannot_tell')
+        self.write('r.toml', '[[test]]\nname = "all"\n')
+        self.change(ROW[:3])
+        self.clash()
+        self.clash('--rules', 'r.toml')
+        table = self.done('clash', 'list', '-p', 'ship.strake').stdout
+        self.assertRegex(table.splitlines()[0], 'test.*cannot_tell')
+        self.assertIn('is not in the model', table)
+        done = self.done('clash', 'list', '-p', 'ship.strake', '--test', 'nope', exit_code=2)
+        self.assertIn("there are '', 'all'", done.stderr)
+        self.assertEqual({clash['test'] for clash in self.listed('--test', '')}, {''})
+
+    def test_what_cannot_be_told_stays_so(self):
+        self.change([(0, 0, 0), (120, 0, 0)])
+        self.clash('--clearance', '25mm')
+        for _ in range(3):
+            self.clash()
+            clash, = self.listed()
+            self.assertEqual((clash['status'], clash['cannot_tell']),
+                             ('active', 'the test does not reach as far as it did'))
+
     def test_the_list_is_a_file_of_decisions(self):
         self.clash()
         key = self.listed()[0]['key']

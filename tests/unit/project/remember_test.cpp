@@ -305,6 +305,40 @@ TEST_F(Remembered, keys_and_decisions_follow_files_that_exchange_their_names) {
   EXPECT_EQ(clashes()[0].row.b.file, "z.obj");
 }
 
+TEST_F(Remembered, who_sees_to_a_clash_leaves_an_event_and_empty_texts_clear) {
+  run(row(2));
+  const std::vector<std::string> keys{clashes()[0].row.key};
+  ClashDecision decision;
+  decision.by = "bob";
+  decision.at = "2026-01-02T00:00:00Z";
+  decision.assignee = "ann";
+  EXPECT_EQ(project::decide(*database_, keys, decision).value(), 1U);
+  EXPECT_EQ(project::decide(*database_, keys, decision).value(), 0U) << "it is so already";
+  decision.assignee.reset();
+  decision.comment = "soon";
+  EXPECT_EQ(project::decide(*database_, keys, decision).value(), 1U);
+  decision.assignee = decision.comment = "";
+  EXPECT_EQ(project::decide(*database_, keys, decision).value(), 1U);
+  EXPECT_EQ(clashes()[0].row.assignee, "");
+  EXPECT_EQ(clashes()[0].row.comment, "");
+  std::vector<std::string> comments;
+  const std::vector<ClashEvent> events = read_events(*database_, keys[0]).value();
+  for (const ClashEvent& event : events) comments.push_back(event.comment);
+  EXPECT_EQ(comments, (std::vector<std::string>{"assigned to ann", "soon",
+                                                "the comment is taken back; assigned to nobody"}));
+}
+
+TEST_F(Remembered, clashes_of_a_test_that_never_ran_are_an_error) {
+  ClashFilter filter;
+  filter.test = "nope";
+  EXPECT_EQ(list_clashes(*database_, filter).error().code, ErrorCode::usage);
+  run(row(2));
+  ASSERT_TRUE(database_->execute("UPDATE test SET name = 'all'"));
+  EXPECT_EQ(list_clashes(*database_, filter).error().mend, "there are 'all'");
+  filter.test = "all";
+  EXPECT_EQ(list_clashes(*database_, filter).value().size(), 1U);
+}
+
 TEST_F(Remembered, an_unknown_key_is_an_error) {
   run(row(2));
   const std::vector<std::string> keys{"none"};
