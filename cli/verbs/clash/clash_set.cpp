@@ -153,7 +153,9 @@ const clash::Group* find_group(const clash::Grouping& grouping, const std::strin
 
 Result<std::vector<std::string>> keys_of_group(Session& session, OpenedProject& opened,
                                                const ClashSetOptions& given) {
-  const Result<ClashOutput> output = clash_output({.classes = given.classes}, {});
+  ClashOutputInput shown;
+  shown.classes = given.classes;
+  const Result<ClashOutput> output = clash_output(shown, {});
   if (!output) return output.error();
   const Result<OpenResults> open = open_results(session, opened, output->classes);
   if (!open) return open.error();

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """A week of clash tests over a project: what is found, decided, mended and found again."""
+import contextlib
 import csv
 import io
 import json
 import re
+import sqlite3
+import subprocess
 
 from scenario import Scenario, cube, main
 
@@ -173,6 +176,36 @@ class ProjectClash(Scenario):
         before = self.statuses()
         self.set('0' * 26, '--status', 'approved', exit_code=2)
         self.assertEqual(self.statuses(), before)
+
+    def other_writer(self):
+        return contextlib.closing(sqlite3.connect(self.folder / 'ship.strake', isolation_level=None))
+
+    def test_a_model_that_changed_meanwhile_is_not_remembered(self):
+        with self.other_writer() as other:
+            other.execute('BEGIN IMMEDIATE')
+            with subprocess.Popen([self.STRAKE, 'clash', '-p', 'ship.strake', '--wait', '60'], cwd=self.folder,
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as run:
+                for line in run.stderr:
+                    if 'objects tested' in line:
+                        break
+                other.execute('UPDATE model_seal SET files = randomblob(16)')
+                other.execute('COMMIT')
+                told = run.stderr.read()
+            self.assertEqual(run.returncode, 3, told)
+            self.assertIn('changed meanwhile', told)
+            self.assertEqual(other.execute('SELECT count(*) FROM run').fetchone(), (0,))
+
+    def test_who_pages_through_the_result_keeps_nobody_from_writing(self):
+        # Far more than a pipe holds: the run writes until somebody reads on.
+        self.change([(n * 80, 0, 0) for n in range(400)])
+        with subprocess.Popen([self.STRAKE, 'clash', '-p', 'ship.strake', '--json'], cwd=self.folder,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as run:
+            self.assertEqual(run.stdout.read(1), '{')
+            self.set('--select', 'c0', '--status', 'approved')
+            self.assertIsNone(run.poll(), 'it waits for its reader')
+            run.stdout.read()
+        self.assertEqual(run.returncode, 0)
+        self.assertEqual(self.statuses().count('approved'), 1)
 
     def test_rules_that_change_test_everything_and_tests_have_names(self):
         self.write('r.toml', '[[test]]\nname = "all"\n')
