@@ -14,6 +14,7 @@
 #include "cli/run/person.hpp"
 #include "cli/run/utc_time.hpp"
 #include "core/text_encoding.hpp"
+#include "project/model/file_rows.hpp"
 #include "project/stored_report/report_codec.hpp"
 #include "strake/clash/incremental.hpp"
 
@@ -92,6 +93,11 @@ Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProject
 }
 
 Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions& options) {
+  const Result<project::ReadScope> moment = project::ReadScope::begin(opened_.project.database());
+  if (!moment) return moment.error();
+  const Result<Hash128> seal = project::model_seal(opened_.project.database());
+  if (!seal) return seal.error();
+  model_seal_ = *seal;
   return load_project(session, opened_, options);
 }
 
@@ -208,6 +214,11 @@ Status ProjectClashes::remember(Session& session, const Loaded& loaded,
       project::Transaction::begin(opened_.project.database());
   if (!transaction) return transaction.error();
   transaction_.emplace(std::move(*transaction));
+  const Result<Hash128> seal = project::model_seal(opened_.project.database());
+  if (!seal) return seal.error();
+  if (*seal != model_seal_)
+    return Error{ErrorCode::output, "the model of the project changed meanwhile", opened_.file,
+                 "nothing is remembered: run again"};
   std::vector<project::TestedTest> tests;
   for (std::size_t t = 0; t < tests_.size(); ++t) {
     Tested& tested = tests_[t];

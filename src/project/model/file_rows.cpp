@@ -173,14 +173,22 @@ Result<std::vector<FileRow>> read_rows(Database& database) {
   }
 }
 
+Result<Hash128> model_seal(Database& database) {
+  Result<Statement> select = database.prepare("SELECT files FROM model_seal");
+  if (!select) return select.error();
+  const Result<bool> found = select->step();
+  if (!found) return found.error();
+  const std::optional<Hash128> seal = *found ? select->hash(0) : std::nullopt;
+  if (!seal) return database.damaged("nothing says which files it has");
+  return *seal;
+}
+
 Result<std::vector<FileRow>> read_sealed_rows(Database& database) {
   Result<std::vector<FileRow>> rows = read_rows(database);
   if (!rows) return rows;
-  Result<Statement> seal = database.prepare("SELECT files FROM model_seal");
+  const Result<Hash128> seal = model_seal(database);
   if (!seal) return seal.error();
-  const Result<bool> found = seal->step();
-  if (!found) return found.error();
-  if (!*found || seal->hash(0) != seal_of(*rows))
+  if (*seal != seal_of(*rows))
     return database.damaged("the rows of 'file' are not those that were stored");
   return rows;
 }

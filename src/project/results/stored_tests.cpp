@@ -2,8 +2,10 @@
 #include "project/results/stored_tests.hpp"
 
 #include <span>
+#include <string_view>
 #include <utility>
 
+#include "core/text_encoding.hpp"
 #include "project/codec/blob.hpp"
 #include "project/stored_report/kept_codec.hpp"
 #include "strake/parallel/transform.hpp"
@@ -18,11 +20,18 @@ constexpr std::int64_t kMostParts = 0xffffffffU / kObjectsPerPart;
 
 Bytes copy_of(std::span<const std::byte> bytes) { return {bytes.begin(), bytes.end()}; }
 
-std::string called(const std::string& test) {
-  return test.empty() ? std::string("the result") : "the result of test '" + test + "'";
+std::string result_of(const std::string& test) {
+  return test.empty() ? std::string("the result of the test of the command line")
+                      : "the result of test " + in_quotes(test);
 }
 
-Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test) {
+/// What is damaged, for errors: of which test in which project.
+std::string called(const Database& database, const std::string& test) {
+  return database.file().string() + ": " + result_of(test);
+}
+
+Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test,
+                                      const std::string& name) {
   Result<Statement> select =
       database.prepare("SELECT part, data FROM report_part WHERE test = ?1 ORDER BY part");
   if (!select) return select.error();
@@ -34,7 +43,7 @@ Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test) {
     if (!*there) return parts;
     const std::int64_t part = select->integer(0);
     if (part < static_cast<std::int64_t>(parts.size()) || part > kMostParts)
-      return database.damaged("a result has a part that none has");
+      return database.damaged(result_of(name) + " has a part that none has");
     parts.resize(static_cast<std::size_t>(part) + 1);
     parts.back() = copy_of(select->bytes(1));
   }
@@ -104,10 +113,8 @@ Status write_parts(Database& database, const TestToWrite& test, const StoredTest
   return {};
 }
 
-}  // namespace
-
-Result<std::vector<std::string>> test_names(Database& database) {
-  Result<Statement> select = database.prepare("SELECT name FROM test ORDER BY id");
+Result<std::vector<std::string>> names_of(Database& database, std::string_view sql) {
+  Result<Statement> select = database.prepare(sql);
   if (!select) return select.error();
   std::vector<std::string> names;
   for (;;) {
@@ -116,6 +123,19 @@ Result<std::vector<std::string>> test_names(Database& database) {
     if (!*there) return names;
     names.emplace_back(select->text(0));
   }
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> test_names(Database& database) {
+  return names_of(database, "SELECT name FROM test ORDER BY id");
+}
+
+Result<std::vector<std::string>> last_tests(Database& database) {
+  // A run adds a row for each of its tests in their order.
+  return names_of(database,
+                  "SELECT name FROM run_test JOIN test ON test.id = run_test.test "
+                  "WHERE run_test.run = (SELECT max(id) FROM run) ORDER BY run_test.rowid");
 }
 
 Result<std::optional<TestRow>> find_test(Database& database, const std::string& name) {
@@ -141,7 +161,7 @@ Result<std::optional<StoredSnapshot>> read_snapshot(Database& database, const st
   const Result<bool> there = select->bind(1, std::string_view(test)).step();
   if (!there) return there.error();
   if (!*there) return std::optional<StoredSnapshot>();
-  Result<Snapshot> snapshot = decode_snapshot(copy_of(select->bytes(1)), called(test));
+  Result<Snapshot> snapshot = decode_snapshot(copy_of(select->bytes(1)), called(database, test));
   if (!snapshot) return snapshot.error();
   return std::optional(StoredSnapshot{select->integer(0), std::move(*snapshot)});
 }
@@ -158,11 +178,11 @@ Result<std::optional<StoredTest>> read_test(Database& database, const std::strin
   const Bytes snapshot = copy_of(select->bytes(2)), head = copy_of(select->bytes(3)),
               kept = copy_of(select->bytes(4));
   select->reset();
-  const std::string what = called(name);
+  const std::string what = called(database, name);
   Result<Snapshot> then = decode_snapshot(snapshot, what);
   if (!then) return then.error();
   test.snapshot = std::move(*then);
-  Result<std::vector<Bytes>> parts = read_parts(database, test.id);
+  Result<std::vector<Bytes>> parts = read_parts(database, test.id, name);
   if (!parts) return parts.error();
   Result<RememberedReport> results =
       decode_report({head, std::move(*parts)}, test.snapshot.identities.size(), what, context);
