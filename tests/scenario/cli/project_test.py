@@ -100,6 +100,22 @@ class Project(Scenario):
         database.close()
         self.assertEqual(self.text('project', 'check', 'ship.strake'), 'no faults\n')
 
+    def test_what_is_noticed_names_files_as_they_were_given(self):
+        def cubes(at):
+            return 'mtllib none.mtl\n' + cube('one', 0, (0, 0, 0), 100) + cube('two', 1, (at, 0, 0), 100)
+
+        ways = ('--unit', 'mm', '--up-axis', 'z')
+        self.write('a.obj', cubes(90))
+        self.made('a.obj', *ways)
+        for update in ((), ('a.obj', '--unit', 'mm')):
+            with self.subTest(update):
+                self.write('a.obj', cubes(80 if update else 70))
+                self.text('project', 'update', 'ship.strake', *update)
+                self.text('clash', 'ship.strake', '-o', 'p.json')
+                self.text('clash', 'a.obj', *ways, '-o', 'f.json')
+                self.assertIn(b'obj-material-library-missing', (self.folder / 'f.json').read_bytes())
+                self.assertEqual((self.folder / 'p.json').read_bytes(), (self.folder / 'f.json').read_bytes())
+
     def test_a_renamed_file_takes_the_place_of_what_it_was(self):
         boxes = [(f'/P{i}', (300 * i, 0, 0)) for i in range(8)]
         self.write_rvm('HA.RVM', boxes)
