@@ -91,8 +91,9 @@ Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProject
   return ProjectClashes(std::move(*opened), input);
 }
 
-Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions& options) {
-  return load_project(session, opened_, options);
+Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions& options,
+                                    std::span<const rules::FileSettings> said_of_files) {
+  return load_project(session, opened_, options, said_of_files);
 }
 
 Result<clash::Findings> ProjectClashes::find(Session& session, const Loaded& loaded,

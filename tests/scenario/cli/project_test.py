@@ -116,6 +116,24 @@ class Project(Scenario):
                 self.assertIn(b'obj-material-library-missing', (self.folder / 'f.json').read_bytes())
                 self.assertEqual((self.folder / 'p.json').read_bytes(), (self.folder / 'f.json').read_bytes())
 
+    def test_rules_that_say_otherwise_of_a_file_are_refused(self):
+        self.two_files()
+        self.made('a.obj', 'b.obj', '--unit', 'a.obj=m')
+        runs = (('clash', '-p', 'ship.strake', '--rules', 'r.toml'), ('clash', 'ship.strake', '--rules', 'r.toml'))
+        for says, read, option in (('unit = "mm"', 'unit m,', '--unit mm'), ('up_axis = "y"', 'z up', '--up-axis y')):
+            self.write('r.toml', f'[[file]]\nname = "a.*"\n{says}\n[[test]]\nname = "all"\n')
+            for run in runs:
+                told = self.refused(2, *run)
+                self.assertIn("'a.obj'", told)
+                self.assertIn(read, told)
+                self.assertIn(f'strake project update ship.strake {self.folder / "a.obj"} {option}', told)
+        self.write('r.toml', '[[file]]\nname = "a.*"\nunit = "m"\nup_axis = "z"\n[[file]]\nname = "c.*"\nunit = "in"\n'
+                             '[[test]]\nname = "all"\n')
+        for run in runs:
+            told = self.run_strake(*run).stderr
+            self.assertNotIn("[[file]] 'a.*'", told)
+            self.assertIn("[[file]] 'c.*': no file of the run has such a name", told)
+
     def test_a_renamed_file_takes_the_place_of_what_it_was(self):
         boxes = [(f'/P{i}', (300 * i, 0, 0)) for i in range(8)]
         self.write_rvm('HA.RVM', boxes)
