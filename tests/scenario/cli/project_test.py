@@ -221,6 +221,19 @@ class Project(Scenario):
             self.assertEqual(self.as_json('info', name)['total']['objects'], 2)
         self.assertIn('.obj', self.refused(2, 'project', 'export', 'ship.strake', '-o', 'out.step'))
 
+    def test_the_decisions_are_exported(self):
+        self.two_files()
+        self.made('a.obj', 'b.obj')
+        self.run_strake('clash', '-p', 'ship.strake', '--clearance', '25mm')
+        row, *_ = self.listed('clashes')
+        self.text('clash', 'set', row['key'], '-p', 'ship.strake', '--status', 'approved')
+        self.text('project', 'export', 'ship.strake', '-o', 'decisions.csv', '-o', 'out.glb', '--quiet')
+        self.text('clash', 'list', '-p', 'ship.strake', '-o', 'listed.csv')
+        exported = (self.folder / 'decisions.csv').read_text(encoding='utf-8')
+        self.assertEqual(exported, (self.folder / 'listed.csv').read_text(encoding='utf-8'))
+        self.assertIn('approved', exported)
+        self.assertTrue((self.folder / 'out.glb').exists())
+
     def test_damage_is_told_with_its_place(self):
         self.two_files()
         self.made('a.obj', 'b.obj')
