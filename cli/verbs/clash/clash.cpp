@@ -398,7 +398,7 @@ Result<ClashSource> source_of(Session& session, const ClashOptions& given,
   }
   Result<ProjectClashes> project = ProjectClashes::open(session, given.project);
   if (!project) return project.error();
-  Result<Loaded> loaded = project->load(session, request.scene);
+  Result<Loaded> loaded = project->load(session, request.scene, files_of(request));
   if (!loaded) return loaded.error();
   return ClashSource{std::move(*project), std::move(*loaded)};
 }
@@ -442,8 +442,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   Result<clash::Findings> findings =
       findings_of(session, loaded, *request, given.list_exempted, project);
   if (!findings) return findings.error();
-  if (project == nullptr)
-    findings->diagnostics.append(idle_file_settings(files_of(*request), given.input.files));
+  findings->diagnostics.append(idle_file_settings(files_of(*request), loaded.files));
   findings->diagnostics.append(check_columns(request->output.columns, *loaded.model));
   tell(session, *findings, *loaded.model);
   std::optional<report::DecidedResults> from_file;

@@ -92,13 +92,14 @@ Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProject
   return ProjectClashes(std::move(*opened), input);
 }
 
-Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions& options) {
+Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions& options,
+                                    std::span<const rules::FileSettings> said_of_files) {
   const Result<project::ReadScope> moment = project::ReadScope::begin(opened_.project.database());
   if (!moment) return moment.error();
   const Result<Hash128> seal = project::model_seal(opened_.project.database());
   if (!seal) return seal.error();
   model_seal_ = *seal;
-  return load_project(session, opened_, options);
+  return load_project(session, opened_, options, said_of_files);
 }
 
 Result<clash::Findings> ProjectClashes::find(Session& session, const Loaded& loaded,

@@ -42,7 +42,8 @@ class ProjectClashes {
   [[nodiscard]] static Result<ProjectClashes> open(Session& session,
                                                    const ClashProjectInput& input);
 
-  [[nodiscard]] Result<Loaded> load(Session& session, const model::SceneOptions& options);
+  [[nodiscard]] Result<Loaded> load(Session& session, const model::SceneOptions& options,
+                                    std::span<const rules::FileSettings> said_of_files);
   /// Runs the tests of a plan; of those that ran before, what changed since.
   [[nodiscard]] Result<clash::Findings> find(Session& session, const Loaded& loaded,
                                              rules::Plan plan, bool list_exempted);

@@ -58,7 +58,7 @@ std::optional<FileRow> row_of(const Statement& statement) {
   row.file.id = in.integer();
   row.position = in.integer();
   row.file.path = in.text();
-  row.given = in.text();
+  row.file.given = in.text();
   row.name = in.text();
   model::SourceFile& source = row.file.source;
   source.label = in.text();
@@ -106,7 +106,7 @@ void bind_row(Statement& out, const FileRow& row, std::string_view path) {
   const io::ReadOptions& options = row.file.options;
   integer(row.position);
   text(path);
-  text(row.given);
+  text(row.file.given);
   text(row.name);
   text(source.label);
   text(source.format);
@@ -139,7 +139,7 @@ Hash128 seal_of(const std::vector<FileRow>& rows) {
   for (const FileRow& row : rows) {
     const model::SourceFile& source = row.file.source;
     const io::ReadOptions& options = row.file.options;
-    hasher.add(row.file.id).add(row.position).add(row.file.path.string()).add(row.given);
+    hasher.add(row.file.id).add(row.position).add(row.file.path.string()).add(row.file.given);
     for (const std::string* const text :
          {&row.name, &source.label, &source.format, &source.unit, &source.up_axis, &source.folders})
       hasher.add(*text);

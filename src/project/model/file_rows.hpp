@@ -18,8 +18,7 @@ namespace strake::project {
 struct FileRow {
   StoredFile file;
   std::int64_t position = 0;
-  std::string given;  ///< the path by which it was read
-  std::string name;   ///< its label where it is alone
+  std::string name;  ///< its label where it is alone
   std::uint64_t shapes = 0, groups = 0, group_attributes = 0;
   Hash128 blocks;  ///< of what is in its blocks
 };

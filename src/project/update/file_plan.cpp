@@ -178,10 +178,11 @@ Result<std::vector<OutdatedFile>> outdated_files(const std::vector<StoredFile>& 
   for (const io::FileToRead& file : request.files) {
     const StoredFile* const stored = find_file(files, file.path);
     const io::ReadOptions& before = stored == nullptr ? of_all : stored->options;
-    sought.push_back({{file.path, inherited(file.options, before)}, stored});
+    sought.push_back({{file.path, inherited(file.options, before)}, stored, file.path.string()});
   }
   if (request.files.empty())
-    for (const StoredFile& file : files) sought.push_back({{file.path, file.options}, &file});
+    for (const StoredFile& file : files)
+      sought.push_back({{file.path, file.options}, &file, file.given});
   std::vector<OutdatedFile> outdated;
   for (OutdatedFile& file : sought) {
     if (file.replaces != nullptr) {
@@ -204,6 +205,7 @@ Result<FilePlan> plan_update(const std::vector<StoredFile>& files,
   for (const OutdatedFile& file : outdated) {
     Result<FileToStore> read = read_file(file.file, context);
     if (!read) return read.error();
+    if (file.given != read->given) call_as_given(*read, file.given);
     if (file.replaces == nullptr) {
       sought.push_back(plan.read.size());
     } else {

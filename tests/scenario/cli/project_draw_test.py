@@ -75,6 +75,14 @@ class ProjectDraw(Scenario):
                 self.same(f'a.{name}', f'f.{name}')
             self.assertIn('nothing solved again', self.told('--stored', 'hall'))
 
+    def test_the_file_alone_holds_all(self):
+        self.save(*VIEW)
+        for command in (('project', 'info', 'p.strake'), ('draw', '-p', 'p.strake', '--stored', 'hall', '-o', 'a.svg'),
+                        ('project', 'check', 'p.strake'), ('draw', 'p.strake', '--view', 'top', '-o', 'a.svg')):
+            self.text(*command)
+            self.assertEqual([path.name for path in self.folder.glob('*.strake*')], ['p.strake'], command)
+        self.assertIn('nothing solved again', self.told('--stored', 'hall'))
+
     def test_another_view_of_the_name_has_its_own_lines(self):
         self.save(*VIEW)
         for view in (('--view', 'front'), ('--view', 'iso', '--section', 'z=50mm', '--select', 'c1*'),

@@ -100,6 +100,40 @@ class Project(Scenario):
         database.close()
         self.assertEqual(self.text('project', 'check', 'ship.strake'), 'no faults\n')
 
+    def test_what_is_noticed_names_files_as_they_were_given(self):
+        def cubes(at):
+            return 'mtllib none.mtl\n' + cube('one', 0, (0, 0, 0), 100) + cube('two', 1, (at, 0, 0), 100)
+
+        ways = ('--unit', 'mm', '--up-axis', 'z')
+        self.write('a.obj', cubes(90))
+        self.made('a.obj', *ways)
+        for update in ((), ('a.obj', '--unit', 'mm')):
+            with self.subTest(update):
+                self.write('a.obj', cubes(80 if update else 70))
+                self.text('project', 'update', 'ship.strake', *update)
+                self.text('clash', 'ship.strake', '-o', 'p.json')
+                self.text('clash', 'a.obj', *ways, '-o', 'f.json')
+                self.assertIn(b'obj-material-library-missing', (self.folder / 'f.json').read_bytes())
+                self.assertEqual((self.folder / 'p.json').read_bytes(), (self.folder / 'f.json').read_bytes())
+
+    def test_rules_that_say_otherwise_of_a_file_are_refused(self):
+        self.two_files()
+        self.made('a.obj', 'b.obj', '--unit', 'a.obj=m')
+        runs = (('clash', '-p', 'ship.strake', '--rules', 'r.toml'), ('clash', 'ship.strake', '--rules', 'r.toml'))
+        for says, read, option in (('unit = "mm"', 'unit m,', '--unit mm'), ('up_axis = "y"', 'z up', '--up-axis y')):
+            self.write('r.toml', f'[[file]]\nname = "a.*"\n{says}\n[[test]]\nname = "all"\n')
+            for run in runs:
+                told = self.refused(2, *run)
+                self.assertIn("'a.obj'", told)
+                self.assertIn(read, told)
+                self.assertIn(f'strake project update ship.strake {self.folder / "a.obj"} {option}', told)
+        self.write('r.toml', '[[file]]\nname = "a.*"\nunit = "m"\nup_axis = "z"\n[[file]]\nname = "c.*"\nunit = "in"\n'
+                             '[[test]]\nname = "all"\n')
+        for run in runs:
+            told = self.run_strake(*run).stderr
+            self.assertNotIn("[[file]] 'a.*'", told)
+            self.assertIn("[[file]] 'c.*': no file of the run has such a name", told)
+
     def test_a_renamed_file_takes_the_place_of_what_it_was(self):
         boxes = [(f'/P{i}', (300 * i, 0, 0)) for i in range(8)]
         self.write_rvm('HA.RVM', boxes)
@@ -186,6 +220,19 @@ class Project(Scenario):
         for name in ('out.obj', 'out.glb'):
             self.assertEqual(self.as_json('info', name)['total']['objects'], 2)
         self.assertIn('.obj', self.refused(2, 'project', 'export', 'ship.strake', '-o', 'out.step'))
+
+    def test_the_decisions_are_exported(self):
+        self.two_files()
+        self.made('a.obj', 'b.obj')
+        self.run_strake('clash', '-p', 'ship.strake', '--clearance', '25mm')
+        row, *_ = self.listed('clashes')
+        self.text('clash', 'set', row['key'], '-p', 'ship.strake', '--status', 'approved')
+        self.text('project', 'export', 'ship.strake', '-o', 'decisions.csv', '-o', 'out.glb', '--quiet')
+        self.text('clash', 'list', '-p', 'ship.strake', '-o', 'listed.csv')
+        exported = (self.folder / 'decisions.csv').read_text(encoding='utf-8')
+        self.assertEqual(exported, (self.folder / 'listed.csv').read_text(encoding='utf-8'))
+        self.assertIn('approved', exported)
+        self.assertTrue((self.folder / 'out.glb').exists())
 
     def test_damage_is_told_with_its_place(self):
         self.two_files()
