@@ -25,7 +25,8 @@ CREATE TABLE test (
   objects INTEGER NOT NULL,         -- of the model then
   snapshot BLOB NOT NULL,           -- what the report was computed from
   report BLOB NOT NULL,             -- all of it but pairs and regions
-  kept BLOB NOT NULL                -- what the next run needs besides (clash::KeptForChanges)
+  kept BLOB NOT NULL,               -- what the next run needs besides (clash::KeptForChanges)
+  seal BLOB NOT NULL                -- a hash over report, kept and all of report_part
 ) STRICT;
 
 CREATE TABLE report_part (          -- pairs and regions of a range of objects

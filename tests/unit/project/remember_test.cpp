@@ -89,6 +89,24 @@ TEST_F(Remembered, clashes_are_new_once_and_active_then_without_a_row_written) {
   EXPECT_EQ(statuses(), (Statuses{"active", "active", "active"}));
 }
 
+TEST_F(Remembered, results_that_are_not_all_there_are_damage_and_not_less_clashes) {
+  run(row(4));
+  for (const char* const damage :
+       {"DELETE FROM report_part", "UPDATE report_part SET part = part + 1",
+        "INSERT INTO report_part SELECT test, part + 1, data FROM report_part",
+        "UPDATE test SET seal = x''", "UPDATE test SET seal = zeroblob(16)"}) {
+    SCOPED_TRACE(damage);
+    ASSERT_TRUE(database_->execute("SAVEPOINT before"));
+    ASSERT_TRUE(database_->execute(damage));
+    const Result<std::optional<StoredTest>> read = read_test(*database_, "", {});
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::input);
+    EXPECT_NE(read.error().text().find("is damaged"), std::string::npos) << read.error().text();
+    ASSERT_TRUE(database_->execute("ROLLBACK TO before; RELEASE before"));
+  }
+  EXPECT_TRUE(read_test(*database_, "", {}));
+}
+
 TEST_F(Remembered, decisions_hold_and_settle) {
   run(row(4));
   decide(0, DecisionStatus::approved);
