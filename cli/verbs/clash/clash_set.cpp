@@ -263,8 +263,8 @@ Verb add_clash_set(CLI::App& clash, CommonOptions& common) {
 A new run keeps what was decided. An approved clash comes back where it got deeper, of a severer class or has
 more places (--deeper of 'strake clash'); what is gone becomes resolved, and what is found again new.
 
-The number of a group holds with the options of the run that showed it, as what comes first, and as long as
-nothing more is approved: an approved clash is in no group. An id holds without them, as long as --group-by is the same.
+The number of a group is that of a run with the same --group-by, --group-distance, --group-contacts, --class
+and --sort, as long as nothing more is approved: an approved clash is in no group. Ids of groups stay.
 
 Examples:
   strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --status approved --comment 'as agreed'

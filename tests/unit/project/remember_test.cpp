@@ -260,7 +260,7 @@ TEST_F(Remembered, lines_that_are_not_checked_any_more_stay_unknown) {
 TEST_F(Remembered, a_mesh_that_became_open_stays_unknown_until_it_is_closed) {
   const auto within = [](bool open) {
     ClashModel m;
-    m.box("outer", {0, 0, 0}, {1000, 1000, 1000});
+    m.box("hull", {0, 0, 0}, {1000, 1000, 1000});
     m.box("inner", {400, 400, 400}, {600, 600, 600});
     auto& mesh = std::get<geometry::TriangleMesh>(m.model.shapes[0]);
     if (open) mesh.triangles.resize(2);
@@ -270,7 +270,7 @@ TEST_F(Remembered, a_mesh_that_became_open_stays_unknown_until_it_is_closed) {
   ASSERT_EQ(clashes().size(), 1U);
   for (int night = 0; night < 3; ++night) {
     run(within(true));
-    EXPECT_NE(clashes()[0].row.unknown.find("'outer' has surfaces that enclose nothing"),
+    EXPECT_NE(clashes()[0].row.unknown.find("'hull' has surfaces that enclose nothing"),
               std::string::npos)
         << night;
   }
