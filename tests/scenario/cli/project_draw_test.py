@@ -165,7 +165,7 @@ class ProjectDraw(Scenario):
             self.assertIn(option[0], self.refused('f.json', *option, '-o', 'a.svg'))
         self.refused('f.json', 'm.obj', '-o', 'a.svg')
         self.refused('f.json', '-o', 'f.json')
-        self.assertIn('fit', self.refused('f.json', '--scale', '1:1', '--paper', 'A4', '-o', 'a.svg'))
+        self.assertIn('larger paper', self.refused('f.json', '--scale', '1:1', '--paper', 'A4', '-o', 'a.svg'))
         self.text('draw', 'm.obj', *WAYS, '--visible-only', '-o', 'v.json')
         self.assertIn('--hidden', self.refused('v.json', '--hidden', 'dashed', '-o', 'a.svg'))
         sound = (self.folder / 'f.json').read_text(encoding='utf-8')
