@@ -21,11 +21,10 @@ namespace {
 struct KeyedRow {
   std::string key;
   std::array<std::uint64_t, 2> identities{};
-  bool is_taken = false;  ///< by a result
 };
 
 /// What is wrong with rows or results in one way.
-struct Kind {
+struct FaultKind {
   std::string_view what;
   std::string first = {};
   std::uint64_t count = 0;
@@ -48,7 +47,7 @@ class RowCheck {
     const clash::Report& report = test_.results.report;
     for (std::size_t i = 0; i < report.pairs.size(); ++i)
       if (const std::int64_t row = test_.results.rows[i]; row != 0) hold(report.pairs[i], row);
-    for (const Kind* const kind : {&other_key_, &no_row_, &shared_, &other_objects_})
+    for (const FaultKind* const kind : {&other_key_, &no_row_, &other_objects_})
       if (kind->count > 0)
         faults_.push_back(kind->count == 1 ? fmt::format("{} {}", kind->first, kind->what)
                                            : fmt::format("{} {}, first of {}", kind->first,
@@ -93,8 +92,7 @@ class RowCheck {
   void hold(const clash::Pair& pair, std::int64_t number) {
     const auto found = rows_.find(number);
     if (found == rows_.end()) return no_row_.add(fmt::format("clash {}", number));
-    KeyedRow& row = found->second;
-    if (std::exchange(row.is_taken, true)) shared_.add(called(row.key));
+    const KeyedRow& row = found->second;
     const std::vector<std::uint64_t>& all = test_.snapshot.identities;
     const std::uint64_t a = all[model::index(pair.a)], b = all[model::index(pair.b)];
     // An object that a later update took out may be called by the label that its file had.
@@ -111,10 +109,9 @@ class RowCheck {
   std::vector<std::uint64_t> known_;  ///< identities of objects, sorted
   std::unordered_map<std::int64_t, KeyedRow> rows_;
   std::vector<std::string> faults_;
-  Kind other_key_{"has another key than its objects"};
-  Kind no_row_{"has a result, and is not there"};
-  Kind shared_{"has several results"};
-  Kind other_objects_{"is of other objects than its result"};
+  FaultKind other_key_{"has another key than its objects"};
+  FaultKind no_row_{"has a result, and is not there"};
+  FaultKind other_objects_{"is of other objects than its result"};
 };
 
 }  // namespace
