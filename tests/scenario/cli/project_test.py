@@ -249,6 +249,29 @@ class Project(Scenario):
         self.assertEqual(faults['faults'][0]['where'], 'model')
         self.refused(3, 'clash', 'ship.strake')
 
+    def test_results_that_do_not_fit_their_rows_are_told(self):
+        self.write('a.obj', ''.join(cube(f'o{i}', i, (90 * i, 0, 0), 100) for i in range(4)))
+        self.made('a.obj')
+        self.run_strake('clash', '-p', 'ship.strake')
+        self.text('draw', '-p', 'ship.strake', '--save', 'top', '--view', 'top', '-o', 'top.svg')
+        self.assertEqual(self.text('project', 'check', 'ship.strake'), 'no faults\n')
+        sound = (self.folder / 'ship.strake').read_bytes()
+        for change, told in (("UPDATE clash SET a_id = 'x' WHERE id = 1", 'has another key than its objects'),
+                             ('DELETE FROM clash WHERE id = 2', 'clash 2 has a result, and is not there'),
+                             ('UPDATE clash SET (a_file, a_id, b_file, b_id) = (SELECT a_file, a_id, b_file, b_id '
+                              'FROM clash WHERE id = 2) WHERE id = 1', 'is of other objects than its result'),
+                             ('UPDATE test SET objects = objects + 1', 'and its row says'),
+                             ('UPDATE drawing SET pieces = pieces + 1', "the drawing of the view 'top' is of another size")):
+            with self.subTest(change):
+                (self.folder / 'ship.strake').write_bytes(sound)
+                database = sqlite3.connect(self.folder / 'ship.strake')
+                database.execute(change)
+                database.commit()
+                database.close()
+                done = self.run_strake('project', 'check', 'ship.strake')
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertIn(told, done.stdout)
+
     def test_a_second_writer_is_told_or_waits(self):
         self.two_files()
         self.made('a.obj')
