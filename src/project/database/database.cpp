@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <cerrno>
 #include <memory>
 #include <string>
 #include <utility>
@@ -18,7 +19,8 @@ struct Meaning {
   std::string message, mend;
 };
 
-Meaning meaning_of(int code) {
+/// `reason` is what the system said of a fault of input or output.
+Meaning meaning_of(int code, int reason) {
   switch (code & 0xff) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
@@ -46,6 +48,10 @@ Meaning meaning_of(int code) {
     case SQLITE_AUTH:
       return {ErrorCode::input, "cannot be read: permission denied", "check the permissions"};
     case SQLITE_IOERR:
+      if (reason == EFBIG)
+        return {ErrorCode::output, "cannot be written: File too large",
+                "raise the limit on the size of files (ulimit -f), or choose a disk that takes "
+                "larger ones; what was stored before is whole"};
       return {ErrorCode::output, "cannot be read or written: the disk reports an error",
               "check the disk; what was stored before is whole"};
     default:
@@ -60,7 +66,10 @@ Database::~Database() {
 }
 
 Error Database::error(int code) const {
-  Meaning meaning = meaning_of(code);
+  // SQLite remembers no reason for a COMMIT that fails, after which nothing else has failed yet.
+  const int last = errno;
+  const int kept = handle_ != nullptr ? sqlite3_system_errno(handle_) : 0;
+  Meaning meaning = meaning_of(code, kept != 0 ? kept : last);
   if (meaning.message.empty()) {
     meaning.message = "the database refuses: ";
     meaning.message += handle_ != nullptr ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
@@ -69,7 +78,7 @@ Error Database::error(int code) const {
 }
 
 Error Database::damaged(std::string_view what) const {
-  Meaning meaning = meaning_of(SQLITE_CORRUPT);
+  Meaning meaning = meaning_of(SQLITE_CORRUPT, 0);
   meaning.message += ": ";
   meaning.message += what;
   return {meaning.code, std::move(meaning.message), file_.string(), std::move(meaning.mend)};

@@ -27,8 +27,8 @@ fs::path beside(const fs::path& file, const char* ending) {
   return other;
 }
 
-/// Whether the file looks like a project, before SQLite has to do with it.
-Status check_head(const fs::path& file) {
+/// Returns the head of a file that looks like a project, before SQLite has to do with it.
+Result<FileHead> project_head(const fs::path& file) {
   const auto head = read_head(file);
   if (!head)
     return Error{ErrorCode::input,
@@ -40,10 +40,10 @@ Status check_head(const fs::path& file) {
                  file.string(), "make one: strake project new"};
   // A journal of the older kind can name other files, which SQLite would delete. None is ours.
   std::error_code failed;
-  if (!head->has_write_log || fs::exists(beside(file, "-journal"), failed))
-    return Error{ErrorCode::input, "is damaged: projects are in WAL mode", file.string(),
-                 "take a copy of the project, or make it anew of its model files"};
-  return {};
+  if (fs::exists(beside(file, "-journal"), failed))
+    return Error{ErrorCode::input, "is damaged: projects are in WAL mode, without a -journal",
+                 file.string(), "take a copy of the project, or make it anew of its model files"};
+  return *head;
 }
 
 /// Returns a name by which SQLite opens a file as if nobody wrote to it.
@@ -91,7 +91,11 @@ class Opening {
   Opening(const fs::path& file, const OpenOptions& options) : file_(file), options_(options) {}
 
   Result<std::unique_ptr<Database>> run() {
-    if (const Status project = check_head(file_); !project) return project.error();
+    const Result<FileHead> head = project_head(file_);
+    if (!head) return head.error();
+    if (!head->has_write_log)
+      if (const Status status = take_write_log(); !status && options_.access == Access::write)
+        return status.error();
     Result<std::unique_ptr<Database>> database = connect(options_.access);
     if (!database) return database;
     const Result<bool> older = is_older(**database);
@@ -110,6 +114,22 @@ class Opening {
   }
 
  private:
+  /// Puts a file into WAL mode: VACUUM INTO of SQLite copies all of a project but that. A reader
+  /// does so, too, where it may: a writer beside it could not, and it itself needs it only then.
+  Status take_write_log() {
+    const Result<std::unique_ptr<Database>> database = connect(Access::write);
+    if (!database) return database.error();
+    // The few bytes that change lie in one page: with a journal in memory there is never one beside
+    // the file.
+    if (const Status set = (*database)->execute("PRAGMA journal_mode = MEMORY"); !set) return set;
+    Result<Statement> mode = (*database)->prepare("PRAGMA journal_mode = WAL");
+    if (!mode) return mode.error();
+    const Result<bool> there = mode->step();
+    if (!there) return there.error();
+    if (!*there || mode->text(0) != "wal") return (*database)->error(SQLITE_BUSY);
+    return {};
+  }
+
   Result<std::unique_ptr<Database>> connect(Access access) {
     std::unique_ptr<Database> database(new Database());
     int code = connect(*database, access, SQLITE_OPEN_READWRITE);

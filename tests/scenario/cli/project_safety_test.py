@@ -175,6 +175,7 @@ class FullDisk(Jobs):
         self.assertIn(done.returncode, (0, 3), done.stderr)
         if done.returncode:
             self.assertIn('p.strake', done.stderr)
+            self.assertNotIn('the disk reports an error', done.stderr)
         return done.returncode == 0
 
     def test_a_file_that_may_not_grow(self):
@@ -301,6 +302,20 @@ class Neighbours(ProjectScenario):
                         ['project', 'add', 'p.strake', 'more.glb'], CLASH, DRAW, ['project', 'check', 'p.strake']):
             self.text(*command)
             self.assertEqual(self.files(), before, command)
+
+
+class Copies(ProjectScenario):
+    def test_a_copy_that_sqlite_made_is_a_project(self):
+        before = self.state()
+        for first in (['project', 'check', 'p.strake'], CLASH, DRAW):
+            with self.subTest(first):
+                with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
+                    other.execute(f"VACUUM INTO '{self.folder}/copy.strake'")
+                for path in self.folder.glob('p.strake*'):
+                    path.unlink()
+                (self.folder / 'copy.strake').rename(self.folder / 'p.strake')
+                self.text(*first)
+                self.assertEqual(self.state()[0], before[0])
 
 
 class ReadOnly(ProjectScenario):
