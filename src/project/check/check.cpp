@@ -66,6 +66,8 @@ class ProjectCheck {
   }
 
   void database() {
+    if (const Status whole = project_.database().check_end(); !whole)
+      add("database", whole.error());
     each_row("database", "PRAGMA integrity_check", [&](const Statement& row) {
       if (row.text(0) != "ok") faults_.push_back({"database", std::string(row.text(0))});
     });

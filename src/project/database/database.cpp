@@ -122,4 +122,19 @@ Status Database::check_unchanged() const {
   return Error{ErrorCode::input, "was written to while it was read", file_.string(), "try again"};
 }
 
+Status Database::check_end() {
+  const auto file = size_and_time(file_);
+  if (!file) return {};
+  // A page that a writer is putting into the file is in the write log still, which stays for as
+  // long as this connection is open: it is looked at last.
+  const auto log = size_and_time(sqlite3_filename_wal(sqlite3_db_filename(handle_, "main")));
+  if (log && log->first > 0) return {};
+  Result<Statement> page_size = prepare("PRAGMA page_size");
+  if (!page_size) return page_size.error();
+  const Result<bool> row = page_size->step();
+  if (!row) return row.error();
+  if (!*row || file->first % page_size->integer(0) == 0) return {};
+  return damaged("its last page is cut off");
+}
+
 }  // namespace strake::project

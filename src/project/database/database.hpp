@@ -93,6 +93,9 @@ class Database {
   /// Whether what was read is of one moment, where SQLite cannot see to it: on read-only media,
   /// which somebody else may still write to. Errors: input.
   [[nodiscard]] Status check_unchanged() const;
+  /// Whether the file ends with a whole page. SQLite takes what a last page lacks for zeros and
+  /// says nothing. Errors: input.
+  [[nodiscard]] Status check_end();
 
  private:
   friend class Statement;

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "project/database/schema.hpp"
+#include "strake/project/check.hpp"
 #include "strake/project/project.hpp"
 #include "support/io_files.hpp"
 #include "support/stored_models.hpp"
@@ -257,6 +258,23 @@ TEST_F(ProjectFileTest, WhoeverClosesLastLeavesOneFile) {
   auto later = Project::open(file_, {});
   ASSERT_TRUE(later) << later.error().text();
   EXPECT_EQ(test::number(*later, "SELECT length(files) FROM model_seal"), 15);
+}
+
+TEST_F(ProjectFileTest, ALastPageThatIsCutOffIsFound) {
+  static_cast<void>(make());
+  const auto faults = [&] {
+    auto project = Project::open(file_, {});
+    EXPECT_TRUE(project) << project.error().text();
+    const auto found = check(*project, {});
+    EXPECT_TRUE(found) << found.error().text();
+    return found->size();
+  };
+  EXPECT_EQ(faults(), 0U);
+  // The last byte of an empty page: zero, which is what SQLite takes it for.
+  edit("CREATE TABLE more (a); INSERT INTO more VALUES (zeroblob(20000)); DROP TABLE more");
+  EXPECT_EQ(faults(), 0U);
+  fs::resize_file(file_, fs::file_size(file_) - 1);
+  EXPECT_EQ(faults(), 1U);
 }
 
 TEST_F(ProjectFileTest, AFolderThatMayNotBeWrittenIsReadAllTheSame) {
