@@ -26,6 +26,8 @@ Result<ExitCode> run_export(Session& session, const ExportOptions& given) {
     return status.error();
   Result<project::Project> project = open_argument(session, given.project, project::Access::read);
   if (!project) return project.error();
+  if (const Status spares = check_spares_model_files(*project, "-o", given.outputs); !spares)
+    return spares.error();
   const Result<model::Model> model = [&] {
     const auto timer = session.step("load");
     return project_model(session, *project);
