@@ -3,8 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "cli/options/options.hpp"
 #include "cli/run/file_settings.hpp"
 #include "core/number.hpp"
 #include "core/text_encoding.hpp"
@@ -74,6 +77,16 @@ Result<OpenedProject> open_project(Session& session, const ProjectOptions& optio
       project::Project::open(options.file, {.access = access, .wait_s = *wait});
   if (!project) return project.error();
   return OpenedProject{options.file, std::move(*project)};
+}
+
+Status check_spares_model_files(project::Project& project, const std::string& option,
+                                const std::vector<std::string>& outputs) {
+  if (outputs.empty()) return {};
+  const Result<std::vector<project::StoredFile>> files = project.files();
+  if (!files) return files.error();
+  std::vector<std::string> inputs;
+  for (const project::StoredFile& file : *files) inputs.push_back(file.path.string());
+  return check_spares_inputs(option, outputs, inputs);
 }
 
 Result<model::Model> project_model(Session& session, project::Project& project) {

@@ -41,6 +41,11 @@ struct OpenedProject {
 [[nodiscard]] Result<OpenedProject> open_project(Session& session, const ProjectOptions& options,
                                                  project::Access access);
 
+/// Checks that no file that an option names is one that the project reads again: an update could
+/// not. Errors: usage; those of project::Project::files().
+[[nodiscard]] Status check_spares_model_files(project::Project& project, const std::string& option,
+                                              const std::vector<std::string>& outputs);
+
 /// Takes the model out of a project. Errors: input for a project without files; those of
 /// project::Project::model().
 [[nodiscard]] Result<model::Model> project_model(Session& session, project::Project& project);

@@ -396,7 +396,7 @@ Result<ClashSource> source_of(Session& session, const ClashOptions& given,
     if (!loaded) return loaded.error();
     return ClashSource{{}, std::move(*loaded)};
   }
-  Result<ProjectClashes> project = ProjectClashes::open(session, given.project);
+  Result<ProjectClashes> project = ProjectClashes::open(session, given.project, given.outputs);
   if (!project) return project.error();
   Result<Loaded> loaded = project->load(session, request.scene, files_of(request));
   if (!loaded) return loaded.error();

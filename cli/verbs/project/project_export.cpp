@@ -69,6 +69,8 @@ Result<ExitCode> run_export(Session& session, const ExportOptions& given) {
     return status.error();
   Result<project::Project> project = open_argument(session, given.project, project::Access::read);
   if (!project) return project.error();
+  if (const Status spares = check_spares_model_files(*project, "-o", given.outputs); !spares)
+    return spares.error();
   std::vector<std::string> models;
   for (const std::string& file : given.outputs) {
     if (suffix_of(file) != kDecisions) {

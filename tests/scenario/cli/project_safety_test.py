@@ -451,8 +451,8 @@ class Damage(ProjectScenario):
 
 
 class HostileNames(Scenario):
-    NAMES = ["it's", '"quoted"', "'); DROP TABLE clash; --", '100%s', 'semi;colon', '-p', '\u202egpj', 'tab\tand\x1b[2J',
-             'n' * 200, 'ä ö', '[x]*?']
+    UNSEEN = ['\u202egpj', 'tab\tand\x1b[2J']  # no names of views
+    NAMES = ["it's", '"quoted"', "'); DROP TABLE clash; --", '100%s', 'semi;colon', '-p', *UNSEEN, 'n' * 200, 'ä ö', '[x]*?']
 
     def test_names_are_text_and_nothing_else(self):
         files = []
@@ -467,8 +467,9 @@ class HostileNames(Scenario):
         self.assertEqual((self.folder / 'p.json').read_bytes(), (self.folder / 'true.json').read_bytes())
         for name in self.NAMES:
             with self.subTest(name):
-                told = self.text('draw', '-p', 'p.strake', f'--save={name}', '--view', 'top', '-o', 'x.svg')
-                told += self.text('draw', '-p', 'p.strake', f'--stored={name}', '-o', 'x.svg')
+                view = 'view' if name in self.UNSEEN else name
+                told = self.text('draw', '-p', 'p.strake', f'--save={view}', '--view', 'top', '-o', 'x.svg')
+                told += self.text('draw', '-p', 'p.strake', f'--stored={view}', '-o', 'x.svg')
                 told += self.text('clash', 'set', '-p', 'p.strake', '--select', "name = '*'", '--status', 'reviewed',
                                   f'--comment={name}', f'--assignee={name}', f'--by={name}')
                 for command in (['clash', 'list', '-p', 'p.strake'], ['project', 'list', 'p.strake'],
@@ -477,11 +478,21 @@ class HostileNames(Scenario):
                 self.assertNotIn('\x1b', told)
                 self.assertNotIn('\u202e', told)
         with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
-            self.assertEqual({name for name, in other.execute('SELECT name FROM view')}, set(self.NAMES))
+            self.assertEqual({name for name, in other.execute('SELECT name FROM view')},
+                             {'view', *self.NAMES} - {*self.UNSEEN})
             self.assertEqual({name for name, in other.execute('SELECT DISTINCT comment FROM clashes')}, {self.NAMES[-1]})
         self.text('project', 'check', 'p.strake')
         for name in self.NAMES:
             self.text('project', 'remove', 'p.strake', '--', f'{name}.obj')
+
+    def test_views_have_names_that_can_be_read(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
+        self.text('project', 'new', 'p.strake', 'a.obj')
+        for name in (*self.UNSEEN, 'line\nbreak', b'\xff', 'n' * 201, 'ä' * 101):
+            option = b'--save=' + (name if isinstance(name, bytes) else name.encode())
+            done = self.run_strake('draw', '-p', 'p.strake', option)
+            self.assertEqual(done.returncode, 2, (name, done.stderr))
+            self.assertIn('--save: ', done.stderr)
 
 
 if __name__ == '__main__':

@@ -234,6 +234,22 @@ class Project(Scenario):
         self.assertIn('approved', exported)
         self.assertTrue((self.folder / 'out.glb').exists())
 
+    def test_model_files_of_the_project_are_not_written_over(self):
+        self.two_files()
+        self.made('a.obj')
+        before = (self.folder / 'a.obj').read_bytes()
+        (self.folder / 'link.obj').symlink_to('a.obj')
+        for name in ('a.obj', str(self.folder / 'a.obj'), 'link.obj'):
+            told = self.refused(2, 'project', 'export', 'ship.strake', '-o', name)
+            self.assertIn('would be overwritten', told)
+        # A model file is known by what it holds: its name may be that of a result.
+        (self.folder / 'a.obj').rename(self.folder / 'a.json')
+        self.text('project', 'new', 'other.strake', 'a.json', '--quiet')
+        for verb in (['clash'], ['draw'], ['draw', '--save', 'top']):
+            told = self.refused(2, *verb, '-p', 'other.strake', '-o', 'a.json')
+            self.assertIn('would be overwritten', told)
+        self.assertEqual((self.folder / 'a.json').read_bytes(), before)
+
     def test_damage_is_told_with_its_place(self):
         self.two_files()
         self.made('a.obj', 'b.obj')
