@@ -4,13 +4,14 @@
 #include <cstdint>
 #include <map>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
 #include "core/text_encoding.hpp"
 #include "project/results/stored_tests.hpp"
+#include "project/snapshot/snapshot.hpp"
+#include "project/views/stored_views.hpp"
 
 namespace strake::project {
 namespace {
@@ -87,14 +88,13 @@ Status rename_clashes(Database& database, const Labels& labels) {
 }
 
 /// Returns what the identities of the objects of renamed files become.
-std::unordered_map<std::uint64_t, std::uint64_t> new_identities(const model::Model& before,
-                                                                const Labels& labels) {
+NewIdentities new_identities(const model::Model& before, const Labels& labels) {
   std::vector<const std::string*> of_file;
   for (const model::SourceFile& file : before.files) {
     const auto at = labels.find(valid_utf8(file.label));
     of_file.push_back(at == labels.end() ? nullptr : &at->second);
   }
-  std::unordered_map<std::uint64_t, std::uint64_t> all;
+  NewIdentities all;
   for (const model::Object& object : before.objects)
     if (const std::string* const label = of_file[object.file]; label != nullptr)
       all.emplace(clash::element_hash(before.files[object.file].label, object.id),
@@ -113,17 +113,16 @@ Status rename_files(Database& database, const model::Model& before,
   if (const Status status = rename_clashes(database, labels); !status) return status;
   const Result<std::vector<std::string>> tests = test_names(database);
   if (!tests) return tests.error();
-  const auto identities = new_identities(before, labels);
+  const NewIdentities identities = new_identities(before, labels);
   for (const std::string& test : *tests) {
     Result<std::optional<StoredSnapshot>> stored = read_snapshot(database, test);
     if (!stored) return stored.error();
     if (!*stored) continue;
-    for (std::uint64_t& identity : (**stored).snapshot.identities)
-      if (const auto at = identities.find(identity); at != identities.end()) identity = at->second;
+    rename_objects((**stored).snapshot, identities);
     if (const Status status = write_snapshot(database, (**stored).id, (**stored).snapshot); !status)
       return status;
   }
-  return {};
+  return rename_objects_of_views(database, identities);
 }
 
 }  // namespace strake::project

@@ -76,6 +76,11 @@ void join(std::span<const Identified> then, std::span<const Identified> now, con
 
 }  // namespace
 
+void rename_objects(Snapshot& snapshot, const NewIdentities& renamed) {
+  for (std::uint64_t& identity : snapshot.identities)
+    if (const auto at = renamed.find(identity); at != renamed.end()) identity = at->second;
+}
+
 Result<std::vector<std::uint64_t>> identities(const model::Model& model,
                                               const parallel::Context& context) {
   return parallel::transform(

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "project/codec/blob.hpp"
@@ -21,6 +22,12 @@ struct Snapshot {
   std::vector<Hash128> signatures;        ///< of each object: all that the computation sees of it
   friend bool operator==(const Snapshot&, const Snapshot&) = default;
 };
+
+/// What identities of objects become where files have other labels.
+using NewIdentities = std::unordered_map<std::uint64_t, std::uint64_t>;
+
+/// Gives the objects of a snapshot the identities that they have under the labels of today.
+void rename_objects(Snapshot& snapshot, const NewIdentities& renamed);
 
 /// Returns an entry for each object (clash::element_hash).
 [[nodiscard]] Result<std::vector<std::uint64_t>> identities(const model::Model& model,

@@ -73,6 +73,30 @@ std::vector<Box3l> read_boxes(BlobReader& in, std::size_t count) {
   return boxes;
 }
 
+/// What a drawing was solved from.
+struct DrawnState {
+  Snapshot made_from;
+  std::vector<Box3l> boxes;
+};
+
+Result<DrawnState> decode_state(std::span<const std::byte> bytes, const std::string& what) {
+  Result<BlobReader> in = BlobReader::open(bytes, what);
+  if (!in) return in.error();
+  DrawnState state;
+  state.made_from = read_snapshot(*in);
+  state.boxes = read_boxes(*in, state.made_from.identities.size());
+  if (const Status status = in->finish(); !status) return status.error();
+  return state;
+}
+
+Result<std::vector<std::byte>> encode_state(const Snapshot& made_from,
+                                            std::span<const Box3l> boxes) {
+  BlobWriter out;
+  write(out, made_from);
+  write_boxes(out, boxes);
+  return out.finish();
+}
+
 /// Returns nothing where the drawing was solved under another signature than `whole`, if that is
 /// given.
 Result<std::optional<StoredDrawing>> decode(const Statement& row, std::string_view name,
@@ -80,11 +104,10 @@ Result<std::optional<StoredDrawing>> decode(const Statement& row, std::string_vi
                                             const parallel::Context& context) {
   const std::string of_view = " of the view '" + std::string(name) + "'";
   StoredDrawing stored;
-  Result<BlobReader> state = BlobReader::open(row.bytes(1), "the state" + of_view);
+  Result<DrawnState> state = decode_state(row.bytes(1), "the state" + of_view);
   if (!state) return state.error();
-  stored.made_from = read_snapshot(*state);
-  stored.boxes = read_boxes(*state, stored.made_from.identities.size());
-  if (const Status status = state->finish(); !status) return status.error();
+  stored.made_from = std::move(state->made_from);
+  stored.boxes = std::move(state->boxes);
   if (whole && *whole != stored.made_from.whole) return std::optional<StoredDrawing>();
   Result<BlobReader> lines = BlobReader::open(row.bytes(0), "the drawing" + of_view);
   if (!lines) return lines.error();
@@ -103,13 +126,11 @@ struct EncodedDrawing {
 };
 
 Result<EncodedDrawing> encode(const ViewToStore& view) {
-  BlobWriter lines, made_from;
+  BlobWriter lines;
   write(lines, *view.drawing);
-  write(made_from, *view.made_from);
-  write_boxes(made_from, *view.boxes);
   auto bytes = lines.finish();
   if (!bytes) return bytes.error();
-  auto state = made_from.finish();
+  auto state = encode_state(*view.made_from, *view.boxes);
   if (!state) return state.error();
   return EncodedDrawing{std::move(*bytes), std::move(*state)};
 }
@@ -202,6 +223,29 @@ Status store_view(Database& database, const ViewToStore& view) {
   if (view.drawing != nullptr)
     if (Status status = save_drawing(database, view, encoded); !status) return status;
   return transaction->commit();
+}
+
+Status rename_objects_of_views(Database& database, const NewIdentities& renamed) {
+  auto select = database.prepare("SELECT view, made_from FROM drawing ORDER BY view");
+  if (!select) return select.error();
+  std::vector<std::pair<std::int64_t, DrawnState>> states;
+  for (;;) {
+    const Result<bool> there = select->step();
+    if (!there) return there.error();
+    if (!*there) break;
+    Result<DrawnState> state = decode_state(select->bytes(1), "the state of a drawing");
+    if (state) states.emplace_back(select->integer(0), std::move(*state));
+  }
+  auto update = database.prepare("UPDATE drawing SET made_from = ?2 WHERE view = ?1");
+  if (!update) return update.error();
+  for (auto& [view, state] : states) {
+    rename_objects(state.made_from, renamed);
+    const auto bytes = encode_state(state.made_from, state.boxes);
+    if (!bytes) return bytes.error();
+    update->bind(1, view).bind(2, std::span<const std::byte>(*bytes));
+    if (const Status status = update->run(); !status) return status;
+  }
+  return {};
 }
 
 Status check_views(Database& database, const parallel::Context& context) {

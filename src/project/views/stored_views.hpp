@@ -68,6 +68,10 @@ struct ViewToStore {
 /// Stores a view, its drawing or both, wholly or not at all. Errors: those of Transaction::begin().
 [[nodiscard]] Status store_view(Database& database, const ViewToStore& view);
 
+/// Gives the objects of all drawings the identities of today, within a transaction of the caller.
+/// What is damaged stays as it is: it serves nobody.
+[[nodiscard]] Status rename_objects_of_views(Database& database, const NewIdentities& renamed);
+
 /// Reads every drawing, and holds it to what its row says of its size. Errors: input for the first
 /// that is damaged, cancelled.
 [[nodiscard]] Status check_views(Database& database, const parallel::Context& context);

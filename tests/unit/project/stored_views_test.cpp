@@ -95,6 +95,25 @@ TEST_F(StoredViews, AreFoundAgain) {
   EXPECT_TRUE(check_views(database(), {}));
 }
 
+TEST_F(StoredViews, TheirObjectsFollowFilesThatExchangeTheirNames) {
+  ASSERT_TRUE(store("deck", "{}"));
+  ASSERT_TRUE(store("hull", "{}"));
+  ASSERT_TRUE(rename_objects_of_views(database(), {{7, 8}, {8, 7}}));
+  for (const std::string_view name : {"deck", "hull"}) {
+    const auto stored = load_drawing(database(), name, {1, 2}, {});
+    ASSERT_TRUE(stored && *stored);
+    EXPECT_EQ((*stored)->made_from.identities, (std::vector<std::uint64_t>{8, 7}));
+    EXPECT_EQ((*stored)->made_from.signatures, made_from_.signatures);
+    EXPECT_EQ((*stored)->boxes, boxes_);
+  }
+}
+
+TEST_F(StoredViews, ADamagedDrawingDoesNotKeepFilesFromTheirNames) {
+  ASSERT_TRUE(store("deck", "{}"));
+  ASSERT_TRUE(database().execute("UPDATE drawing SET made_from = x'00'"));
+  EXPECT_TRUE(rename_objects_of_views(database(), {{7, 9}}));
+}
+
 TEST_F(StoredViews, LinesOfAnotherSignatureAreNone) {
   ASSERT_TRUE(store("deck", "{}"));
   for (const Hash128 whole : {Hash128{1, 3}, Hash128{2, 2}}) {
