@@ -14,6 +14,7 @@
 #include "cli/run/person.hpp"
 #include "cli/run/utc_time.hpp"
 #include "core/text_encoding.hpp"
+#include "project/model/file_rows.hpp"
 #include "project/stored_report/report_codec.hpp"
 #include "strake/clash/incremental.hpp"
 
@@ -94,8 +95,14 @@ Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProject
   return ProjectClashes(std::move(*opened), input);
 }
 
-Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions& options) {
-  return load_project(session, opened_, options);
+Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions& options,
+                                    std::span<const rules::FileSettings> said_of_files) {
+  const Result<project::ReadScope> moment = project::ReadScope::begin(opened_.project.database());
+  if (!moment) return moment.error();
+  const Result<Hash128> seal = project::model_seal(opened_.project.database());
+  if (!seal) return seal.error();
+  model_seal_ = *seal;
+  return load_project(session, opened_, options, said_of_files);
 }
 
 Result<clash::Findings> ProjectClashes::find(Session& session, const Loaded& loaded,
@@ -211,6 +218,11 @@ Status ProjectClashes::remember(Session& session, const Loaded& loaded,
       project::Transaction::begin(opened_.project.database());
   if (!transaction) return transaction.error();
   transaction_.emplace(std::move(*transaction));
+  const Result<Hash128> seal = project::model_seal(opened_.project.database());
+  if (!seal) return seal.error();
+  if (*seal != model_seal_)
+    return Error{ErrorCode::output, "the model of the project changed meanwhile", opened_.file,
+                 "nothing is remembered: run again"};
   std::vector<project::TestedTest> tests;
   for (std::size_t t = 0; t < tests_.size(); ++t) {
     Tested& tested = tests_[t];

@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "project/check/check_results.hpp"
 #include "project/database/database.hpp"
+#include "project/model/shape_packs.hpp"
 #include "project/results/stored_tests.hpp"
 #include "project/views/stored_views.hpp"
 #include "strake/model/model.hpp"
@@ -31,6 +35,8 @@ class ProjectCheck {
     database();
     references();
     model();
+    if (const Status status = check_packs(project_.database(), context_); !status)
+      add("shapes", status.error());
     tests();
     if (const Status status = check_views(project_.database(), context_); !status)
       add("views", status.error());
@@ -105,8 +111,16 @@ class ProjectCheck {
     if (!names) return add("tests", names.error());
     for (const std::string& name : *names) {
       const Result<std::optional<StoredTest>> test = read_test(project_.database(), name, context_);
-      if (!test) add(name.empty() ? "test" : "test " + name, test.error());
+      const std::string where = name.empty() ? "test" : "test " + name;
+      if (!test) add(where, test.error());
+      if (test && *test) rows_of(**test, where);
     }
+  }
+
+  void rows_of(const StoredTest& test, const std::string& where) {
+    Result<std::vector<std::string>> faults = check_rows(project_.database(), test);
+    if (!faults) return add(where, faults.error());
+    for (std::string& fault : *faults) faults_.push_back({where, std::move(fault)});
   }
 
   Project& project_;

@@ -102,6 +102,7 @@ class Database {
   Database() = default;
   sqlite3* handle_ = nullptr;
   std::filesystem::path file_;
+  Access access_ = Access::write;
   int wait_ms_ = 0;
   /// Size and time of change of a file that is read as if nobody wrote to it.
   std::optional<std::pair<std::int64_t, std::int64_t>> immutable_;

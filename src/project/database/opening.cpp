@@ -132,7 +132,7 @@ class Opening {
 
   Result<std::unique_ptr<Database>> connect(Access access) {
     std::unique_ptr<Database> database(new Database());
-    int code = connect(*database, access, false);
+    int code = connect(*database, access, SQLITE_OPEN_READWRITE);
     if (access == Access::read && needs_a_folder_to_write(code)) {
       const auto log = size_and_time(beside(file_, "-wal"));
       if (log && log->first > 0)
@@ -143,7 +143,7 @@ class Opening {
                      "copy it with the file of its name and -wal to a folder you may write to"};
       database.reset(new Database());
       database->immutable_ = size_and_time(file_);
-      code = connect(*database, access, true);
+      code = connect(*database, access, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
     }
     if (code != SQLITE_OK) return database->error(code);
     if (access == Access::write && sqlite3_db_readonly(database->handle_, "main") != 0)
@@ -151,13 +151,15 @@ class Opening {
     return database;
   }
 
-  int connect(Database& database, Access access, bool immutable) {
+  /// A reader opens for writing, too, where it may: only then does SQLite put the write log into
+  /// the file, and take it away, when the reader is the last to close. Tables it does not change.
+  int connect(Database& database, Access access, int mode) {
     database.file_ = file_;
+    database.access_ = access;
     database.wait_ms_ = static_cast<int>(std::clamp(options_.wait_s, 0.0, 1e6) * 1000);
-    const int flags = (access == Access::write ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY) |
-                      SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_PRIVATECACHE | SQLITE_OPEN_EXRESCODE |
-                      (immutable ? SQLITE_OPEN_URI : 0);
-    const std::string name = immutable ? immutable_name(file_) : fs::absolute(file_).string();
+    const int flags = mode | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_PRIVATECACHE | SQLITE_OPEN_EXRESCODE;
+    const bool is_immutable = (mode & SQLITE_OPEN_URI) != 0;
+    const std::string name = is_immutable ? immutable_name(file_) : fs::absolute(file_).string();
     int code = sqlite3_open_v2(name.c_str(), &database.handle_, flags, nullptr);
     if (code != SQLITE_OK) return code;
     distrust(database.handle_);
@@ -166,7 +168,8 @@ class Opening {
     code = run_plain(database.handle_,
                      "PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA temp_store = 2;"
                      "SELECT count(*) FROM sqlite_schema");
-    if (code != SQLITE_OK || access == Access::read) return code;
+    if (code != SQLITE_OK) return code;
+    if (access == Access::read) return run_plain(database.handle_, "PRAGMA query_only = ON");
     return run_plain(database.handle_,
                      "PRAGMA synchronous = FULL; PRAGMA cache_size = -32768;"
                      "PRAGMA journal_size_limit = 67108864");

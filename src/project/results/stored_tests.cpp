@@ -2,8 +2,10 @@
 #include "project/results/stored_tests.hpp"
 
 #include <span>
+#include <string_view>
 #include <utility>
 
+#include "core/text_encoding.hpp"
 #include "project/codec/blob.hpp"
 #include "project/stored_report/kept_codec.hpp"
 #include "strake/core/hash.hpp"
@@ -16,11 +18,18 @@ using Bytes = std::vector<std::byte>;
 
 Bytes copy_of(std::span<const std::byte> bytes) { return {bytes.begin(), bytes.end()}; }
 
-std::string called(const std::string& test) {
-  return test.empty() ? std::string("the result") : "the result of test '" + test + "'";
+std::string result_of(const std::string& test) {
+  return test.empty() ? std::string("the result of the test of the command line")
+                      : "the result of test " + in_quotes(test);
 }
 
-Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test) {
+/// What is damaged, for errors: of which test in which project.
+std::string called(const Database& database, const std::string& test) {
+  return database.file().string() + ": " + result_of(test);
+}
+
+Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test,
+                                      const std::string& name) {
   Result<Statement> select =
       database.prepare("SELECT part, data FROM report_part WHERE test = ?1 ORDER BY part");
   if (!select) return select.error();
@@ -31,7 +40,7 @@ Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test) {
     if (!there) return there.error();
     if (!*there) return parts;
     if (select->integer(0) != static_cast<std::int64_t>(parts.size()))
-      return database.damaged("a part of a result is missing");
+      return database.damaged("a part of " + result_of(name) + " is missing");
     parts.push_back(copy_of(select->bytes(1)));
   }
 }
@@ -107,10 +116,8 @@ Result<std::vector<Hash128>> write_parts(Database& database, const TestToWrite& 
   return hashes;
 }
 
-}  // namespace
-
-Result<std::vector<std::string>> test_names(Database& database) {
-  Result<Statement> select = database.prepare("SELECT name FROM test ORDER BY id");
+Result<std::vector<std::string>> names_of(Database& database, std::string_view sql) {
+  Result<Statement> select = database.prepare(sql);
   if (!select) return select.error();
   std::vector<std::string> names;
   for (;;) {
@@ -119,6 +126,19 @@ Result<std::vector<std::string>> test_names(Database& database) {
     if (!*there) return names;
     names.emplace_back(select->text(0));
   }
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> test_names(Database& database) {
+  return names_of(database, "SELECT name FROM test ORDER BY id");
+}
+
+Result<std::vector<std::string>> last_tests(Database& database) {
+  // A run adds a row for each of its tests in their order.
+  return names_of(database,
+                  "SELECT name FROM run_test JOIN test ON test.id = run_test.test "
+                  "WHERE run_test.run = (SELECT max(id) FROM run) ORDER BY run_test.rowid");
 }
 
 Result<std::optional<TestRow>> find_test(Database& database, const std::string& name) {
@@ -144,7 +164,7 @@ Result<std::optional<StoredSnapshot>> read_snapshot(Database& database, const st
   const Result<bool> there = select->bind(1, std::string_view(test)).step();
   if (!there) return there.error();
   if (!*there) return std::optional<StoredSnapshot>();
-  Result<Snapshot> snapshot = decode_snapshot(copy_of(select->bytes(1)), called(test));
+  Result<Snapshot> snapshot = decode_snapshot(copy_of(select->bytes(1)), called(database, test));
   if (!snapshot) return snapshot.error();
   return std::optional(StoredSnapshot{select->integer(0), std::move(*snapshot)});
 }
@@ -162,12 +182,12 @@ Result<std::optional<StoredTest>> read_test(Database& database, const std::strin
               kept = copy_of(select->bytes(4));
   const std::optional<Hash128> seal = select->hash(5);
   select->reset();
-  if (!seal) return database.damaged("a result has no seal");
-  const std::string what = called(name);
+  if (!seal) return database.damaged(result_of(name) + " has no seal");
+  const std::string what = called(database, name);
   Result<Snapshot> then = decode_snapshot(snapshot, what);
   if (!then) return then.error();
   test.snapshot = std::move(*then);
-  Result<std::vector<Bytes>> parts = read_parts(database, test.id);
+  Result<std::vector<Bytes>> parts = read_parts(database, test.id, name);
   if (!parts) return parts.error();
   Result<RememberedReport> results = decode_report({head, kept, std::move(*parts), *seal},
                                                    test.snapshot.identities.size(), what, context);

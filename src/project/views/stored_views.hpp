@@ -68,7 +68,8 @@ struct ViewToStore {
 /// Stores a view, its drawing or both, wholly or not at all. Errors: those of Transaction::begin().
 [[nodiscard]] Status store_view(Database& database, const ViewToStore& view);
 
-/// Reads every drawing. Errors: input for the first that is damaged, cancelled.
+/// Reads every drawing, and holds it to what its row says of its size. Errors: input for the first
+/// that is damaged, cancelled.
 [[nodiscard]] Status check_views(Database& database, const parallel::Context& context);
 
 }  // namespace strake::project

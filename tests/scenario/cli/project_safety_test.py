@@ -489,7 +489,7 @@ class HostileNames(Scenario):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
         self.text('project', 'new', 'p.strake', 'a.obj')
         for name in (*self.UNSEEN, 'line\nbreak', b'\xff', 'n' * 201, 'ä' * 101):
-            option = b'--save=' + (name if isinstance(name, bytes) else name.encode())
+            option = '--save=' + (os.fsdecode(name) if isinstance(name, bytes) else name)
             done = self.run_strake('draw', '-p', 'p.strake', option)
             self.assertEqual(done.returncode, 2, (name, done.stderr))
             self.assertIn('--save: ', done.stderr)

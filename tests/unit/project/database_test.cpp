@@ -240,6 +240,25 @@ TEST_F(ProjectFileTest, AReaderCannotWrite) {
   EXPECT_FALSE(reader->database().execute("DELETE FROM model_seal"));
 }
 
+TEST_F(ProjectFileTest, WhoeverClosesLastLeavesOneFile) {
+  static_cast<void>(make());
+  const auto count = [&] {
+    return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
+  };
+  EXPECT_TRUE(Project::open(file_, {}));
+  EXPECT_EQ(count(), 1);
+  {
+    auto reader = Project::open(file_, {});
+    ASSERT_TRUE(reader) << reader.error().text();
+    edit("UPDATE model_seal SET files = zeroblob(15)");
+    EXPECT_GT(count(), 1);
+  }
+  EXPECT_EQ(count(), 1);
+  auto later = Project::open(file_, {});
+  ASSERT_TRUE(later) << later.error().text();
+  EXPECT_EQ(test::number(*later, "SELECT length(files) FROM model_seal"), 15);
+}
+
 TEST_F(ProjectFileTest, AFolderThatMayNotBeWrittenIsReadAllTheSame) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   static_cast<void>(make());
