@@ -14,6 +14,7 @@
 #include "project/check/check_results.hpp"
 #include "project/database/database.hpp"
 #include "project/model/shape_packs.hpp"
+#include "project/results/clash_rows.hpp"
 #include "project/results/stored_tests.hpp"
 #include "project/views/stored_views.hpp"
 #include "strake/model/model.hpp"
@@ -38,6 +39,8 @@ class ProjectCheck {
     if (const Status status = check_packs(project_.database(), context_); !status)
       add("shapes", status.error());
     tests();
+    clashes();
+    views();
     if (const Status status = check_views(project_.database(), context_); !status)
       add("views", status.error());
     if (of_the_run_) return *std::move(of_the_run_);
@@ -117,6 +120,25 @@ class ProjectCheck {
       if (!test) add(where, test.error());
       if (test && *test) rows_of(**test, where);
     }
+  }
+
+  /// A word that is none is found by whoever lists the clashes, and by no test.
+  void clashes() {
+    each_row("clashes", fmt::format("SELECT {} FROM clash", kClashColumns),
+             [&](const Statement& row) {
+               if (const Result<ClashRow> clash = row_of(project_.database(), row); !clash)
+                 add(fmt::format("clash {}", row.text(2)), clash.error());
+             });
+  }
+
+  void views() {
+    each_row("views",
+             "SELECT name FROM view WHERE CASE WHEN json_valid(settings) THEN json_type(settings) "
+             "ELSE '' END <> 'object' ORDER BY name",
+             [&](const Statement& row) {
+               faults_.push_back(
+                   {fmt::format("view {}", row.text(0)), "its options are no JSON object"});
+             });
   }
 
   void rows_of(const StoredTest& test, const std::string& where) {

@@ -438,6 +438,26 @@ class Damage(ProjectScenario):
                 for command in self.READERS:
                     self.outcome(command)
 
+    def test_words_that_are_none(self):
+        """What no reader of the model or of a test would find, and `clash list` or `draw --stored` would not take."""
+        for sql, told in (("UPDATE clash SET relation = 'SOMEHOW'", 'no class or relation'),
+                          ("UPDATE clash SET class = 'MISS'", 'no class or relation'),
+                          ("UPDATE clash SET decision = 'later'", 'a status that is none'),
+                          ("INSERT INTO event (clash, at, who, before, after, comment) "
+                           "SELECT id, '', '', 'new', 'gone', '' FROM clash", 'CHECK constraint'),
+                          ("UPDATE view SET settings = '{'", 'no JSON object'),
+                          ("UPDATE view SET settings = '[]'", 'no JSON object'),
+                          ("UPDATE view SET settings = ''", 'no JSON object')):
+            with self.subTest(sql):
+                self.put(self.content)
+                with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
+                    other.execute('PRAGMA ignore_check_constraints = ON')
+                    other.execute(sql)
+                    other.commit()
+                done = self.run_strake('project', 'check', 'p.strake')
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertIn(told, done.stdout)
+
     def test_no_projects(self):
         self.write('text.strake', 'SQLite format 4\n')
         os.mkfifo(self.folder / 'pipe.strake')
@@ -489,7 +509,7 @@ class HostileNames(Scenario):
         self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
         self.text('project', 'new', 'p.strake', 'a.obj')
         for name in (*self.UNSEEN, 'line\nbreak', b'\xff', 'n' * 201, 'ä' * 101):
-            option = b'--save=' + (name if isinstance(name, bytes) else name.encode())
+            option = '--save=' + (os.fsdecode(name) if isinstance(name, bytes) else name)
             done = self.run_strake('draw', '-p', 'p.strake', option)
             self.assertEqual(done.returncode, 2, (name, done.stderr))
             self.assertIn('--save: ', done.stderr)
