@@ -100,8 +100,10 @@ strake_component(clash
     clash/clash.hpp
     clash/group.hpp
     clash/incremental.hpp
+    clash/kept.hpp
     clash/options.hpp
     clash/overlaps.hpp
+    clash/pair.hpp
     clash/policy.hpp
     clash/relation.hpp
     clash/reporting.hpp
@@ -117,7 +119,6 @@ strake_component(drawing
     drawing/view.hpp
     drawing/write.hpp
     hlr/hlr.hpp
-    hlr/incremental.hpp
     hlr/incremental.hpp
     sheets/sheet.hpp
     sheets/sheet_file.hpp

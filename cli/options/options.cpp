@@ -296,14 +296,20 @@ Status check_output(const std::string& option, const std::string& file,
     error.where = option;
     return error;
   }
-  for (const std::string& input : inputs)
-    if (same_file(file, input))
-      return usage("'" + file + "' is one of the inputs and would be overwritten", option,
-                   "give another name");
-  return {};
+  return check_spares_inputs(option, {file}, inputs);
 }
 
 }  // namespace
+
+Status check_spares_inputs(const std::string& option, const std::vector<std::string>& files,
+                           const std::vector<std::string>& inputs) {
+  for (const std::string& file : files)
+    for (const std::string& input : inputs)
+      if (same_file(file, input))
+        return usage("'" + file + "' is one of the inputs and would be overwritten", option,
+                     "give another name");
+  return {};
+}
 
 Status check_outputs(const std::vector<std::string>& files, std::span<const OutputFormat> formats,
                      const std::vector<std::string>& inputs) {

@@ -68,6 +68,11 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
 [[nodiscard]] Status check_outputs(const std::vector<std::string>& files,
                                    std::span<const OutputFormat> formats,
                                    const std::vector<std::string>& inputs);
+/// Checks that no file of an option is one of `inputs`, of which some are known late: the model
+/// files of a project are.
+[[nodiscard]] Status check_spares_inputs(const std::string& option,
+                                         const std::vector<std::string>& files,
+                                         const std::vector<std::string>& inputs);
 /// Checks a file that another option names in the same way: it is none of those of -o either.
 [[nodiscard]] Status check_other_output(const std::string& option, const std::string& file,
                                         const OutputFormat& format,

@@ -4,6 +4,8 @@
 #include <cstddef>
 
 #include "cli/options/options.hpp"
+#include "core/text_encoding.hpp"
+#include "io/source/units_and_axes.hpp"
 #include "rules/rule_context.hpp"
 
 namespace strake::cli {
@@ -25,6 +27,17 @@ bool take_settings(const rules::FileSettings& from, io::ReadOptions& options) {
   return some;
 }
 
+/// Returns the name of a unit that a table may say.
+std::string unit_name(double unit_mm) {
+  const std::string text = io::unit_text({.unit_mm = unit_mm, .up_axis = {}, .encoding = {}}, {});
+  return text.substr(0, text.find(" ("));
+}
+
+/// Returns the name of the unit in which a file was read: nothing of whether it was stated.
+std::string unit_read(const project::StoredFile& file) {
+  return file.source.unit.substr(0, file.source.unit.find(" ("));
+}
+
 }  // namespace
 
 void apply_file_settings(std::span<const rules::FileSettings> settings,
@@ -35,7 +48,7 @@ void apply_file_settings(std::span<const rules::FileSettings> settings,
 }
 
 Diagnostics idle_file_settings(std::span<const rules::FileSettings> settings,
-                               const std::vector<std::string>& files) {
+                               const std::vector<std::filesystem::path>& files) {
   Diagnostics diagnostics;
   std::vector<io::ReadOptions> said(files.size());
   for (const rules::FileSettings& one : settings) {
@@ -54,6 +67,36 @@ Diagnostics idle_file_settings(std::span<const rules::FileSettings> settings,
                       one.where);
   }
   return diagnostics;
+}
+
+Status check_file_settings(std::span<const rules::FileSettings> settings,
+                           const std::vector<project::StoredFile>& files,
+                           const std::string& project) {
+  for (const project::StoredFile& file : files) {
+    std::vector<io::FileToRead> said{{file.path, {}}};
+    apply_file_settings(settings, said);
+    const io::ReadOptions& options = said.front().options;
+    const auto error = [&](const std::string& read, const std::string& rule,
+                           const std::string& option) {
+      return Error{
+          ErrorCode::usage,
+          in_quotes(file.source.label) + " was read " + read +
+              ", and a [[file]] table of the rules says " + rule,
+          project,
+          "read it so: strake project update " + project + ' ' + file.path.string() + ' ' + option};
+    };
+    if (options.unit_mm) {
+      const std::string unit = unit_name(*options.unit_mm);
+      if (unit != unit_read(file))
+        return error("with the unit " + unit_read(file), unit, "--unit " + unit);
+    }
+    if (options.up_axis) {
+      const std::string axis = io::up_axis_text(*options.up_axis);
+      if (axis != file.source.up_axis)
+        return error("with " + file.source.up_axis + " up", axis, "--up-axis " + axis);
+    }
+  }
+  return {};
 }
 
 }  // namespace strake::cli

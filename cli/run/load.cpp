@@ -265,16 +265,23 @@ Result<InputFiles> input_files(const InputOptions& input) {
   return found;
 }
 
-/// Reads model files and takes models out of projects, as one model.
-Result<model::Model> join_inputs(Session& session, const InputFiles& files) {
+/// Reads model files and takes models out of projects, as one model; tells which `sources` it has.
+Result<model::Model> join_inputs(Session& session, const InputFiles& files,
+                                 std::span<const rules::FileSettings> said_of_files,
+                                 std::vector<std::filesystem::path>& sources) {
   std::vector<model::Model> models;
   for (const std::filesystem::path& file : files.projects) {
     Result<project::Project> project = project::Project::open(file, {});
     if (!project) return project.error();
+    Result<std::vector<std::filesystem::path>> of_project =
+        model_files(*project, file.string(), said_of_files);
+    if (!of_project) return of_project.error();
+    sources.insert(sources.end(), of_project->begin(), of_project->end());
     Result<model::Model> model = project_model(session, *project);
     if (!model) return model;
     models.push_back(std::move(*model));
   }
+  for (const io::FileToRead& file : files.models) sources.push_back(file.path);
   if (!files.models.empty() || models.empty()) {
     Result<model::Model> model = io::read_models(files.models, session.context());
     if (!model || models.empty()) return model;
@@ -284,12 +291,13 @@ Result<model::Model> join_inputs(Session& session, const InputFiles& files) {
 }
 
 Result<model::Model> read_model(Session& session, const InputOptions& input,
-                                std::span<const rules::FileSettings> said_of_files) {
+                                std::span<const rules::FileSettings> said_of_files,
+                                std::vector<std::filesystem::path>& sources) {
   Result<InputFiles> files = input_files(input);
   if (!files) return files.error();
   apply_file_settings(said_of_files, files->models);
   const auto timer = session.step("load");
-  Result<model::Model> model = join_inputs(session, *files);
+  Result<model::Model> model = join_inputs(session, *files, said_of_files, sources);
   if (!model) return model;
   note_repeated_files(*model, input.files);
   tell_of_model(session, *model);
@@ -342,9 +350,12 @@ Result<Loaded> place(Session& session, model::Model model, const model::SceneOpt
 
 Result<Loaded> load(Session& session, const InputOptions& input, const model::SceneOptions& options,
                     std::span<const rules::FileSettings> said_of_files) {
-  Result<model::Model> model = read_model(session, input, said_of_files);
+  std::vector<std::filesystem::path> sources;
+  Result<model::Model> model = read_model(session, input, said_of_files, sources);
   if (!model) return model.error();
-  return place(session, std::move(*model), options);
+  Result<Loaded> loaded = place(session, std::move(*model), options);
+  if (loaded) loaded->files = std::move(sources);
+  return loaded;
 }
 
 ExitCode strict_exit_code(const InputOptions& input, const Loaded& loaded) {

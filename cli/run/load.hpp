@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/options/options.hpp"
 #include "cli/run/exit_code.hpp"
@@ -39,6 +41,8 @@ void add_scene_options(CLI::App& command, SceneInput& options, const std::string
 struct Loaded {
   std::unique_ptr<const model::Model> model;  ///< the model that the scene refers to
   model::Scene scene;
+  /// The model files; of a project those that it was made of.
+  std::vector<std::filesystem::path> files = {};
 
   /// Returns what reading and placing noticed.
   [[nodiscard]] Diagnostics diagnostics() const;
@@ -53,7 +57,7 @@ void tell_of_model(Session& session, const model::Model& model);
 
 /// Reads the files of the command line, puts them on the grid, and prints what was noticed;
 /// `said_of_files` is what rules say of them, if there are any. Of a project it takes the model, as
-/// it was read.
+/// it was read. Errors: usage where rules say otherwise of a file of a project than it was read.
 [[nodiscard]] Result<Loaded> load(Session& session, const InputOptions& input,
                                   const model::SceneOptions& options,
                                   std::span<const rules::FileSettings> said_of_files = {});

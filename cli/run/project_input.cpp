@@ -3,8 +3,12 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "cli/options/options.hpp"
+#include "cli/run/file_settings.hpp"
 #include "core/number.hpp"
 #include "core/text_encoding.hpp"
 
@@ -75,6 +79,16 @@ Result<OpenedProject> open_project(Session& session, const ProjectOptions& optio
   return OpenedProject{options.file, std::move(*project)};
 }
 
+Status check_spares_model_files(project::Project& project, const std::string& option,
+                                const std::vector<std::string>& outputs) {
+  if (outputs.empty()) return {};
+  const Result<std::vector<project::StoredFile>> files = project.files();
+  if (!files) return files.error();
+  std::vector<std::string> inputs;
+  for (const project::StoredFile& file : *files) inputs.push_back(file.path.string());
+  return check_spares_inputs(option, outputs, inputs);
+}
+
 Result<model::Model> project_model(Session& session, project::Project& project) {
   Result<model::Model> model = project.model(session.context());
   if (!model || !model->files.empty()) return model;
@@ -82,15 +96,33 @@ Result<model::Model> project_model(Session& session, project::Project& project) 
                "'strake project add' adds some"};
 }
 
+Result<std::vector<std::filesystem::path>> model_files(
+    project::Project& project, const std::string& name,
+    std::span<const rules::FileSettings> said_of_files) {
+  const Result<std::vector<project::StoredFile>> files = project.files();
+  if (!files) return files.error();
+  if (const Status status = check_file_settings(said_of_files, *files, name); !status)
+    return status.error();
+  std::vector<std::filesystem::path> paths;
+  for (const project::StoredFile& file : *files) paths.push_back(file.path);
+  return paths;
+}
+
 Result<Loaded> load_project(Session& session, OpenedProject& opened,
-                            const model::SceneOptions& options) {
+                            const model::SceneOptions& options,
+                            std::span<const rules::FileSettings> said_of_files) {
+  Result<std::vector<std::filesystem::path>> files =
+      model_files(opened.project, opened.file, said_of_files);
+  if (!files) return files.error();
   Result<model::Model> model = [&] {
     const auto timer = session.step("load");
     return project_model(session, opened.project);
   }();
   if (!model) return model.error();
   tell_of_model(session, *model);
-  return place(session, std::move(*model), options);
+  Result<Loaded> loaded = place(session, std::move(*model), options);
+  if (loaded) loaded->files = std::move(*files);
+  return loaded;
 }
 
 }  // namespace strake::cli

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "cli/run/load.hpp"
 #include "strake/project/project.hpp"
+#include "strake/rules/rules.hpp"
 
 /// A project that a verb works in: -p FILE in place of model files.
 namespace strake::cli {
@@ -37,13 +41,26 @@ struct OpenedProject {
 [[nodiscard]] Result<OpenedProject> open_project(Session& session, const ProjectOptions& options,
                                                  project::Access access);
 
+/// Checks that no file that an option names is one that the project reads again: an update could
+/// not. Errors: usage; those of project::Project::files().
+[[nodiscard]] Status check_spares_model_files(project::Project& project, const std::string& option,
+                                              const std::vector<std::string>& outputs);
+
 /// Takes the model out of a project. Errors: input for a project without files; those of
 /// project::Project::model().
 [[nodiscard]] Result<model::Model> project_model(Session& session, project::Project& project);
 
+/// Returns the paths of the files that a project was made of, which were read as rules say of them;
+/// `name` is what errors call the project. Errors: those of check_file_settings() and of
+/// project::Project::files().
+[[nodiscard]] Result<std::vector<std::filesystem::path>> model_files(
+    project::Project& project, const std::string& name,
+    std::span<const rules::FileSettings> said_of_files);
+
 /// Takes the model out of the project, puts it on the grid, and prints what was noticed, as load()
-/// does for files. Errors: those of project_model().
+/// does for files. Errors: those of project_model() and of model_files().
 [[nodiscard]] Result<Loaded> load_project(Session& session, OpenedProject& opened,
-                                          const model::SceneOptions& options);
+                                          const model::SceneOptions& options,
+                                          std::span<const rules::FileSettings> said_of_files = {});
 
 }  // namespace strake::cli

@@ -145,9 +145,8 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
   stats.count("objects not compared whole", lacks.objects);
 }
 
-Status write_report(Session& session, const ClashOptions& given,
-                    const report::ClashContents& contents,
-                    const std::optional<std::uint64_t>& rows) {
+Status write_files(Session& session, const ClashOptions& given,
+                   const report::ClashContents& contents) {
   for (const std::string& file : given.outputs) {
     const Result<report::ClashWriter> writer = find_writer(report::clash_writers(), file);
     if (!writer) return writer.error();
@@ -155,12 +154,15 @@ Status write_report(Session& session, const ClashOptions& given,
         file, [&](Session::Sink sink) { return writer->write(contents, sink, session.context()); });
     if (!status) return status;
   }
-  if (!given.result.log_pairs.empty()) {
-    const Status status = session.write(given.result.log_pairs, [&](Session::Sink sink) {
-      return report::write_pair_log(contents, sink, session.context());
-    });
-    if (!status) return status;
-  }
+  if (given.result.log_pairs.empty()) return {};
+  return session.write(given.result.log_pairs, [&](Session::Sink sink) {
+    return report::write_pair_log(contents, sink, session.context());
+  });
+}
+
+Status write_result(Session& session, const ClashOptions& given,
+                    const report::ClashContents& contents,
+                    const std::optional<std::uint64_t>& rows) {
   if (session.json())
     return session.write_stdout([&](Session::Sink sink) {
       return report::write_clash_json(contents, sink, session.context());
@@ -343,10 +345,11 @@ void tell(Session& session, const clash::Findings& findings, const model::Model&
   count_costs(session.stats(), findings, model);
 }
 
-/// Groups and writes what was found, after what is not to be written is taken out of it.
+/// Groups and writes what was found, after what is not to be written is taken out of it; `project`
+/// is null where files are tested.
 Status put_out(Session& session, const ClashOptions& given, const ClashRequest& request,
                const Loaded& loaded, const report::DecidedResults* decided,
-               clash::Findings& findings) {
+               clash::Findings& findings, ProjectClashes* project) {
   if (!request.output.classes.all()) report::leave_out_others(findings, request.output.classes);
   const Result<std::optional<clash::Grouping>> grouping =
       group(session, given.result, findings, *loaded.model, decided);
@@ -364,7 +367,12 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
                                        request.output.csv,
                                        request.output.classes,
                                        decided};
-  if (const Status status = write_report(session, given, contents, request.output.rows); !status)
+  if (const Status status = write_files(session, given, contents); !status) return status;
+  // A run whose files cannot be written is found again by the next one. Whoever reads standard
+  // output may take long, for which no other program is to wait.
+  if (project != nullptr)
+    if (const Status status = project->commit(session); !status) return status;
+  if (const Status status = write_result(session, given, contents, request.output.rows); !status)
     return status;
   if (!request.decisions) return {};
   return write_decisions(session, given.decisions, *request.decisions, contents);
@@ -388,9 +396,9 @@ Result<ClashSource> source_of(Session& session, const ClashOptions& given,
     if (!loaded) return loaded.error();
     return ClashSource{{}, std::move(*loaded)};
   }
-  Result<ProjectClashes> project = ProjectClashes::open(session, given.project);
+  Result<ProjectClashes> project = ProjectClashes::open(session, given.project, given.outputs);
   if (!project) return project.error();
-  Result<Loaded> loaded = project->load(session, request.scene);
+  Result<Loaded> loaded = project->load(session, request.scene, files_of(request));
   if (!loaded) return loaded.error();
   return ClashSource{std::move(*project), std::move(*loaded)};
 }
@@ -434,8 +442,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   Result<clash::Findings> findings =
       findings_of(session, loaded, *request, given.list_exempted, project);
   if (!findings) return findings.error();
-  if (project == nullptr)
-    findings->diagnostics.append(idle_file_settings(files_of(*request), given.input.files));
+  findings->diagnostics.append(idle_file_settings(files_of(*request), loaded.files));
   findings->diagnostics.append(check_columns(request->output.columns, *loaded.model));
   tell(session, *findings, *loaded.model);
   std::optional<report::DecidedResults> from_file;
@@ -443,11 +450,9 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
       decided_of(session, given, *request, *source, *findings, from_file);
   if (!decided) return decided.error();
   const FailingPairs failing = failing_pairs(*findings, given.fail_on, *decided);
-  if (const Status status = put_out(session, given, *request, loaded, *decided, *findings); !status)
+  if (const Status status = put_out(session, given, *request, loaded, *decided, *findings, project);
+      !status)
     return status.error();
-  // Only what was told is remembered: a run that ended before is found again by the next one.
-  if (project != nullptr)
-    if (const Status status = project->commit(session); !status) return status.error();
   const bool first_look = !request->rules && given.profile.empty() && given.result.group_by.empty();
   if (session.console().narrates() && !session.json() && first_look && request->output.classes.hit)
     if (const std::string hint = concentration_hint(*findings, *loaded.model, *decided);

@@ -119,6 +119,14 @@ ClashLines lines_of(const std::vector<project::ListedClash>& clashes) {
                    "a_file",   "a_id",     "a_name",    "b_file",   "b_id",     "b_name",
                    "relation", "assignee", "first_run", "last_run", "gone_run", "cannot_tell"};
   lines.shown = {0, 1, 5, 6, 14, 17, 2, 19, 4};
+  const auto has_other_test = [&](const project::ListedClash& clash) {
+    return clash.test != clashes.front().test;
+  };
+  if (std::ranges::any_of(clashes, has_other_test)) lines.shown.insert(lines.shown.begin() + 2, 11);
+  const auto is_unknown = [](const project::ListedClash& clash) {
+    return !clash.row.unknown.empty();
+  };
+  if (std::ranges::any_of(clashes, is_unknown)) lines.shown.push_back(23);
   for (const auto& [row, test, status, last_run] : clashes) {
     std::vector<Cell>& cells = lines.rows.emplace_back();
     const auto add = [&](auto... values) { (cells.emplace_back(std::move(values)), ...); };

@@ -94,7 +94,12 @@ Verb add_clash_list(CLI::App& clash, CommonOptions& common) {
       "list", "The clashes that a project remembers, with what was decided about them");
   add_choice(*command, "--status", options->status,
              {"new", "active", "reviewed", "approved", "resolved"}, "Those of this status");
-  command->add_option("--test", options->test, "Those of this test")->type_name("NAME");
+  // An empty name is that of the test of the command line.
+  command
+      ->add_option_function<std::string>(
+          "--test", [options](const std::string& name) { options->test = name; },
+          "Those of this test")
+      ->type_name("NAME");
   add_list_options(*command, *options, common);
   command->footer(R"(
 The CSV is a file of decisions, as 'strake clash --decisions' takes it.

@@ -14,6 +14,7 @@
 #include "cli/run/person.hpp"
 #include "cli/run/utc_time.hpp"
 #include "core/text_encoding.hpp"
+#include "project/model/file_rows.hpp"
 #include "project/stored_report/report_codec.hpp"
 #include "strake/clash/incremental.hpp"
 
@@ -85,14 +86,23 @@ void add_clash_project_options(CLI::App& command, ClashProjectInput& options) {
 ProjectClashes::ProjectClashes(OpenedProject opened, const ClashProjectInput& input)
     : opened_(std::move(opened)), input_(input), started_(utc_time()), started_s_(now_s()) {}
 
-Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProjectInput& input) {
+Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProjectInput& input,
+                                            const std::vector<std::string>& outputs) {
   Result<OpenedProject> opened = open_project(session, input.project, project::Access::write);
   if (!opened) return opened.error();
+  if (const Status s = check_spares_model_files(opened->project, "-o", outputs); !s)
+    return s.error();
   return ProjectClashes(std::move(*opened), input);
 }
 
-Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions& options) {
-  return load_project(session, opened_, options);
+Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions& options,
+                                    std::span<const rules::FileSettings> said_of_files) {
+  const Result<project::ReadScope> moment = project::ReadScope::begin(opened_.project.database());
+  if (!moment) return moment.error();
+  const Result<Hash128> seal = project::model_seal(opened_.project.database());
+  if (!seal) return seal.error();
+  model_seal_ = *seal;
+  return load_project(session, opened_, options, said_of_files);
 }
 
 Result<clash::Findings> ProjectClashes::find(Session& session, const Loaded& loaded,
@@ -212,6 +222,11 @@ Status ProjectClashes::remember(Session& session, const Loaded& loaded,
       project::Transaction::begin(opened_.project.database());
   if (!transaction) return transaction.error();
   transaction_.emplace(std::move(*transaction));
+  const Result<Hash128> seal = project::model_seal(opened_.project.database());
+  if (!seal) return seal.error();
+  if (*seal != model_seal_)
+    return Error{ErrorCode::output, "the model of the project changed meanwhile", opened_.file,
+                 "nothing is remembered: run again"};
   std::vector<project::TestedTest> tests;
   for (std::size_t t = 0; t < tests_.size(); ++t) {
     Tested& tested = tests_[t];

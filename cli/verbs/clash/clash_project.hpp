@@ -11,6 +11,7 @@
 #include "cli/run/session.hpp"
 #include "project/results/remember.hpp"
 #include "strake/clash/clash.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/report/decisions.hpp"
 #include "strake/rules/rules.hpp"
@@ -31,20 +32,24 @@ void add_clash_project_options(CLI::App& command, ClashProjectInput& options);
 
 /// Tests a project, telling what was tested again, and remembers what was found.
 ///
-/// A run is remembered by one transaction, which begins after the tests and ends after their output
-/// was written: whoever ends the program before that finds the project as it was, and the next run
-/// finds and tells the same.
+/// A run is remembered by one transaction, which begins after the tests and ends after their files
+/// were written: whoever ends the program before that finds the project as it was, and the next run
+/// finds and tells the same. Standard output comes after it, as whoever reads that may take hours,
+/// in which nobody else could write to the project.
 class ProjectClashes {
  public:
-  /// Opens the project that is given. Errors: those of open_project().
-  [[nodiscard]] static Result<ProjectClashes> open(Session& session,
-                                                   const ClashProjectInput& input);
+  /// Opens the project that is given, of whose model files none may be one of -o. Errors: those of
+  /// open_project() and check_spares_model_files().
+  [[nodiscard]] static Result<ProjectClashes> open(Session& session, const ClashProjectInput& input,
+                                                   const std::vector<std::string>& outputs);
 
-  [[nodiscard]] Result<Loaded> load(Session& session, const model::SceneOptions& options);
+  [[nodiscard]] Result<Loaded> load(Session& session, const model::SceneOptions& options,
+                                    std::span<const rules::FileSettings> said_of_files);
   /// Runs the tests of a plan; of those that ran before, what changed since.
   [[nodiscard]] Result<clash::Findings> find(Session& session, const Loaded& loaded,
                                              rules::Plan plan, bool list_exempted);
   /// Begins the transaction and writes the run into it. The findings are still as find() gave them.
+  /// Errors: output where the model is another than load() read; those of project::remember().
   [[nodiscard]] Status remember(Session& session, const Loaded& loaded,
                                 const clash::Findings& findings, double deeper_mm);
   /// Returns what was decided about the findings; only after remember().
@@ -77,6 +82,7 @@ class ProjectClashes {
   ClashProjectInput input_;
   std::string started_;
   double started_s_ = 0;
+  Hash128 model_seal_;  ///< of the model that was read
   std::vector<Tested> tests_;
   std::optional<project::Transaction> transaction_;
   std::optional<project::RememberedRun> run_;

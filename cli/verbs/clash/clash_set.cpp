@@ -17,6 +17,7 @@
 #include "cli/run/person.hpp"
 #include "cli/run/project_input.hpp"
 #include "cli/run/utc_time.hpp"
+#include "cli/verbs/clash/clash_output.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/number.hpp"
@@ -31,10 +32,18 @@ namespace {
 struct ClashSetOptions {
   ProjectOptions project;
   std::vector<std::string> keys, select;
-  std::string group, status, by;
+  std::string group, classes, status, by;
   std::optional<std::string> comment, assignee;
   ClashResultInput grouping;
 };
+
+/// Returns what groups are by, with the default.
+ClashResultInput grouping_of(const ClashSetOptions& given) {
+  ClashResultInput grouping = given.grouping;
+  if (!given.group.empty() && grouping.group_by.empty())
+    grouping.group_by = name(clash::GroupBy::element);
+  return grouping;
+}
 
 Status check(const ClashSetOptions& given) {
   if (given.project.file.empty())
@@ -49,9 +58,15 @@ Status check(const ClashSetOptions& given) {
                  "it is not clear which clashes are meant",
                  {},
                  "give keys, or --select, or --group"};
-  if (given.group.empty() && !given.grouping.group_by.empty())
-    return Error{ErrorCode::usage, "no group is meant", "--group-by", "add --group"};
-  return check(given.grouping);
+  const ClashResultInput& grouping = given.grouping;
+  for (const auto& [option, is_given] :
+       {std::pair("--group-by", !grouping.group_by.empty()),
+        std::pair("--group-distance", !grouping.group_distance.empty()),
+        std::pair("--group-contacts", grouping.group_contacts),
+        std::pair("--class", !given.classes.empty()), std::pair("--sort", !grouping.sort.empty())})
+    if (is_given && given.group.empty())
+      return Error{ErrorCode::usage, "no group is meant", option, "add --group"};
+  return check(grouping_of(given));
 }
 
 std::optional<report::DecisionStatus> status_of(const std::string& word) {
@@ -88,17 +103,18 @@ Result<std::vector<std::string>> keys_by_selection(Session& session, OpenedProje
   return keys;
 }
 
-/// The last results of all tests, without what is approved: as a run groups them.
+/// The results of the last run of these classes, without what is approved: as the run groups them.
 struct OpenResults {
   clash::Findings findings;
   std::vector<std::vector<std::string>> keys;  ///< of each test and result; empty: none
 };
 
-Result<OpenResults> open_results(Session& session, OpenedProject& opened) {
+Result<OpenResults> open_results(Session& session, OpenedProject& opened,
+                                 const report::WrittenClasses& classes) {
   project::Database& database = opened.project.database();
   const Result<std::vector<project::ListedClash>> clashes = project::list_clashes(database, {});
   if (!clashes) return clashes.error();
-  const Result<std::vector<std::string>> tests = project::test_names(database);
+  const Result<std::vector<std::string>> tests = project::last_tests(database);
   if (!tests) return tests.error();
   std::map<std::int64_t, const project::ListedClash*> by_row;
   for (const project::ListedClash& clash : *clashes) by_row.emplace(clash.row.id, &clash);
@@ -116,6 +132,7 @@ Result<OpenResults> open_results(Session& session, OpenedProject& opened) {
       const auto row = by_row.find((**test).results.rows[i]);
       const project::ListedClash* const clash = row == by_row.end() ? nullptr : row->second;
       if (clash != nullptr && clash->status == report::DecisionStatus::approved) continue;
+      if (!classes.has(pairs[i].cls) && !classes.has(pairs[i].severest)) continue;
       report.pairs.push_back(pairs[i]);
       keys.push_back(clash == nullptr ? std::string() : clash->row.key);
     }
@@ -136,7 +153,11 @@ const clash::Group* find_group(const clash::Grouping& grouping, const std::strin
 
 Result<std::vector<std::string>> keys_of_group(Session& session, OpenedProject& opened,
                                                const ClashSetOptions& given) {
-  const Result<OpenResults> open = open_results(session, opened);
+  ClashOutputInput shown;
+  shown.classes = given.classes;
+  const Result<ClashOutput> output = clash_output(shown, {});
+  if (!output) return output.error();
+  const Result<OpenResults> open = open_results(session, opened, output->classes);
   if (!open) return open.error();
   const Result<model::Model> model = project_model(session, opened.project);
   if (!model) return model.error();
@@ -144,17 +165,17 @@ Result<std::vector<std::string>> keys_of_group(Session& session, OpenedProject& 
     if (report.in_a.size() != model->objects.size())
       return Error{ErrorCode::usage, "the model changed since its clashes were grouped", "--group",
                    "run 'strake clash -p " + opened.file + "' first"};
-  ClashResultInput input = given.grouping;
-  if (input.group_by.empty()) input.group_by = name(clash::GroupBy::element);
   const Result<std::optional<clash::Grouping>> grouping =
-      group(session, input, open->findings, *model, nullptr);
+      group(session, grouping_of(given), open->findings, *model, nullptr);
   if (!grouping) return grouping.error();
   const clash::Group* const wanted = find_group(**grouping, given.group);
   if (wanted == nullptr)
     return Error{ErrorCode::usage,
                  fmt::format("there is no group {}; there are {}", in_quotes(given.group),
                              (**grouping).groups.size()),
-                 "--group", "write the number or the id of a group, and its --group-by"};
+                 "--group",
+                 "write the number or the id of a group, and the --group-by, --group-distance, "
+                 "--group-contacts, --class and --sort of the run that showed it"};
   std::vector<std::string> keys;
   for (const clash::ResultRef& result : wanted->results)
     if (const std::string& key = open->keys[result.test][result.pair]; !key.empty())
@@ -216,23 +237,41 @@ Verb add_clash_set(CLI::App& clash, CommonOptions& common) {
       ->add_option("--group-distance", options->grouping.group_distance,
                    "As of the run that showed the groups")
       ->type_name("LENGTH");
+  command->add_flag("--group-contacts", options->grouping.group_contacts,
+                    "As of the run that showed the groups");
+  command->add_option("--class", options->classes, "As of the run that showed the groups")
+      ->type_name("CLASS,...");
   add_choice(*command, "--sort", options->grouping.sort, {"depth", "volume", "size"},
              "As of the run that showed the groups (default depth)");
   add_choice(*command, "--status", options->status,
              {"new", "active", "reviewed", "approved", "resolved"},
              "What is decided (docs/statuses.md)");
-  command->add_option("--comment", options->comment, "Why")->type_name("TEXT");
-  command->add_option("--assignee", options->assignee, "Who sees to it")->type_name("NAME");
+  // An empty text is given, too: it takes back what was there.
+  command
+      ->add_option_function<std::string>(
+          "--comment", [options](const std::string& text) { options->comment = text; },
+          "Why; '' takes it back")
+      ->type_name("TEXT");
+  command
+      ->add_option_function<std::string>(
+          "--assignee", [options](const std::string& name) { options->assignee = name; },
+          "Who sees to it; '' for nobody")
+      ->type_name("NAME");
   command->add_option("--by", options->by, "Who decides (default: the user)")->type_name("NAME");
   add_common_options(*command, common);
   command->footer(R"(
 A new run keeps what was decided. An approved clash comes back where it got deeper, of a severer class or has
 more places (--deeper of 'strake clash'); what is gone becomes resolved, and what is found again new.
 
+The number of a group is that of a run with the same --group-by, --group-distance, --group-contacts, --class
+and --sort, as long as nothing more is approved: an approved clash is in no group. Ids of groups stay.
+
 Examples:
   strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --status approved --comment 'as agreed'
   strake clash set -p ship.strake --select 'path = "/HVAC/*"' --assignee Ann
-  strake clash set -p ship.strake --group 3 --status reviewed --by Bob)");
+  strake clash set -p ship.strake --group 3 --status reviewed --by Bob
+  strake clash set -p ship.strake --group 3 --group-by assembly --class hit --status approved
+  strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --assignee '' --comment '')");
   return {command, [options](Session& session) { return run_set(session, *options); }};
 }
 

@@ -2,8 +2,10 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cli/run/load.hpp"
@@ -16,6 +18,7 @@
 #include "cli/verbs/draw/draw_stored.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
+#include "core/text_encoding.hpp"
 #include "drawing/drawing_writers.hpp"
 
 namespace strake::cli {
@@ -29,6 +32,21 @@ std::string suffixes_by_ink(bool needs_ink) {
   for (const drawing::DrawingWriter& writer : drawing::drawing_writers())
     if (writer.needs_ink == needs_ink) formats.push_back(writer.format);
   return list_suffixes(formats, "and");
+}
+
+/// Checks the name that --save gives a view: people read it in lists and write it again.
+Status check_view_name(const DrawOptions& given) {
+  constexpr std::size_t kLongestName = 200;
+  if (given.save.empty()) return {};
+  if (given.save.size() > kLongestName)
+    return Error{ErrorCode::usage, fmt::format("a name of {} bytes is too long", given.save.size()),
+                 "--save", fmt::format("give one of at most {}", kLongestName)};
+  for (std::string_view rest = given.save; !rest.empty();)
+    if (!is_printable(take_character(rest)))
+      return Error{ErrorCode::usage,
+                   in_quotes(printable(given.save)) + " holds characters that cannot be shown",
+                   "--save", "give a name of letters, digits and signs, in UTF-8"};
+  return {};
 }
 
 Status check_drawing_outputs(Session& session, const DrawOptions& given,
@@ -48,6 +66,8 @@ Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
     if (given.project.file.empty()) return load(session, given.input, request.scene);
     Result<OpenedProject> opened = open_project(session, given.project, project::Access::read);
     if (!opened) return opened.error();
+    if (const Status s = check_spares_model_files(opened->project, "-o", given.outputs); !s)
+      return s.error();
     return load_project(session, *opened, request.scene);
   }();
   if (!loaded) return loaded.error();
@@ -66,6 +86,7 @@ Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
 Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
   if (const Status status = check_project_options(given.project, given.input); !status)
     return status.error();
+  if (const Status status = check_view_name(given); !status) return status.error();
   if ((given.full || given.verify) && given.save.empty() && given.stored.empty())
     return Error{ErrorCode::usage, "only stored views are solved otherwise than in full",
                  given.full ? "--full" : "--verify",

@@ -71,6 +71,8 @@ std::string solved_text(const std::string& name, const SolvedView& solved) {
 }
 
 Result<ViewOfProject> view_to_draw(const DrawOptions& given, OpenedProject& opened) {
+  if (const Status s = check_spares_model_files(opened.project, "-o", given.outputs); !s)
+    return s.error();
   if (!given.save.empty()) return ViewOfProject{given.save, given, given};
   if (const std::string option = first_option_of_lines(given); !option.empty())
     return Error{ErrorCode::usage, "the view '" + given.stored + "' is drawn as it was saved",
@@ -316,14 +318,17 @@ class StoredRun {
 Result<ExitCode> draw_stored(Session& session, const DrawOptions& given) {
   Result<OpenedProject> opened = open_project(session, given.project, project::Access::read);
   if (!opened) return opened.error();
-  const Result<ViewOfProject> view = view_to_draw(given, *opened);
+  std::optional<OpenedProject> reader(std::move(*opened));
+  const Result<ViewOfProject> view = view_to_draw(given, *reader);
   if (!view) return view.error();
   const Result<DrawRequest> request = request_of(view->solved, session, true);
   if (!request) return request.error();
-  const Result<Loaded> loaded = load_project(session, *opened, request->scene);
+  const Result<Loaded> loaded = load_project(session, *reader, request->scene);
   if (!loaded) return loaded.error();
   StoredRun run(session, given, *view, *request, *loaded);
-  if (const Status status = run.find_lines(*opened); !status) return status.error();
+  if (const Status status = run.find_lines(*reader); !status) return status.error();
+  // What is stored is in the file itself once nobody else has it open.
+  reader.reset();
   const Result<drawing::NeutralDrawing> drawing = run.lay_out();
   if (!drawing) return drawing.error();
   tell_drawing(session, *drawing, *loaded->model);

@@ -151,9 +151,9 @@ std::string first_option_of_lines(const DrawOptions& given) {
 }
 
 void put_on_sheet_of(const DrawOptions& given, DrawOptions& view) {
-  DrawOptions options = given;
+  DrawOptions options = given;  // NOLINT(misc-const-correctness): texts are moved out of it
   for (const Text& setting : kTextsOfSheet)
-    if (const std::string& text = setting.of(options); !text.empty()) setting.of(view) = text;
+    if (std::string& text = setting.of(options); !text.empty()) setting.of(view) = std::move(text);
 }
 
 }  // namespace strake::cli

@@ -2,11 +2,14 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "cli/verbs/clash/clash_lines.hpp"
 #include "cli/verbs/project/project_verbs.hpp"
 #include "core/output_format.hpp"
 #include "io/model_writers.hpp"
+#include "project/results/clash_queries.hpp"
 
 namespace strake::cli {
 
@@ -17,8 +20,48 @@ struct ExportOptions {
   std::vector<std::string> outputs;
 };
 
+constexpr std::string_view kDecisions = ".csv";
+
+/// The formats of models, and that of clashes.
+std::vector<OutputFormat> export_formats() {
+  std::vector<OutputFormat> formats = formats_of(io::model_writers());
+  formats.push_back({kDecisions, ", or clashes and decisions as {}"});
+  return formats;
+}
+
+/// Writes what is known of clashes, as 'strake clash list' does.
+Status write_decisions(Session& session, project::Project& project, const std::string& file) {
+  const Result<std::vector<project::ListedClash>> clashes =
+      project::list_clashes(project.database(), {});
+  if (!clashes) return clashes.error();
+  return session.write(file, [&](Session::Sink sink) {
+    sink(lines_of(*clashes).csv());
+    return Status{};
+  });
+}
+
+Status write_models(Session& session, project::Project& project,
+                    const std::vector<std::string>& files) {
+  const Result<model::Model> model = [&] {
+    const auto timer = session.step("load");
+    return project_model(session, project);
+  }();
+  if (!model) return model.error();
+  tell_of_model(session, *model);
+  for (const std::string& file : files) {
+    const Result<io::ModelWriter> writer = find_writer(io::model_writers(), file);
+    if (!writer) return writer.error();
+    session.will_write(file);
+    const auto timer = session.step("write " + file);
+    if (const Status status = writer->write(*model, file, {}, session.context()); !status)
+      return status;
+    session.console().note("wrote " + file);
+  }
+  return {};
+}
+
 Result<ExitCode> run_export(Session& session, const ExportOptions& given) {
-  const std::vector<OutputFormat> formats = formats_of(io::model_writers());
+  const std::vector<OutputFormat> formats = export_formats();
   if (given.outputs.empty())
     return Error{ErrorCode::usage, "nowhere to export to", "-o",
                  "write -o FILE" + std::string(formats.front().suffix)};
@@ -26,21 +69,20 @@ Result<ExitCode> run_export(Session& session, const ExportOptions& given) {
     return status.error();
   Result<project::Project> project = open_argument(session, given.project, project::Access::read);
   if (!project) return project.error();
-  const Result<model::Model> model = [&] {
-    const auto timer = session.step("load");
-    return project_model(session, *project);
-  }();
-  if (!model) return model.error();
-  tell_of_model(session, *model);
+  if (const Status spares = check_spares_model_files(*project, "-o", given.outputs); !spares)
+    return spares.error();
+  std::vector<std::string> models;
   for (const std::string& file : given.outputs) {
-    const Result<io::ModelWriter> writer = find_writer(io::model_writers(), file);
-    if (!writer) return writer.error();
-    session.will_write(file);
-    const auto timer = session.step("write " + file);
-    if (const Status status = writer->write(*model, file, {}, session.context()); !status)
+    if (suffix_of(file) != kDecisions) {
+      models.push_back(file);
+      continue;
+    }
+    if (const Status status = write_decisions(session, *project, file); !status)
       return status.error();
-    session.console().note("wrote " + file);
   }
+  if (!models.empty())
+    if (const Status status = write_models(session, *project, models); !status)
+      return status.error();
   return ExitCode::done;
 }
 
@@ -48,16 +90,18 @@ Result<ExitCode> run_export(Session& session, const ExportOptions& given) {
 
 Verb add_project_export(CLI::App& project, CommonOptions& common) {
   const auto options = std::make_shared<ExportOptions>();
-  CLI::App* const command =
-      project.add_subcommand("export", "The model of a project as a file for other programs");
+  CLI::App* const command = project.add_subcommand(
+      "export", "The model or the decisions of a project as a file for others");
   add_project_argument(*command, options->project, project::Access::read);
-  add_output_option(*command, options->outputs, "The model", formats_of(io::model_writers()));
+  add_output_option(*command, options->outputs, "The model", export_formats());
   add_common_options(*command, common);
   command->footer(R"(
-Clashes and decisions: 'strake clash list -p ship.strake -o decided.csv'.
+The CSV is a file of decisions, as 'strake clash --decisions' takes it; 'strake clash list' writes some
+of them.
 
-Example:
-  strake project export ship.strake -o ship.glb)");
+Examples:
+  strake project export ship.strake -o ship.glb
+  strake project export ship.strake -o decisions.csv)");
   return {command, [options](Session& session) { return run_export(session, *options); }};
 }
 

@@ -18,8 +18,8 @@ struct Fault {
 };
 
 /// Looks at everything in a project: what SQLite says of the database and of its references, the
-/// model out of all its blocks, the results of each test, the drawing of each view. Errors:
-/// cancelled, memory.
+/// model out of all its blocks and the shapes that it shares, the results of each test and their
+/// clashes, the drawing of each view. Errors: cancelled, memory.
 [[nodiscard]] Result<std::vector<Fault>> check(Project& project, const parallel::Context& context);
 
 }  // namespace strake::project

@@ -33,6 +33,7 @@ struct OpenOptions {
 struct StoredFile {
   std::int64_t id = 0;
   std::filesystem::path path;  ///< where it is read again from, absolute
+  std::string given;           ///< the path by which it was given: diagnostics name it so
   io::ReadOptions options;
   Hash128 content;  ///< of its bytes, and of those of the files that are read with it
   model::SourceFile source;

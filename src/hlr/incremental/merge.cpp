@@ -17,7 +17,7 @@ namespace strake::hlr {
 namespace {
 
 constexpr std::size_t kLinesAtOnce = 16384;
-constexpr auto by_object = [](const auto& line) { return model::index(line.object); };
+constexpr auto kByObject = [](const auto& line) { return model::index(line.object); };
 
 /// Objects that follow each other in both drawings, or now only.
 struct Stretch {
@@ -48,7 +48,7 @@ std::vector<Stretch> stretches_of(const Comparison& comparison, const std::vecto
 template <class T>
 Run run_of(std::span<const T> sorted, std::uint32_t first, std::uint32_t last) {
   const auto at = [&](std::uint32_t object) {
-    return static_cast<std::size_t>(std::ranges::lower_bound(sorted, object, {}, by_object) -
+    return static_cast<std::size_t>(std::ranges::lower_bound(sorted, object, {}, kByObject) -
                                     sorted.begin());
   };
   return {at(first), at(last)};

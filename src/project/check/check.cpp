@@ -6,10 +6,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "project/check/check_results.hpp"
 #include "project/database/database.hpp"
+#include "project/model/shape_packs.hpp"
+#include "project/results/clash_rows.hpp"
 #include "project/results/stored_tests.hpp"
 #include "project/views/stored_views.hpp"
 #include "strake/model/model.hpp"
@@ -31,7 +36,11 @@ class ProjectCheck {
     database();
     references();
     model();
+    if (const Status status = check_packs(project_.database(), context_); !status)
+      add("shapes", status.error());
     tests();
+    clashes();
+    views();
     if (const Status status = check_views(project_.database(), context_); !status)
       add("views", status.error());
     if (of_the_run_) return *std::move(of_the_run_);
@@ -60,6 +69,8 @@ class ProjectCheck {
   }
 
   void database() {
+    if (const Status whole = project_.database().check_end(); !whole)
+      add("database", whole.error());
     each_row("database", "PRAGMA integrity_check", [&](const Statement& row) {
       if (row.text(0) != "ok") faults_.push_back({"database", std::string(row.text(0))});
     });
@@ -105,8 +116,35 @@ class ProjectCheck {
     if (!names) return add("tests", names.error());
     for (const std::string& name : *names) {
       const Result<std::optional<StoredTest>> test = read_test(project_.database(), name, context_);
-      if (!test) add(name.empty() ? "test" : "test " + name, test.error());
+      const std::string where = name.empty() ? "test" : "test " + name;
+      if (!test) add(where, test.error());
+      if (test && *test) rows_of(**test, where);
     }
+  }
+
+  /// A word that is none is found by whoever lists the clashes, and by no test.
+  void clashes() {
+    each_row("clashes", fmt::format("SELECT {} FROM clash", kClashColumns),
+             [&](const Statement& row) {
+               if (const Result<ClashRow> clash = row_of(project_.database(), row); !clash)
+                 add(fmt::format("clash {}", row.text(2)), clash.error());
+             });
+  }
+
+  void views() {
+    each_row("views",
+             "SELECT name FROM view WHERE CASE WHEN json_valid(settings) THEN json_type(settings) "
+             "ELSE '' END <> 'object' ORDER BY name",
+             [&](const Statement& row) {
+               faults_.push_back(
+                   {fmt::format("view {}", row.text(0)), "its options are no JSON object"});
+             });
+  }
+
+  void rows_of(const StoredTest& test, const std::string& where) {
+    Result<std::vector<std::string>> faults = check_rows(project_.database(), test);
+    if (!faults) return add(where, faults.error());
+    for (std::string& fault : *faults) faults_.push_back({where, std::move(fault)});
   }
 
   Project& project_;

@@ -3,6 +3,7 @@
 
 #include <sqlite3.h>
 
+#include <cerrno>
 #include <memory>
 #include <string>
 #include <utility>
@@ -18,7 +19,8 @@ struct Meaning {
   std::string message, mend;
 };
 
-Meaning meaning_of(int code) {
+/// `reason` is what the system said of a fault of input or output.
+Meaning meaning_of(int code, int reason) {
   switch (code & 0xff) {
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
@@ -46,6 +48,10 @@ Meaning meaning_of(int code) {
     case SQLITE_AUTH:
       return {ErrorCode::input, "cannot be read: permission denied", "check the permissions"};
     case SQLITE_IOERR:
+      if (reason == EFBIG)
+        return {ErrorCode::output, "cannot be written: File too large",
+                "raise the limit on the size of files (ulimit -f), or choose a disk that takes "
+                "larger ones; what was stored before is whole"};
       return {ErrorCode::output, "cannot be read or written: the disk reports an error",
               "check the disk; what was stored before is whole"};
     default:
@@ -60,7 +66,10 @@ Database::~Database() {
 }
 
 Error Database::error(int code) const {
-  Meaning meaning = meaning_of(code);
+  // SQLite remembers no reason for a COMMIT that fails, after which nothing else has failed yet.
+  const int last = errno;
+  const int kept = handle_ != nullptr ? sqlite3_system_errno(handle_) : 0;
+  Meaning meaning = meaning_of(code, kept != 0 ? kept : last);
   if (meaning.message.empty()) {
     meaning.message = "the database refuses: ";
     meaning.message += handle_ != nullptr ? sqlite3_errmsg(handle_) : sqlite3_errstr(code);
@@ -69,7 +78,7 @@ Error Database::error(int code) const {
 }
 
 Error Database::damaged(std::string_view what) const {
-  Meaning meaning = meaning_of(SQLITE_CORRUPT);
+  Meaning meaning = meaning_of(SQLITE_CORRUPT, 0);
   meaning.message += ": ";
   meaning.message += what;
   return {meaning.code, std::move(meaning.message), file_.string(), std::move(meaning.mend)};
@@ -111,6 +120,21 @@ Result<std::string> Database::serialized() const {
 Status Database::check_unchanged() const {
   if (!immutable_ || size_and_time(file_) == immutable_) return {};
   return Error{ErrorCode::input, "was written to while it was read", file_.string(), "try again"};
+}
+
+Status Database::check_end() {
+  const auto file = size_and_time(file_);
+  if (!file) return {};
+  // A page that a writer is putting into the file is in the write log still, which stays for as
+  // long as this connection is open: it is looked at last.
+  const auto log = size_and_time(sqlite3_filename_wal(sqlite3_db_filename(handle_, "main")));
+  if (log && log->first > 0) return {};
+  Result<Statement> page_size = prepare("PRAGMA page_size");
+  if (!page_size) return page_size.error();
+  const Result<bool> row = page_size->step();
+  if (!row) return row.error();
+  if (!*row || file->first % page_size->integer(0) == 0) return {};
+  return damaged("its last page is cut off");
 }
 
 }  // namespace strake::project

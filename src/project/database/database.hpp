@@ -93,6 +93,9 @@ class Database {
   /// Whether what was read is of one moment, where SQLite cannot see to it: on read-only media,
   /// which somebody else may still write to. Errors: input.
   [[nodiscard]] Status check_unchanged() const;
+  /// Whether the file ends with a whole page. SQLite takes what a last page lacks for zeros and
+  /// says nothing. Errors: input.
+  [[nodiscard]] Status check_end();
 
  private:
   friend class Statement;
@@ -102,6 +105,7 @@ class Database {
   Database() = default;
   sqlite3* handle_ = nullptr;
   std::filesystem::path file_;
+  Access access_ = Access::write;
   int wait_ms_ = 0;
   /// Size and time of change of a file that is read as if nobody wrote to it.
   std::optional<std::pair<std::int64_t, std::int64_t>> immutable_;

@@ -27,8 +27,8 @@ fs::path beside(const fs::path& file, const char* ending) {
   return other;
 }
 
-/// Whether the file looks like a project, before SQLite has to do with it.
-Status check_head(const fs::path& file) {
+/// Returns the head of a file that looks like a project, before SQLite has to do with it.
+Result<FileHead> project_head(const fs::path& file) {
   const auto head = read_head(file);
   if (!head)
     return Error{ErrorCode::input,
@@ -40,10 +40,10 @@ Status check_head(const fs::path& file) {
                  file.string(), "make one: strake project new"};
   // A journal of the older kind can name other files, which SQLite would delete. None is ours.
   std::error_code failed;
-  if (!head->has_write_log || fs::exists(beside(file, "-journal"), failed))
-    return Error{ErrorCode::input, "is damaged: projects are in WAL mode", file.string(),
-                 "take a copy of the project, or make it anew of its model files"};
-  return {};
+  if (fs::exists(beside(file, "-journal"), failed))
+    return Error{ErrorCode::input, "is damaged: projects are in WAL mode, without a -journal",
+                 file.string(), "take a copy of the project, or make it anew of its model files"};
+  return *head;
 }
 
 /// Returns a name by which SQLite opens a file as if nobody wrote to it.
@@ -91,7 +91,11 @@ class Opening {
   Opening(const fs::path& file, const OpenOptions& options) : file_(file), options_(options) {}
 
   Result<std::unique_ptr<Database>> run() {
-    if (const Status project = check_head(file_); !project) return project.error();
+    const Result<FileHead> head = project_head(file_);
+    if (!head) return head.error();
+    if (!head->has_write_log)
+      if (const Status status = take_write_log(); !status && options_.access == Access::write)
+        return status.error();
     Result<std::unique_ptr<Database>> database = connect(options_.access);
     if (!database) return database;
     const Result<bool> older = is_older(**database);
@@ -110,9 +114,25 @@ class Opening {
   }
 
  private:
+  /// Puts a file into WAL mode: VACUUM INTO of SQLite copies all of a project but that. A reader
+  /// does so, too, where it may: a writer beside it could not, and it itself needs it only then.
+  Status take_write_log() {
+    const Result<std::unique_ptr<Database>> database = connect(Access::write);
+    if (!database) return database.error();
+    // The few bytes that change lie in one page: with a journal in memory there is never one beside
+    // the file.
+    if (const Status set = (*database)->execute("PRAGMA journal_mode = MEMORY"); !set) return set;
+    Result<Statement> mode = (*database)->prepare("PRAGMA journal_mode = WAL");
+    if (!mode) return mode.error();
+    const Result<bool> there = mode->step();
+    if (!there) return there.error();
+    if (!*there || mode->text(0) != "wal") return (*database)->error(SQLITE_BUSY);
+    return {};
+  }
+
   Result<std::unique_ptr<Database>> connect(Access access) {
     std::unique_ptr<Database> database(new Database());
-    int code = connect(*database, access, false);
+    int code = connect(*database, access, SQLITE_OPEN_READWRITE);
     if (access == Access::read && needs_a_folder_to_write(code)) {
       const auto log = size_and_time(beside(file_, "-wal"));
       if (log && log->first > 0)
@@ -123,7 +143,7 @@ class Opening {
                      "copy it with the file of its name and -wal to a folder you may write to"};
       database.reset(new Database());
       database->immutable_ = size_and_time(file_);
-      code = connect(*database, access, true);
+      code = connect(*database, access, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
     }
     if (code != SQLITE_OK) return database->error(code);
     if (access == Access::write && sqlite3_db_readonly(database->handle_, "main") != 0)
@@ -131,13 +151,15 @@ class Opening {
     return database;
   }
 
-  int connect(Database& database, Access access, bool immutable) {
+  /// A reader opens for writing, too, where it may: only then does SQLite put the write log into
+  /// the file, and take it away, when the reader is the last to close. Tables it does not change.
+  int connect(Database& database, Access access, int mode) {
     database.file_ = file_;
+    database.access_ = access;
     database.wait_ms_ = static_cast<int>(std::clamp(options_.wait_s, 0.0, 1e6) * 1000);
-    const int flags = (access == Access::write ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY) |
-                      SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_PRIVATECACHE | SQLITE_OPEN_EXRESCODE |
-                      (immutable ? SQLITE_OPEN_URI : 0);
-    const std::string name = immutable ? immutable_name(file_) : fs::absolute(file_).string();
+    const int flags = mode | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_PRIVATECACHE | SQLITE_OPEN_EXRESCODE;
+    const bool is_immutable = (mode & SQLITE_OPEN_URI) != 0;
+    const std::string name = is_immutable ? immutable_name(file_) : fs::absolute(file_).string();
     int code = sqlite3_open_v2(name.c_str(), &database.handle_, flags, nullptr);
     if (code != SQLITE_OK) return code;
     distrust(database.handle_);
@@ -146,7 +168,8 @@ class Opening {
     code = run_plain(database.handle_,
                      "PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0; PRAGMA temp_store = 2;"
                      "SELECT count(*) FROM sqlite_schema");
-    if (code != SQLITE_OK || access == Access::read) return code;
+    if (code != SQLITE_OK) return code;
+    if (access == Access::read) return run_plain(database.handle_, "PRAGMA query_only = ON");
     return run_plain(database.handle_,
                      "PRAGMA synchronous = FULL; PRAGMA cache_size = -32768;"
                      "PRAGMA journal_size_limit = 67108864");

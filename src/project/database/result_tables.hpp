@@ -25,7 +25,8 @@ CREATE TABLE test (
   objects INTEGER NOT NULL,         -- of the model then
   snapshot BLOB NOT NULL,           -- what the report was computed from
   report BLOB NOT NULL,             -- all of it but pairs and regions
-  kept BLOB NOT NULL                -- what the next run needs besides (clash::KeptForChanges)
+  kept BLOB NOT NULL,               -- what the next run needs besides (clash::KeptForChanges)
+  seal BLOB NOT NULL                -- a hash over report, kept and all of report_part
 ) STRICT;
 
 CREATE TABLE report_part (          -- pairs and regions of a range of objects
@@ -56,7 +57,8 @@ CREATE TABLE clash (
   a_file TEXT NOT NULL, a_id TEXT NOT NULL, a_name TEXT NOT NULL,
   b_file TEXT NOT NULL, b_id TEXT NOT NULL, b_name TEXT NOT NULL,
   class TEXT NOT NULL CHECK (class IN ('HIT', 'CONTACT', 'CLEARANCE_VIOLATION')),
-  relation TEXT NOT NULL,
+  relation TEXT NOT NULL CHECK (relation IN ('SEPARATE', 'ABUT_OUTSIDE', 'ABUT_INSIDE',
+    'INTERFERE', 'A_IN_B', 'B_IN_A', 'DUPLICATE', 'CROSS')),
   d_mm REAL NOT NULL, x_mm REAL NOT NULL, y_mm REAL NOT NULL, z_mm REAL NOT NULL,
   regions INTEGER NOT NULL,
   first_run INTEGER NOT NULL REFERENCES run(id),
@@ -65,7 +67,8 @@ CREATE TABLE clash (
   unknown TEXT,                     -- why the last run cannot tell whether it is there
   decision TEXT CHECK (decision IN ('active', 'reviewed', 'approved', 'resolved')),
   decided_by TEXT, decided_at TEXT, comment TEXT, assignee TEXT,
-  decided_class TEXT, decided_d_mm REAL, decided_regions INTEGER  -- what was decided about
+  decided_class TEXT CHECK (decided_class IN ('HIT', 'CONTACT', 'CLEARANCE_VIOLATION')),
+  decided_d_mm REAL, decided_regions INTEGER  -- with its class: what was decided about
 ) STRICT;
 CREATE INDEX clash_decided ON clash (test, decision) WHERE decision IS NOT NULL;
 CREATE INDEX clash_watched ON clash (test) WHERE gone_run IS NULL AND
@@ -78,7 +81,8 @@ CREATE TABLE event (                -- changes of status
   run INTEGER REFERENCES run(id),   -- NULL: a person did it between runs
   at TEXT NOT NULL,
   who TEXT NOT NULL,                -- 'strake' where the program did it
-  before TEXT NOT NULL, after TEXT NOT NULL,
+  before TEXT NOT NULL CHECK (before IN ('new', 'active', 'reviewed', 'approved', 'resolved')),
+  after TEXT NOT NULL CHECK (after IN ('new', 'active', 'reviewed', 'approved', 'resolved')),
   comment TEXT NOT NULL
 ) STRICT;
 CREATE INDEX event_of_clash ON event (clash);

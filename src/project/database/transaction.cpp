@@ -23,7 +23,7 @@ ReadScope::ReadScope(ReadScope&& other) noexcept
     : database_(std::exchange(other.database_, nullptr)) {}
 
 Result<Transaction> Transaction::begin(Database& database) {
-  if (sqlite3_db_readonly(database.handle_, "main") != 0) return database.error(SQLITE_READONLY);
+  if (database.access_ == Access::read) return database.error(SQLITE_READONLY);
   sqlite3_busy_timeout(database.handle_, database.wait_ms_);
   const Status begun = database.execute("BEGIN IMMEDIATE");
   sqlite3_busy_timeout(database.handle_, kRecoveryMs);

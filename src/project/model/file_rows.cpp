@@ -58,7 +58,7 @@ std::optional<FileRow> row_of(const Statement& statement) {
   row.file.id = in.integer();
   row.position = in.integer();
   row.file.path = in.text();
-  row.given = in.text();
+  row.file.given = in.text();
   row.name = in.text();
   model::SourceFile& source = row.file.source;
   source.label = in.text();
@@ -106,7 +106,7 @@ void bind_row(Statement& out, const FileRow& row, std::string_view path) {
   const io::ReadOptions& options = row.file.options;
   integer(row.position);
   text(path);
-  text(row.given);
+  text(row.file.given);
   text(row.name);
   text(source.label);
   text(source.format);
@@ -139,7 +139,7 @@ Hash128 seal_of(const std::vector<FileRow>& rows) {
   for (const FileRow& row : rows) {
     const model::SourceFile& source = row.file.source;
     const io::ReadOptions& options = row.file.options;
-    hasher.add(row.file.id).add(row.position).add(row.file.path.string()).add(row.given);
+    hasher.add(row.file.id).add(row.position).add(row.file.path.string()).add(row.file.given);
     for (const std::string* const text :
          {&row.name, &source.label, &source.format, &source.unit, &source.up_axis, &source.folders})
       hasher.add(*text);
@@ -173,14 +173,22 @@ Result<std::vector<FileRow>> read_rows(Database& database) {
   }
 }
 
+Result<Hash128> model_seal(Database& database) {
+  Result<Statement> select = database.prepare("SELECT files FROM model_seal");
+  if (!select) return select.error();
+  const Result<bool> found = select->step();
+  if (!found) return found.error();
+  const std::optional<Hash128> seal = *found ? select->hash(0) : std::nullopt;
+  if (!seal) return database.damaged("nothing says which files it has");
+  return *seal;
+}
+
 Result<std::vector<FileRow>> read_sealed_rows(Database& database) {
   Result<std::vector<FileRow>> rows = read_rows(database);
   if (!rows) return rows;
-  Result<Statement> seal = database.prepare("SELECT files FROM model_seal");
+  const Result<Hash128> seal = model_seal(database);
   if (!seal) return seal.error();
-  const Result<bool> found = seal->step();
-  if (!found) return found.error();
-  if (!*found || seal->hash(0) != seal_of(*rows))
+  if (*seal != seal_of(*rows))
     return database.damaged("the rows of 'file' are not those that were stored");
   return rows;
 }

@@ -7,6 +7,7 @@
 
 #include "project/database/database.hpp"
 #include "project/model/blocks.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 #include "strake/project/project.hpp"
@@ -17,8 +18,7 @@ namespace strake::project {
 struct FileRow {
   StoredFile file;
   std::int64_t position = 0;
-  std::string given;  ///< the path by which it was read
-  std::string name;   ///< its label where it is alone
+  std::string name;  ///< its label where it is alone
   std::uint64_t shapes = 0, groups = 0, group_attributes = 0;
   Hash128 blocks;  ///< of what is in its blocks
 };
@@ -29,6 +29,10 @@ struct FileRow {
 /// The same, where no file is missing and none has been changed by other than this program. Errors:
 /// input.
 [[nodiscard]] Result<std::vector<FileRow>> read_sealed_rows(Database& database);
+
+/// Returns the hash of the rows of all files, and so of what is in their blocks: equal ones are of
+/// the same model. Errors: input.
+[[nodiscard]] Result<Hash128> model_seal(Database& database);
 
 /// Writes a row: a new one where the id is 0.
 [[nodiscard]] Status write_row(Database& database, FileRow& row);

@@ -289,7 +289,7 @@ void ModelLoader::join_diagnostics() {
     if (tasks_[t].kind != BlockKind::diagnostics) continue;
     const FileRow& row = rows_[tasks_[t].row];
     files[places_[tasks_[t].row].file] = {std::move(findings_[t].diagnostics), row.name,
-                                          row.file.source.label, row.given};
+                                          row.file.source.label, row.file.given};
   }
   model_.diagnostics = joined_diagnostics(files);
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
@@ -31,12 +32,16 @@ struct FileToStore {
   /// The stored file whose place it takes, which has another path; nothing: the one of its path,
   /// or, where none is, it comes behind all others.
   std::optional<std::int64_t> replaces = {};
+  std::string given = {};  ///< the path that diagnostics name
 };
 
 /// Reads a model file, whose content is known to be what the model was made of. Errors: those of
 /// io::read_models(); input for a file that another program changes meanwhile.
 [[nodiscard]] Result<FileToStore> read_file(const io::FileToRead& file,
                                             const parallel::Context& context);
+
+/// Lets what was noticed name a file by another path, as a run does to which the file is given so.
+void call_as_given(FileToStore& file, const std::string& given);
 
 /// Stores files, in the order in which io::read_models() would be given them, and takes out what
 /// they replace. The caller has begun a transaction. Errors: usage for a path that two of the files

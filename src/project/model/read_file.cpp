@@ -35,7 +35,7 @@ Result<FileToStore> read_one(const io::FileToRead& file, const parallel::Context
   if (*before != *after)
     return Error{ErrorCode::input, "is being written while it is read", file.path.string(),
                  "try again when it is whole"};
-  return FileToStore{file.path, file.options, *after, std::move(*model)};
+  return FileToStore{file.path, file.options, *after, std::move(*model), {}, file.path.string()};
 }
 
 }  // namespace
@@ -46,6 +46,19 @@ Result<Hash128> content_hash(const std::filesystem::path& path, const parallel::
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
+}
+
+void call_as_given(FileToStore& file, const std::string& given) {
+  const Diagnostics before = std::exchange(file.model.diagnostics, Diagnostics());
+  Diagnostics& after = file.model.diagnostics;
+  for (Diagnostic one : before.kept()) {
+    if (one.where.starts_with(file.given)) one.where.replace(0, file.given.size(), given);
+    after.add(std::move(one));
+  }
+  for (const Diagnostics::Count& count : before.counts())
+    if (count.count > Diagnostics::kMaxPerCode)
+      after.count_more(count.code, count.count - Diagnostics::kMaxPerCode);
+  file.given = given;
 }
 
 Result<FileToStore> read_file(const io::FileToRead& file, const parallel::Context& context) {

@@ -174,7 +174,7 @@ Status FileStore::store(const FileToStore& file, FileRow& row, ShapePacks& packs
   const model::Model& model = file.model;
   const Result<std::vector<PackedShape>> places = packs.add(model.shapes, context_);
   if (!places) return places.error();
-  row.given = file.path.string();
+  row.file.given = file.given;
   row.name = model.files.front().label;
   row.file.options = file.options;
   row.file.content = file.content;

@@ -36,6 +36,29 @@ Error no_clash(const std::string& key) {
           "'strake clash list' has the keys"};
 }
 
+/// Errors: usage where no test has the name.
+Status check_test(const std::map<std::int64_t, TestName>& tests, const std::string& wanted) {
+  std::string names;
+  for (const auto& [id, test] : tests) {
+    if (test.name == wanted) return {};
+    names += (names.empty() ? "" : ", ") + in_quotes(test.name);
+  }
+  return Error{ErrorCode::usage,
+               "no test is called " + in_quotes(wanted),
+               {},
+               names.empty() ? "'strake clash -p' runs tests" : "there are " + names};
+}
+
+/// Returns what somebody said and did besides the status, for people.
+std::string told(const ClashRow& before, const ClashRow& after, const ClashDecision& decision) {
+  std::string text = decision.comment.value_or(std::string());
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
+  if (after.comment.empty() && !before.comment.empty()) add("the comment is taken back");
+  if (after.assignee != before.assignee)
+    add(after.assignee.empty() ? "assigned to nobody" : "assigned to " + after.assignee);
+  return text;
+}
+
 /// Returns a row as somebody decides it to be.
 ClashRow decided(ClashRow row, const ClashDecision& decision, std::int64_t last_run) {
   if (decision.comment) row.comment = valid_utf8(*decision.comment);
@@ -84,6 +107,8 @@ std::optional<DecisionStatus> status_of(std::string_view word) {
 Result<std::vector<ListedClash>> list_clashes(Database& database, const ClashFilter& filter) {
   const Result<std::map<std::int64_t, TestName>> tests = tests_of(database);
   if (!tests) return tests.error();
+  if (filter.test)
+    if (const Status status = check_test(*tests, *filter.test); !status) return status.error();
   Result<Statement> select =
       database.prepare("SELECT " + std::string(kClashColumns) + " FROM clash ORDER BY test, id");
   if (!select) return select.error();
@@ -129,8 +154,8 @@ Result<std::uint64_t> decide(Database& database, std::span<const std::string> ke
                            decision.by,
                            before.status(run),
                            after.status(run),
-                           decision.comment.value_or(std::string())};
-    if (event.before == event.after && !decision.comment) continue;
+                           told(before, after, decision)};
+    if (event.before == event.after && event.comment.empty()) continue;
     if (const Status status = rows->add(event); !status) return status.error();
   }
   return changed;

@@ -26,20 +26,21 @@ struct ClashFilter {
   std::optional<std::string> test;
 };
 
-/// Returns clashes by test and in the order in which they were found.
+/// Returns clashes by test and in the order in which they were found. Errors: usage for a test that
+/// was never run.
 [[nodiscard]] Result<std::vector<ListedClash>> list_clashes(Database& database,
                                                             const ClashFilter& filter);
 
 /// What somebody decides.
 struct ClashDecision {
   std::optional<report::DecisionStatus> status;  ///< absent: it stays
-  std::optional<std::string> comment, assignee;  ///< absent: they stay
+  std::optional<std::string> comment, assignee;  ///< absent: they stay; empty: none from now on
   std::string by, at;
 };
 
-/// Writes a decision about clashes, with an event for each whose status changes or that is
-/// commented on. Returns how many rows changed. Errors: usage for a key that no clash has; nothing
-/// is to be committed then. To be called within a transaction.
+/// Writes a decision about clashes, with an event for each whose status or assignee changes or that
+/// is commented on. Returns how many rows changed. Errors: usage for a key that no clash has;
+/// nothing is to be committed then. To be called within a transaction.
 [[nodiscard]] Result<std::uint64_t> decide(Database& database, std::span<const std::string> keys,
                                            const ClashDecision& decision);
 

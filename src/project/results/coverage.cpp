@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 #include <variant>
 
 #include "clash/rules/rule_matcher.hpp"
 
 namespace strake::project {
 namespace {
+
+constexpr std::string_view kMoreSheets =
+    " has surfaces that enclose nothing beyond those of the earlier run";
 
 std::string named(const SoughtObject& object) { return "'" + std::string(object.name) + "'"; }
 
@@ -50,6 +54,22 @@ bool has_same_lengths(const clash::Report& x, const clash::Report& y) {
                             });
 }
 
+/// Whether an object has lines, which a test checks only where it is asked to.
+bool has_lines(const model::Model& model, model::ObjectId id) {
+  const model::Object& object = model.object(id);
+  for (std::uint32_t b = object.first_body; b < object.first_body + object.body_count; ++b)
+    if (std::holds_alternative<geometry::Polylines>(model.shapes[index(model.bodies[b].shape)]))
+      return true;
+  return false;
+}
+
+/// Whether a list by (a, b) has the pair of two objects.
+template <class Listed>
+bool has_pair(const std::vector<Listed>& list, model::ObjectId a, model::ObjectId b) {
+  const auto objects = [](const Listed& l) { return std::pair(l.a, l.b); };
+  return std::ranges::binary_search(list, std::pair(std::min(a, b), std::max(a, b)), {}, objects);
+}
+
 }  // namespace
 
 Coverage::Coverage(const model::Model& model, const clash::Sets& sets, const clash::Policy& policy,
@@ -59,18 +79,19 @@ Coverage::Coverage(const model::Model& model, const clash::Sets& sets, const cla
     lacks_.emplace(std::pair(n.a, n.b), n.code);
 }
 
-std::string Coverage::reason(const SoughtObject& a, const SoughtObject& b, const Measure& was,
-                             const clash::Report* earlier) const {
+std::string Coverage::reason(const SoughtObject& a, const SoughtObject& b,
+                             const LastSeen& last) const {
   for (const SoughtObject* const object : {&a, &b})
     if (!object->id) return named(*object) + " is not in the model";
   if (std::string why = of_sets(a, b); !why.empty()) return why;
   for (const SoughtObject* const object : {&a, &b})
-    if (std::string why = of_object(*object, earlier); !why.empty()) return why;
-  if (const auto at = lacks_.find({*a.id, b.id}); at != lacks_.end())
+    if (std::string why = of_object(*object, last); !why.empty()) return why;
+  if (const auto at = lacks_.find({std::min(*a.id, *b.id), std::max(*a.id, *b.id)});
+      at != lacks_.end())
     return "the pair could not be compared (" + std::string(at->second) + ")";
   if (std::string why = of_exemptions(*a.id, *b.id); !why.empty()) return why;
-  if (std::string why = of_report(was); !why.empty()) return why;
-  return earlier == nullptr ? std::string() : of_settings(*a.id, *b.id, was, *earlier);
+  if (std::string why = of_report(*a.id, *b.id); !why.empty()) return why;
+  return of_settings(*a.id, *b.id, last);
 }
 
 std::string Coverage::of_sets(const SoughtObject& a, const SoughtObject& b) const {
@@ -85,18 +106,20 @@ std::string Coverage::of_sets(const SoughtObject& a, const SoughtObject& b) cons
   return {};
 }
 
-std::string Coverage::of_object(const SoughtObject& object, const clash::Report* earlier) const {
+std::string Coverage::of_object(const SoughtObject& object, const LastSeen& last) const {
   const model::Object& now = model_.object(*object.id);
   if (const auto at = lacks_.find({*object.id, std::nullopt}); at != lacks_.end())
     return named(object) + " could not be compared whole (" + std::string(at->second) + ")";
   if (now.incomplete) return named(object) + " could not be read whole";
   const model::SourceFile& file = model_.files[now.file];
   if (file.ends_early) return file.label + " ends early";
-  if (earlier == nullptr || !object.before || earlier->sheets.empty() || report_.sheets.empty())
-    return {};
-  if (report_.sheets[index(*object.id)] > earlier->sheets[index(*object.before)])
-    return named(object) + " has surfaces that enclose nothing beyond those of the earlier run";
-  return {};
+  if (report_.sheets.empty()) return {};
+  const std::uint8_t sheets = report_.sheets[index(*object.id)];
+  std::string more = named(object) + std::string(kMoreSheets);
+  // What a run could not tell the next one cannot either, for as long as the object is open.
+  if (sheets > 0 && last.unknown == more) return more;
+  const bool is_known = last.report != nullptr && object.before && !last.report->sheets.empty();
+  return is_known && sheets > last.report->sheets[index(*object.before)] ? more : std::string();
 }
 
 std::string Coverage::of_exemptions(model::ObjectId a, model::ObjectId b) const {
@@ -113,25 +136,38 @@ std::string Coverage::of_exemptions(model::ObjectId a, model::ObjectId b) const 
   return rule.empty() ? std::string() : "exempted by '" + rule + "'";
 }
 
-std::string Coverage::of_report(const Measure& was) const {
-  if (was.cls == clash::Class::contact && report_.unlisted.contacts + report_.unlisted.allowed > 0)
+/// Whatever the clash was, it may be a contact by now.
+std::string Coverage::of_report(model::ObjectId a, model::ObjectId b) const {
+  if (report_.kept) {
+    if (has_pair(report_.kept->unlisted, a, b))
+      return "it is among the contacts, which are only counted";
+    if (has_pair(report_.kept->unreported, a, b))
+      return "it is among the results that the test does not report";
+    return {};
+  }
+  if (report_.unlisted.contacts + report_.unlisted.allowed > 0)
     return "it may be among the contacts, which are only counted";
   if (report_.not_reported.by_relation.all() + report_.not_reported.by_volume.all() > 0)
     return "it may be among the results that the test does not report";
   return {};
 }
 
-std::string Coverage::of_settings(model::ObjectId a, model::ObjectId b, const Measure& was,
-                                  const clash::Report& earlier) const {
-  const bool curves = report_.options.engine.curves == clash::Curves::on;
-  if (!curves && earlier.options.engine.curves == clash::Curves::on)
+/// Where runs could not tell since the clash was found, how that run tested is not known any more:
+/// the report of the run before it may already lack what this one lacks.
+std::string Coverage::of_settings(model::ObjectId a, model::ObjectId b,
+                                  const LastSeen& last) const {
+  const bool is_long_ago = !last.unknown.empty();
+  if (last.report == nullptr && !is_long_ago) return {};
+  const bool had_curves = is_long_ago || last.report->options.engine.curves == clash::Curves::on;
+  if (had_curves && report_.options.engine.curves != clash::Curves::on &&
+      (has_lines(model_, a) || has_lines(model_, b)))
     return "lines are not checked any more";
-  if (has_same_lengths(report_, earlier)) return {};
+  if (!is_long_ago && has_same_lengths(report_, *last.report)) return {};
   const std::uint32_t cell = cell_of(policy_, index(a), index(b));
   const clash::Tolerances& now =
       cell < policy_.tolerances.size() ? policy_.tolerances[cell] : report_.options.tolerances;
   const double reach = reach_of(now, index(a), index(b));
-  return was.d_mm > reach ? "the test does not reach as far as it did" : std::string();
+  return last.was.d_mm > reach ? "the test does not reach as far as it did" : std::string();
 }
 
 }  // namespace strake::project

@@ -21,6 +21,14 @@ struct SoughtObject {
   std::optional<model::ObjectId> before;  ///< its number in the earlier run
 };
 
+/// What is known of a clash from the runs before.
+struct LastSeen {
+  Measure was;  ///< what it measured when it was found last
+  /// Why the run before could not tell whether it is there; empty where it found it.
+  std::string_view unknown;
+  const clash::Report* report = nullptr;  ///< of the run before; null: it is not known
+};
+
 /// Tells why a run that did not find a clash cannot tell whether it is there. What it is made from
 /// must outlive it.
 class Coverage {
@@ -28,19 +36,17 @@ class Coverage {
   Coverage(const model::Model& model, const clash::Sets& sets, const clash::Policy& policy,
            const clash::Report& report);
 
-  /// Returns the reason; empty where the two were compared. `earlier` is the report of the run that
-  /// found the clash, null if it is not known; `was` is what it measured then.
-  [[nodiscard]] std::string reason(const SoughtObject& a, const SoughtObject& b, const Measure& was,
-                                   const clash::Report* earlier) const;
+  /// Returns the reason; empty where the two were compared.
+  [[nodiscard]] std::string reason(const SoughtObject& a, const SoughtObject& b,
+                                   const LastSeen& last) const;
 
  private:
   [[nodiscard]] std::string of_sets(const SoughtObject& a, const SoughtObject& b) const;
-  [[nodiscard]] std::string of_object(const SoughtObject& object,
-                                      const clash::Report* earlier) const;
+  [[nodiscard]] std::string of_object(const SoughtObject& object, const LastSeen& last) const;
   [[nodiscard]] std::string of_exemptions(model::ObjectId a, model::ObjectId b) const;
-  [[nodiscard]] std::string of_report(const Measure& was) const;
-  [[nodiscard]] std::string of_settings(model::ObjectId a, model::ObjectId b, const Measure& was,
-                                        const clash::Report& earlier) const;
+  [[nodiscard]] std::string of_report(model::ObjectId a, model::ObjectId b) const;
+  [[nodiscard]] std::string of_settings(model::ObjectId a, model::ObjectId b,
+                                        const LastSeen& last) const;
 
   const model::Model& model_;
   const clash::Sets& sets_;

@@ -37,8 +37,8 @@ Result<std::int64_t> add_run(Database& database, const RunFacts& facts) {
 /// Adds the row of a test that was never run; its results follow.
 Result<TestRow> add_test(Database& database, const std::string& name, std::int64_t run) {
   Result<Statement> insert = database.prepare(
-      "INSERT INTO test (name, settings, run, objects, snapshot, report, kept) "
-      "VALUES (?1, '', ?2, 0, x'', x'', x'')");
+      "INSERT INTO test (name, settings, run, objects, snapshot, report, kept, seal) "
+      "VALUES (?1, '', ?2, 0, x'', x'', x'', x'')");
   if (!insert) return insert.error();
   insert->bind(1, std::string_view(name)).bind(2, run);
   if (const Status status = insert->run(); !status) return status.error();

@@ -2,10 +2,13 @@
 #include "project/results/stored_tests.hpp"
 
 #include <span>
+#include <string_view>
 #include <utility>
 
+#include "core/text_encoding.hpp"
 #include "project/codec/blob.hpp"
 #include "project/stored_report/kept_codec.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::project {
@@ -13,16 +16,20 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// The last part of a result over as many objects as a model may have.
-constexpr std::int64_t kMostParts = 0xffffffffU / kObjectsPerPart;
-
 Bytes copy_of(std::span<const std::byte> bytes) { return {bytes.begin(), bytes.end()}; }
 
-std::string called(const std::string& test) {
-  return test.empty() ? std::string("the result") : "the result of test '" + test + "'";
+std::string result_of(const std::string& test) {
+  return test.empty() ? std::string("the result of the test of the command line")
+                      : "the result of test " + in_quotes(test);
 }
 
-Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test) {
+/// What is damaged, for errors: of which test in which project.
+std::string called(const Database& database, const std::string& test) {
+  return database.file().string() + ": " + result_of(test);
+}
+
+Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test,
+                                      const std::string& name) {
   Result<Statement> select =
       database.prepare("SELECT part, data FROM report_part WHERE test = ?1 ORDER BY part");
   if (!select) return select.error();
@@ -32,11 +39,9 @@ Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test) {
     const Result<bool> there = select->step();
     if (!there) return there.error();
     if (!*there) return parts;
-    const std::int64_t part = select->integer(0);
-    if (part < static_cast<std::int64_t>(parts.size()) || part > kMostParts)
-      return database.damaged("a result has a part that none has");
-    parts.resize(static_cast<std::size_t>(part) + 1);
-    parts.back() = copy_of(select->bytes(1));
+    if (select->integer(0) != static_cast<std::int64_t>(parts.size()))
+      return database.damaged("a part of " + result_of(name) + " is missing");
+    parts.push_back(copy_of(select->bytes(1)));
   }
 }
 
@@ -67,20 +72,24 @@ std::vector<std::size_t> changed_parts(const TestToWrite& test, const StoredTest
   return changed;
 }
 
-Status write_report(Database& database, const TestToWrite& test) {
+/// Writes what is no part; `parts` are the hashes of those that are stored now.
+Status write_report(Database& database, const TestToWrite& test, std::span<const Hash128> parts) {
   const Result<Bytes> head = encode_head(test.results.report);
   if (!head) return head.error();
   const Result<Bytes> kept = encode_kept(test.results.report.kept);
   if (!kept) return kept.error();
   Result<Statement> update =
-      database.prepare("UPDATE test SET report = ?2, kept = ?3 WHERE id = ?1");
+      database.prepare("UPDATE test SET report = ?2, kept = ?3, seal = ?4 WHERE id = ?1");
   if (!update) return update.error();
   update->bind(1, test.id).bind(2, std::span<const std::byte>(*head));
-  return update->bind(3, std::span<const std::byte>(*kept)).run();
+  update->bind(3, std::span<const std::byte>(*kept));
+  return update->bind(4, seal_of(*head, *kept, parts)).run();
 }
 
-Status write_parts(Database& database, const TestToWrite& test, const StoredTest* before,
-                   const parallel::Context& context) {
+/// Writes the parts that differ; returns the hashes of all that are stored then.
+Result<std::vector<Hash128>> write_parts(Database& database, const TestToWrite& test,
+                                         const StoredTest* before,
+                                         const parallel::Context& context) {
   const std::vector<PartRange> parts =
       parts_of(test.results.report, test.snapshot.identities.size());
   const std::vector<std::size_t> changed = changed_parts(test, before, parts);
@@ -92,22 +101,23 @@ Status write_parts(Database& database, const TestToWrite& test, const StoredTest
       database.prepare("DELETE FROM report_part WHERE test = ?1 AND part >= ?2");
   if (!remove) return remove.error();
   remove->bind(1, test.id).bind(2, static_cast<std::int64_t>(parts.size()));
-  if (const Status status = remove->run(); !status) return status;
+  if (const Status status = remove->run(); !status) return status.error();
+  std::vector<Hash128> hashes = before == nullptr ? std::vector<Hash128>() : before->results.parts;
+  hashes.resize(parts.size());
   Result<Statement> put =
       database.prepare("INSERT OR REPLACE INTO report_part (test, part, data) VALUES (?1, ?2, ?3)");
   if (!put) return put.error();
   for (std::size_t i = 0; i < changed.size(); ++i) {
     put->bind(1, test.id).bind(2, static_cast<std::int64_t>(changed[i]));
     put->bind(3, std::span<const std::byte>((*encoded)[i]));
-    if (const Status status = put->run(); !status) return status;
+    if (const Status status = put->run(); !status) return status.error();
+    hashes[changed[i]] = hash_bytes((*encoded)[i]);
   }
-  return {};
+  return hashes;
 }
 
-}  // namespace
-
-Result<std::vector<std::string>> test_names(Database& database) {
-  Result<Statement> select = database.prepare("SELECT name FROM test ORDER BY id");
+Result<std::vector<std::string>> names_of(Database& database, std::string_view sql) {
+  Result<Statement> select = database.prepare(sql);
   if (!select) return select.error();
   std::vector<std::string> names;
   for (;;) {
@@ -116,6 +126,19 @@ Result<std::vector<std::string>> test_names(Database& database) {
     if (!*there) return names;
     names.emplace_back(select->text(0));
   }
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> test_names(Database& database) {
+  return names_of(database, "SELECT name FROM test ORDER BY id");
+}
+
+Result<std::vector<std::string>> last_tests(Database& database) {
+  // A run adds a row for each of its tests in their order.
+  return names_of(database,
+                  "SELECT name FROM run_test JOIN test ON test.id = run_test.test "
+                  "WHERE run_test.run = (SELECT max(id) FROM run) ORDER BY run_test.rowid");
 }
 
 Result<std::optional<TestRow>> find_test(Database& database, const std::string& name) {
@@ -141,7 +164,7 @@ Result<std::optional<StoredSnapshot>> read_snapshot(Database& database, const st
   const Result<bool> there = select->bind(1, std::string_view(test)).step();
   if (!there) return there.error();
   if (!*there) return std::optional<StoredSnapshot>();
-  Result<Snapshot> snapshot = decode_snapshot(copy_of(select->bytes(1)), called(test));
+  Result<Snapshot> snapshot = decode_snapshot(copy_of(select->bytes(1)), called(database, test));
   if (!snapshot) return snapshot.error();
   return std::optional(StoredSnapshot{select->integer(0), std::move(*snapshot)});
 }
@@ -149,7 +172,7 @@ Result<std::optional<StoredSnapshot>> read_snapshot(Database& database, const st
 Result<std::optional<StoredTest>> read_test(Database& database, const std::string& name,
                                             const parallel::Context& context) {
   Result<Statement> select =
-      database.prepare("SELECT id, run, snapshot, report, kept FROM test WHERE name = ?1");
+      database.prepare("SELECT id, run, snapshot, report, kept, seal FROM test WHERE name = ?1");
   if (!select) return select.error();
   const Result<bool> there = select->bind(1, std::string_view(name)).step();
   if (!there) return there.error();
@@ -157,15 +180,17 @@ Result<std::optional<StoredTest>> read_test(Database& database, const std::strin
   StoredTest test{select->integer(0), select->integer(1), name, {}, {}};
   const Bytes snapshot = copy_of(select->bytes(2)), head = copy_of(select->bytes(3)),
               kept = copy_of(select->bytes(4));
+  const std::optional<Hash128> seal = select->hash(5);
   select->reset();
-  const std::string what = called(name);
+  if (!seal) return database.damaged(result_of(name) + " has no seal");
+  const std::string what = called(database, name);
   Result<Snapshot> then = decode_snapshot(snapshot, what);
   if (!then) return then.error();
   test.snapshot = std::move(*then);
-  Result<std::vector<Bytes>> parts = read_parts(database, test.id);
+  Result<std::vector<Bytes>> parts = read_parts(database, test.id, name);
   if (!parts) return parts.error();
-  Result<RememberedReport> results =
-      decode_report({head, std::move(*parts)}, test.snapshot.identities.size(), what, context);
+  Result<RememberedReport> results = decode_report({head, kept, std::move(*parts), *seal},
+                                                   test.snapshot.identities.size(), what, context);
   if (!results) return results.error();
   test.results = std::move(*results);
   Result<std::optional<clash::KeptForChanges>> for_changes =
@@ -187,8 +212,9 @@ Status write_test(Database& database, const TestToWrite& test, const StoredTest*
     if (const Status status = write_snapshot(database, test.id, test.snapshot); !status)
       return status;
   if (test.is_unchanged) return {};
-  if (const Status status = write_report(database, test); !status) return status;
-  return write_parts(database, test, before, context);
+  const Result<std::vector<Hash128>> parts = write_parts(database, test, before, context);
+  if (!parts) return parts.error();
+  return write_report(database, test, *parts);
 }
 
 }  // namespace strake::project

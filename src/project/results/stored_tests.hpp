@@ -25,6 +25,8 @@ struct StoredTest {
 
 /// Returns the names of the tests that were run, in the order of their first runs.
 [[nodiscard]] Result<std::vector<std::string>> test_names(Database& database);
+/// Returns the names of the tests of the last run, in its order.
+[[nodiscard]] Result<std::vector<std::string>> last_tests(Database& database);
 
 /// A test and its last run.
 struct TestRow {

@@ -213,7 +213,7 @@ Status TestMemory::miss(ClashRow row) {
   const clash::Report* const earlier = is_unchanged_        ? &report_
                                        : before_ == nullptr ? nullptr
                                                             : &before_->results.report;
-  std::string why = coverage_.reason(a, b, row.now, earlier);
+  std::string why = coverage_.reason(a, b, {row.now, row.unknown, earlier});
   const auto is_place = [&](const SoughtObject& object) {
     return !object.id || model_.object(*object.id).positional_id;
   };

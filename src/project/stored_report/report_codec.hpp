@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "strake/clash/clash.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 
@@ -22,6 +23,7 @@ inline constexpr std::uint32_t kObjectsPerPart = 1024;
 struct RememberedReport {
   clash::Report report;
   std::vector<std::int64_t> rows;
+  std::vector<Hash128> parts;  ///< of the bytes of its parts, where it was decoded
 };
 
 /// The same of a report that is somewhere else.
@@ -54,14 +56,21 @@ struct PartRange {
 [[nodiscard]] Result<std::vector<std::byte>> encode_part(const ReportRows& report,
                                                          const PartRange& range);
 
+/// Returns what tells the bytes of a report from any others: by it a part that is missing, or one
+/// of an earlier run, is not taken for a result. `parts` are the hashes of the bytes of the parts.
+[[nodiscard]] Hash128 seal_of(std::span<const std::byte> head, std::span<const std::byte> kept,
+                              std::span<const Hash128> parts);
+
 /// A report as it is stored; the bytes must outlast decode_report().
 struct EncodedReport {
-  std::span<const std::byte> head;
+  std::span<const std::byte> head, kept;
   std::vector<std::vector<std::byte>> parts;
+  Hash128 seal;  ///< seal_of() all of it
 };
 
-/// Returns the report that was encoded, without a log. Errors: input for bytes that are no report
-/// over so many objects, cancelled; `what` is what errors call it.
+/// Returns the report that was encoded, without a log and without what is kept for changes. Errors:
+/// input for bytes that are no report over so many objects or not those that were sealed,
+/// cancelled; `what` is what errors call it.
 [[nodiscard]] Result<RememberedReport> decode_report(const EncodedReport& encoded,
                                                      std::size_t objects, const std::string& what,
                                                      const parallel::Context& context);

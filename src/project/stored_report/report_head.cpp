@@ -46,6 +46,10 @@ class Writer {
     out_.column(std::span<const T>(values));
   }
   void object(const model::ObjectId& id, std::size_t /*objects*/) { out_.number(model::index(id)); }
+  void object(const std::optional<model::ObjectId>& id, std::size_t objects) {
+    flag(id.has_value());
+    if (id) object(*id, objects);
+  }
   template <class T, class Each>
   void list(const std::vector<T>& values, const Each& each) {
     out_.number(values.size());
@@ -104,6 +108,11 @@ class Reader {
     const std::uint64_t read = in_.number();
     refuse_unless(read < objects, "it speaks of an object that is not there");
     id = model::ObjectId{read < objects ? static_cast<std::uint32_t>(read) : 0};
+  }
+  void object(std::optional<model::ObjectId>& id, std::size_t objects) {
+    bool is_there = false;
+    flag(is_there);
+    if (is_there) object(id.emplace(), objects);
   }
   template <class T, class Each>
   void list(std::vector<T>& values, const Each& each) {
@@ -286,13 +295,7 @@ class Head {
     io_.flag(report_.within_files);
     io_.list(report_.not_compared, [&](auto& n) {
       io_.object(n.a, objects_);
-      bool is_pair = n.b.has_value();
-      model::ObjectId b = n.b.value_or(model::ObjectId{});
-      io_.flag(is_pair);
-      if (is_pair) io_.object(b, objects_);
-      if constexpr (Io::kReads) {
-        if (is_pair) n.b = b;
-      }
+      io_.object(n.b, objects_);
       io_.code(n.code);
     });
   }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -140,7 +142,6 @@ void check_part(BlobReader& in, const DecodedPart& part, const Limits& limits) {
 Result<DecodedPart> decode_part(std::span<const std::byte> bytes, const Limits& limits,
                                 const std::string& what) {
   DecodedPart part;
-  if (bytes.empty()) return part;
   Result<BlobReader> in = BlobReader::open(bytes, what);
   if (!in) return in.error();
   read_pairs(*in, part);
@@ -162,10 +163,27 @@ void append(DecodedPart part, RememberedReport& all) {
   add(all.rows, part.rows);
 }
 
+std::size_t count_parts(std::size_t objects) {
+  return (objects + kObjectsPerPart - 1) / kObjectsPerPart;
+}
+
+Error damaged_report(std::string_view why, const std::string& what) {
+  return {ErrorCode::input, "is damaged: " + std::string(why), what,
+          "take a copy of the project, or make it anew of its model files"};
+}
+
 }  // namespace
 
+Hash128 seal_of(std::span<const std::byte> head, std::span<const std::byte> kept,
+                std::span<const Hash128> parts) {
+  WordHash seal;
+  seal.add(hash_bytes(head)).add(hash_bytes(kept));
+  for (const Hash128& part : parts) seal.add(part);
+  return seal.value();
+}
+
 std::vector<PartRange> parts_of(const clash::Report& report, std::size_t objects) {
-  std::vector<PartRange> parts((objects + kObjectsPerPart - 1) / kObjectsPerPart);
+  std::vector<PartRange> parts(count_parts(objects));
   std::size_t pair = 0, region = 0;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     parts[k].first_pair = pair;
@@ -232,6 +250,11 @@ Result<std::vector<std::byte>> encode_part(const ReportRows& report, const PartR
 Result<RememberedReport> decode_report(const EncodedReport& encoded, std::size_t objects,
                                        const std::string& what, const parallel::Context& context) {
   RememberedReport all;
+  if (encoded.parts.size() != count_parts(objects))
+    return damaged_report("its parts are not as many as its objects need", what);
+  for (const std::vector<std::byte>& part : encoded.parts) all.parts.push_back(hash_bytes(part));
+  if (seal_of(encoded.head, encoded.kept, all.parts) != encoded.seal)
+    return damaged_report("its parts are not those that were stored together", what);
   Result<clash::Report> head = decode_head(encoded.head, objects, what);
   if (!head) return head.error();
   all.report = std::move(*head);

@@ -97,7 +97,8 @@ class PlaceFinder {
     const Result<report::FileMatches> matches = report::match_files(*before, after, *pairs);
     if (!matches) return matches.error();
     for (std::size_t f = 0; f < sought.size(); ++f)
-      if (Status status = take(*matches, labels[f], *sought[f], context); !status) return status;
+      if (const Status status = take(*matches, labels[f], *sought[f], context); !status)
+        return status;
     return {};
   }
 
@@ -117,7 +118,7 @@ class PlaceFinder {
       const StoredFile& before = stored(match.before);
       if (match.relation == report::FileRelation::merged) plan_.merged.push_back(before.id);
       if (is_part(match.relation)) continue;
-      if (Status status = take_place(before, file, context); !status) return status;
+      if (const Status status = take_place(before, file, context); !status) return status;
     }
     return known ? Status() : no_place(matches, label);
   }
@@ -177,10 +178,11 @@ Result<std::vector<OutdatedFile>> outdated_files(const std::vector<StoredFile>& 
   for (const io::FileToRead& file : request.files) {
     const StoredFile* const stored = find_file(files, file.path);
     const io::ReadOptions& before = stored == nullptr ? of_all : stored->options;
-    sought.push_back({{file.path, inherited(file.options, before)}, stored});
+    sought.push_back({{file.path, inherited(file.options, before)}, stored, file.path.string()});
   }
   if (request.files.empty())
-    for (const StoredFile& file : files) sought.push_back({{file.path, file.options}, &file});
+    for (const StoredFile& file : files)
+      sought.push_back({{file.path, file.options}, &file, file.given});
   std::vector<OutdatedFile> outdated;
   for (OutdatedFile& file : sought) {
     if (file.replaces != nullptr) {
@@ -203,6 +205,7 @@ Result<FilePlan> plan_update(const std::vector<StoredFile>& files,
   for (const OutdatedFile& file : outdated) {
     Result<FileToStore> read = read_file(file.file, context);
     if (!read) return read.error();
+    if (file.given != read->given) call_as_given(*read, file.given);
     if (file.replaces == nullptr) {
       sought.push_back(plan.read.size());
     } else {
@@ -216,7 +219,7 @@ Result<FilePlan> plan_update(const std::vector<StoredFile>& files,
   std::vector<FileToStore*> to_place;
   for (const std::size_t f : sought) to_place.push_back(&plan.read[f]);
   PlaceFinder finder(files, plan);
-  if (Status status = finder.find(known, std::move(to_place), asked, then, context); !status)
+  if (const Status status = finder.find(known, std::move(to_place), asked, then, context); !status)
     return status.error();
   return plan;
 }

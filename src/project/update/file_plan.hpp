@@ -37,6 +37,7 @@ struct FilePlan {
 struct OutdatedFile {
   io::FileToRead file;
   const StoredFile* replaces = nullptr;  ///< the one of its path; null: not known yet
+  std::string given = {};                ///< the path that diagnostics name
 };
 
 /// Returns the files that update() has to read. Errors: input for a file that cannot be read.

@@ -23,7 +23,7 @@ Status store_files_of(Database& database, std::int64_t revision,
       insert->bind_null(4);
     else
       insert->bind(4, std::string_view(event.before));
-    if (Status status = insert->run(); !status) return status;
+    if (const Status status = insert->run(); !status) return status;
   }
   return {};
 }
@@ -62,7 +62,7 @@ Status store_objects_of(Database& database, std::int64_t revision, const Changes
       insert->bind(3, std::string_view(name.file)).bind(4, std::string_view(name.id));
       insert->bind(5, std::string_view(name.name));
       bind_before(*insert, change);
-      if (Status status = insert->run(); !status) return status;
+      if (const Status status = insert->run(); !status) return status;
     }
   }
   return {};
@@ -81,9 +81,9 @@ Status store_revision(Database& database, Revision& revision, const std::vector<
   for (const std::uint64_t count : revision.counts)
     insert->bind(parameter++, static_cast<std::int64_t>(count));
   insert->bind(parameter, static_cast<std::int64_t>(revision.unchanged));
-  if (Status status = insert->run(); !status) return status;
+  if (const Status status = insert->run(); !status) return status;
   revision.id = database.last_insert_id();
-  if (Status status = store_files_of(database, revision.id, files); !status) return status;
+  if (const Status status = store_files_of(database, revision.id, files); !status) return status;
   return store_objects_of(database, revision.id, changes);
 }
 

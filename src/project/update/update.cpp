@@ -107,8 +107,9 @@ Result<Update> store_whole_files(Project& project, const RevisionNote& note, std
   done.revision = {0, note.when, std::move(what), changes.counts, changes.unchanged};
   const std::vector<RenamedFile> renamed = relabelled(then, *now);
   add_renamed(events, renamed);
-  if (Status status = follow(project, then_model, renamed); !status) return status.error();
-  if (Status status = store_revision(project.database(), done.revision, events, changes); !status)
+  if (const Status status = follow(project, then_model, renamed); !status) return status.error();
+  if (const Status status = store_revision(project.database(), done.revision, events, changes);
+      !status)
     return status.error();
   return done;
 }
@@ -134,10 +135,10 @@ Result<Update> add_model_files(Project& project, std::span<const io::FileToRead>
   }
   const Result<std::optional<model::Model>> model = model_if(namesakes, project, context);
   if (!model) return model.error();
-  if (Status status = store_files(project, read, context); !status) return status.error();
+  if (const Status status = store_files(project, read, context); !status) return status.error();
   Result<Update> done = store_whole_files(project, note, "add", *then, {}, *model);
   if (!done) return done;
-  if (Status status = transaction->commit(); !status) return status.error();
+  if (const Status status = transaction->commit(); !status) return status.error();
   for (const FileToStore& file : read) done->noticed.append(file.model.diagnostics);
   return done;
 }
@@ -184,11 +185,12 @@ Result<Update> remove_model_files(Project& project, std::span<const std::string>
   }
   const Result<std::optional<model::Model>> model = model_if(namesakes, project, context);
   if (!model) return model.error();
-  if (Status status = remove_files(project, *numbers, context); !status) return status.error();
+  if (const Status status = remove_files(project, *numbers, context); !status)
+    return status.error();
   Result<Update> done =
       store_whole_files(project, note, "remove", *then, std::move(events), *model);
   if (!done) return done;
-  if (Status status = transaction->commit(); !status) return status.error();
+  if (const Status status = transaction->commit(); !status) return status.error();
   return done;
 }
 
@@ -246,10 +248,12 @@ Result<Update> store_update(Project& project, FilePlan plan, const std::vector<S
     read.push_back(file.path);
     noticed.append(file.model.diagnostics);
   }
-  if (Status status = store_files(project, plan.read, context); !status) return status.error();
+  if (const Status status = store_files(project, plan.read, context); !status)
+    return status.error();
   plan.read.clear();
   if (!plan.merged.empty())
-    if (Status status = remove_files(project, plan.merged, context); !status) return status.error();
+    if (const Status status = remove_files(project, plan.merged, context); !status)
+      return status.error();
   const Result<std::vector<StoredFile>> now = project.files();
   if (!now) return now.error();
   const Result<model::Model> now_model = project.model(context);
@@ -271,10 +275,10 @@ Result<Update> store_update(Project& project, FilePlan plan, const std::vector<S
   const std::vector<RenamedFile> renamed = renamed_files(done.changes.files);
   add_renamed(events, renamed);
   if (!renamed.empty())
-    if (Status status = rename_files(project.database(), then_model, renamed); !status)
+    if (const Status status = rename_files(project.database(), then_model, renamed); !status)
       return status.error();
   done.revision = {0, note.when, "update", done.changes.counts, done.changes.unchanged};
-  if (Status status = store_revision(project.database(), done.revision, events, done.changes);
+  if (const Status status = store_revision(project.database(), done.revision, events, done.changes);
       !status)
     return status.error();
   return done;
@@ -309,7 +313,7 @@ Result<Update> update(Project& project, const UpdateRequest& request, const Revi
   if (!plan) return plan.error();
   Result<Update> done = store_update(project, std::move(*plan), *then, *then_model, note, context);
   if (!done) return done;
-  if (Status status = transaction->commit(); !status) return status.error();
+  if (const Status status = transaction->commit(); !status) return status.error();
   return done;
 }
 

@@ -250,7 +250,8 @@ Status rename_objects_of_views(Database& database, const NewIdentities& renamed)
 
 Status check_views(Database& database, const parallel::Context& context) {
   auto statement = database.prepare(
-      "SELECT d.lines, d.made_from, v.name FROM drawing d JOIN view v ON v.id = d.view "
+      "SELECT d.lines, d.made_from, v.name, d.objects, d.pieces FROM drawing d "
+      "JOIN view v ON v.id = d.view "
       "ORDER BY v.name");
   if (!statement) return statement.error();
   for (;;) {
@@ -259,6 +260,10 @@ Status check_views(Database& database, const parallel::Context& context) {
     if (!*there) return {};
     const auto drawing = decode(*statement, statement->text(2), std::nullopt, context);
     if (!drawing) return drawing.error();
+    if ((**drawing).boxes.size() != count_of(*statement, 3) ||
+        (**drawing).drawing.pieces.size() != count_of(*statement, 4))
+      return database.damaged("the drawing of the view '" + std::string(statement->text(2)) +
+                              "' is of another size than its row says");
   }
 }
 

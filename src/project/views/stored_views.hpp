@@ -72,7 +72,8 @@ struct ViewToStore {
 /// What is damaged stays as it is: it serves nobody.
 [[nodiscard]] Status rename_objects_of_views(Database& database, const NewIdentities& renamed);
 
-/// Reads every drawing. Errors: input for the first that is damaged, cancelled.
+/// Reads every drawing, and holds it to what its row says of its size. Errors: input for the first
+/// that is damaged, cancelled.
 [[nodiscard]] Status check_views(Database& database, const parallel::Context& context);
 
 }  // namespace strake::project

@@ -46,24 +46,22 @@ class Setting {
   auto read(Take&& take) const {
     std::istringstream in(text_);
     JsonReader json(in, kMostSettingDepth);
-    DocumentFields fields(json);
-    return take(json, fields);
+    return take(json, DocumentFields(json));
   }
   [[nodiscard]] std::string text() const {
     must_be_there();
     return read(
-        [this](JsonReader&, DocumentFields& fields) { return fields.text("the document", name_); });
+        [this](JsonReader&, DocumentFields fields) { return fields.text("the document", name_); });
   }
   [[nodiscard]] double number() const {
     must_be_there();
-    return read([this](JsonReader&, DocumentFields& fields) {
+    return read([this](JsonReader&, DocumentFields fields) {
       return fields.number("the document", name_);
     });
   }
   [[nodiscard]] Vec3l direction() const {
     must_be_there();
-    return read(
-        [this](JsonReader&, DocumentFields& fields) { return whole_vector(fields, name_); });
+    return read([this](JsonReader&, DocumentFields fields) { return whole_vector(fields, name_); });
   }
   [[nodiscard]] bool is_true() const { return text_ == "true"; }
   [[nodiscard]] bool is_false() const { return text_ == "false"; }
@@ -74,7 +72,7 @@ class Setting {
     return [name = name_] { return name; };
   }
 
-  [[nodiscard]] static Vec3l whole_vector(DocumentFields& fields, std::string_view key) {
+  [[nodiscard]] static Vec3l whole_vector(DocumentFields fields, std::string_view key) {
     constexpr double kMostOfDirection = 1U << 20U;
     const auto v = fields.numbers<3>([] { return std::string("the view"); }, key, kMostOfDirection);
     for (const double component : v)
@@ -83,7 +81,7 @@ class Setting {
     return {static_cast<std::int64_t>(v[0]), static_cast<std::int64_t>(v[1]),
             static_cast<std::int64_t>(v[2])};
   }
-  [[nodiscard]] static Vec3l point(DocumentFields& fields, std::string_view key) {
+  [[nodiscard]] static Vec3l point(DocumentFields fields, std::string_view key) {
     const auto mm =
         fields.numbers<3>([] { return std::string("the view"); }, key, DocumentFields::kFarthestMm);
     return {micrometres(mm[0]), micrometres(mm[1]), micrometres(mm[2])};
@@ -106,7 +104,7 @@ Enum value_of(const Setting& setting, Name&& name, Enum other) {
   return *value;
 }
 
-std::vector<hlr::Section> read_sections(JsonReader& json, DocumentFields& fields) {
+std::vector<hlr::Section> read_sections(JsonReader& json, DocumentFields fields) {
   fields.must_be(Kind::array, "the view", "sections", "list");
   std::vector<hlr::Section> sections;
   json.items([&] {
@@ -127,7 +125,7 @@ std::vector<hlr::Section> read_sections(JsonReader& json, DocumentFields& fields
   return sections;
 }
 
-hlr::Perspective read_perspective(JsonReader& json, DocumentFields& fields) {
+hlr::Perspective read_perspective(JsonReader& json, DocumentFields fields) {
   fields.must_be(Kind::object, "the view", "perspective", "object");
   hlr::Perspective perspective;
   json.members([&](std::string_view key) {
@@ -149,14 +147,14 @@ hlr::Perspective read_perspective(JsonReader& json, DocumentFields& fields) {
 void read_uncut(const Setting& setting, drawing::NeutralDrawing& drawing) {
   drawing.uncut = setting.is_there();
   if (!setting.is_list()) return;
-  setting.read([&](JsonReader& json, DocumentFields& fields) {
+  setting.read([&](JsonReader& json, DocumentFields fields) {
     json.items([&] { drawing.uncut_selections.push_back(fields.text("settings", "uncut")); });
   });
 }
 
 void read_limits(const Setting& setting, hlr::View& view) {
   if (!setting.is_there()) return;
-  setting.read([&](JsonReader&, DocumentFields& fields) {
+  setting.read([&](JsonReader&, DocumentFields fields) {
     const auto mm = fields.numbers<6>(setting.where(), "limits_mm", DocumentFields::kFarthestMm);
     view.limits = geometry::Box3l{{micrometres(mm[0]), micrometres(mm[1]), micrometres(mm[2])},
                                   {micrometres(mm[3]), micrometres(mm[4]), micrometres(mm[5])}};

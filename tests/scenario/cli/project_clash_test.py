@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """A week of clash tests over a project: what is found, decided, mended and found again."""
+import contextlib
 import csv
 import io
 import json
 import re
+import sqlite3
+import subprocess
 
 from scenario import Scenario, cube, main
 
@@ -110,6 +113,51 @@ class ProjectClash(Scenario):
         self.assertEqual(sorted(self.statuses()).count('reviewed'), 2, 'two clashes share an element')
         self.assertIn('there is no group', self.set('--group', '9', '--status', 'reviewed', exit_code=2).stderr)
 
+    def test_a_number_of_a_group_is_that_of_the_last_run_and_of_its_options(self):
+        # Another test of an earlier run has groups too, which no number means.
+        self.write('r.toml', '[[test]]\nname = "before"\n')
+        self.clash('--rules', 'r.toml')
+        self.change([*ROW, (0, 1000, 0), (100, 1000, 0), (0, 2000, 0), (110, 2000, 0)])
+        options = ['--group-by', 'files', '--group-contacts', '--class', 'contact']
+        self.clash('--clearance', '25mm', *options)
+        self.set('--group', '1', *options, '--status', 'reviewed')
+        reviewed = [clash for clash in self.listed() if clash['status'] == 'reviewed']
+        self.assertEqual({(clash['test'], clash['class']) for clash in reviewed}, {('', 'CONTACT')})
+        self.set('--group', '2', *options, '--status', 'reviewed', exit_code=2)
+        self.set(reviewed[0]['key'], '--class', 'hit', '--status', 'active', exit_code=2)
+
+    def test_what_was_said_is_taken_back(self):
+        self.clash()
+        key = self.listed()[0]['key']
+        self.set(key, '--comment', 'soon', '--assignee', 'Bob')
+        self.set(key, '--comment', '', '--assignee', '')
+        clash = self.listed()[0]
+        self.assertEqual((clash['comment'], clash['assignee']), (None, None))
+
+    def test_the_table_shows_tests_and_what_cannot_be_told(self):
+        self.clash()
+        table = self.done('clash', 'list', '-p', 'ship.strake').stdout
+        self.assertNotRegex(table.splitlines()[0], 'test|cannot_tell')
+        self.write('r.toml', '[[test]]\nname = "all"\n')
+        self.change(ROW[:3])
+        self.clash()
+        self.clash('--rules', 'r.toml')
+        table = self.done('clash', 'list', '-p', 'ship.strake').stdout
+        self.assertRegex(table.splitlines()[0], 'test.*cannot_tell')
+        self.assertIn('is not in the model', table)
+        done = self.done('clash', 'list', '-p', 'ship.strake', '--test', 'nope', exit_code=2)
+        self.assertIn("there are '', 'all'", done.stderr)
+        self.assertEqual({clash['test'] for clash in self.listed('--test', '')}, {''})
+
+    def test_what_cannot_be_told_stays_so(self):
+        self.change([(0, 0, 0), (120, 0, 0)])
+        self.clash('--clearance', '25mm')
+        for _ in range(3):
+            self.clash()
+            clash, = self.listed()
+            self.assertEqual((clash['status'], clash['cannot_tell']),
+                             ('active', 'the test does not reach as far as it did'))
+
     def test_the_list_is_a_file_of_decisions(self):
         self.clash()
         key = self.listed()[0]['key']
@@ -128,6 +176,36 @@ class ProjectClash(Scenario):
         before = self.statuses()
         self.set('0' * 26, '--status', 'approved', exit_code=2)
         self.assertEqual(self.statuses(), before)
+
+    def other_writer(self):
+        return contextlib.closing(sqlite3.connect(self.folder / 'ship.strake', isolation_level=None))
+
+    def test_a_model_that_changed_meanwhile_is_not_remembered(self):
+        with self.other_writer() as other:
+            other.execute('BEGIN IMMEDIATE')
+            with subprocess.Popen([self.STRAKE, 'clash', '-p', 'ship.strake', '--wait', '60'], cwd=self.folder,
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as run:
+                for line in run.stderr:
+                    if 'objects tested' in line:
+                        break
+                other.execute('UPDATE model_seal SET files = randomblob(16)')
+                other.execute('COMMIT')
+                told = run.stderr.read()
+            self.assertEqual(run.returncode, 3, told)
+            self.assertIn('changed meanwhile', told)
+            self.assertEqual(other.execute('SELECT count(*) FROM run').fetchone(), (0,))
+
+    def test_who_pages_through_the_result_keeps_nobody_from_writing(self):
+        # Far more than a pipe holds: the run writes until somebody reads on.
+        self.change([(n * 80, 0, 0) for n in range(400)])
+        with subprocess.Popen([self.STRAKE, 'clash', '-p', 'ship.strake', '--json'], cwd=self.folder,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as run:
+            self.assertEqual(run.stdout.read(1), '{')
+            self.set('--select', 'c0', '--status', 'approved')
+            self.assertIsNone(run.poll(), 'it waits for its reader')
+            run.stdout.read()
+        self.assertEqual(run.returncode, 0)
+        self.assertEqual(self.statuses().count('approved'), 1)
 
     def test_rules_that_change_test_everything_and_tests_have_names(self):
         self.write('r.toml', '[[test]]\nname = "all"\n')

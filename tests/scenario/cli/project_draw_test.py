@@ -75,6 +75,14 @@ class ProjectDraw(Scenario):
                 self.same(f'a.{name}', f'f.{name}')
             self.assertIn('nothing solved again', self.told('--stored', 'hall'))
 
+    def test_the_file_alone_holds_all(self):
+        self.save(*VIEW)
+        for command in (('project', 'info', 'p.strake'), ('draw', '-p', 'p.strake', '--stored', 'hall', '-o', 'a.svg'),
+                        ('project', 'check', 'p.strake'), ('draw', 'p.strake', '--view', 'top', '-o', 'a.svg')):
+            self.text(*command)
+            self.assertEqual([path.name for path in self.folder.glob('*.strake*')], ['p.strake'], command)
+        self.assertIn('nothing solved again', self.told('--stored', 'hall'))
+
     def test_another_view_of_the_name_has_its_own_lines(self):
         self.save(*VIEW)
         for view in (('--view', 'front'), ('--view', 'iso', '--section', 'z=50mm', '--select', 'c1*'),
@@ -157,7 +165,7 @@ class ProjectDraw(Scenario):
             self.assertIn(option[0], self.refused('f.json', *option, '-o', 'a.svg'))
         self.refused('f.json', 'm.obj', '-o', 'a.svg')
         self.refused('f.json', '-o', 'f.json')
-        self.assertIn('fit', self.refused('f.json', '--scale', '1:1', '--paper', 'A4', '-o', 'a.svg'))
+        self.assertIn('larger paper', self.refused('f.json', '--scale', '1:1', '--paper', 'A4', '-o', 'a.svg'))
         self.text('draw', 'm.obj', *WAYS, '--visible-only', '-o', 'v.json')
         self.assertIn('--hidden', self.refused('v.json', '--hidden', 'dashed', '-o', 'a.svg'))
         sound = (self.folder / 'f.json').read_text(encoding='utf-8')

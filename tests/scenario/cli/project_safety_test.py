@@ -175,6 +175,7 @@ class FullDisk(Jobs):
         self.assertIn(done.returncode, (0, 3), done.stderr)
         if done.returncode:
             self.assertIn('p.strake', done.stderr)
+            self.assertNotIn('the disk reports an error', done.stderr)
         return done.returncode == 0
 
     def test_a_file_that_may_not_grow(self):
@@ -303,6 +304,20 @@ class Neighbours(ProjectScenario):
             self.assertEqual(self.files(), before, command)
 
 
+class Copies(ProjectScenario):
+    def test_a_copy_that_sqlite_made_is_a_project(self):
+        before = self.state()
+        for first in (['project', 'check', 'p.strake'], CLASH, DRAW):
+            with self.subTest(first):
+                with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
+                    other.execute(f"VACUUM INTO '{self.folder}/copy.strake'")
+                for path in self.folder.glob('p.strake*'):
+                    path.unlink()
+                (self.folder / 'copy.strake').rename(self.folder / 'p.strake')
+                self.text(*first)
+                self.assertEqual(self.state()[0], before[0])
+
+
 class ReadOnly(ProjectScenario):
     """A folder and a file that the user may not write in; root may, so that root becomes another one."""
 
@@ -411,7 +426,8 @@ class Damage(ProjectScenario):
     def test_what_other_programs_put_in(self):
         for sql in ('CREATE TRIGGER t AFTER INSERT ON run BEGIN DELETE FROM clash; END',
                     'DROP TABLE clash', 'DROP VIEW clashes', 'DELETE FROM shape_pack', 'UPDATE file SET objects = 7',
-                    "UPDATE shape_pack SET data = zeroblob(1000)", 'UPDATE test SET snapshot = report'):
+                    "UPDATE shape_pack SET data = zeroblob(1000)", 'UPDATE test SET snapshot = report',
+                    'DELETE FROM report_part', "UPDATE test SET seal = x''"):
             with self.subTest(sql):
                 self.put(self.content)
                 with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
@@ -421,6 +437,26 @@ class Damage(ProjectScenario):
                 self.assertFalse(self.is_whole())
                 for command in self.READERS:
                     self.outcome(command)
+
+    def test_words_that_are_none(self):
+        """What no reader of the model or of a test would find, and `clash list` or `draw --stored` would not take."""
+        for sql, told in (("UPDATE clash SET relation = 'SOMEHOW'", 'no class or relation'),
+                          ("UPDATE clash SET class = 'MISS'", 'no class or relation'),
+                          ("UPDATE clash SET decision = 'later'", 'a status that is none'),
+                          ("INSERT INTO event (clash, at, who, before, after, comment) "
+                           "SELECT id, '', '', 'new', 'gone', '' FROM clash", 'CHECK constraint'),
+                          ("UPDATE view SET settings = '{'", 'no JSON object'),
+                          ("UPDATE view SET settings = '[]'", 'no JSON object'),
+                          ("UPDATE view SET settings = ''", 'no JSON object')):
+            with self.subTest(sql):
+                self.put(self.content)
+                with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
+                    other.execute('PRAGMA ignore_check_constraints = ON')
+                    other.execute(sql)
+                    other.commit()
+                done = self.run_strake('project', 'check', 'p.strake')
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertIn(told, done.stdout)
 
     def test_no_projects(self):
         self.write('text.strake', 'SQLite format 4\n')
@@ -435,8 +471,8 @@ class Damage(ProjectScenario):
 
 
 class HostileNames(Scenario):
-    NAMES = ["it's", '"quoted"', "'); DROP TABLE clash; --", '100%s', 'semi;colon', '-p', '\u202egpj', 'tab\tand\x1b[2J',
-             'n' * 200, 'ä ö', '[x]*?']
+    UNSEEN = ['\u202egpj', 'tab\tand\x1b[2J']  # no names of views
+    NAMES = ["it's", '"quoted"', "'); DROP TABLE clash; --", '100%s', 'semi;colon', '-p', *UNSEEN, 'n' * 200, 'ä ö', '[x]*?']
 
     def test_names_are_text_and_nothing_else(self):
         files = []
@@ -451,8 +487,9 @@ class HostileNames(Scenario):
         self.assertEqual((self.folder / 'p.json').read_bytes(), (self.folder / 'true.json').read_bytes())
         for name in self.NAMES:
             with self.subTest(name):
-                told = self.text('draw', '-p', 'p.strake', f'--save={name}', '--view', 'top', '-o', 'x.svg')
-                told += self.text('draw', '-p', 'p.strake', f'--stored={name}', '-o', 'x.svg')
+                view = 'view' if name in self.UNSEEN else name
+                told = self.text('draw', '-p', 'p.strake', f'--save={view}', '--view', 'top', '-o', 'x.svg')
+                told += self.text('draw', '-p', 'p.strake', f'--stored={view}', '-o', 'x.svg')
                 told += self.text('clash', 'set', '-p', 'p.strake', '--select', "name = '*'", '--status', 'reviewed',
                                   f'--comment={name}', f'--assignee={name}', f'--by={name}')
                 for command in (['clash', 'list', '-p', 'p.strake'], ['project', 'list', 'p.strake'],
@@ -461,11 +498,21 @@ class HostileNames(Scenario):
                 self.assertNotIn('\x1b', told)
                 self.assertNotIn('\u202e', told)
         with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
-            self.assertEqual({name for name, in other.execute('SELECT name FROM view')}, set(self.NAMES))
+            self.assertEqual({name for name, in other.execute('SELECT name FROM view')},
+                             {'view', *self.NAMES} - {*self.UNSEEN})
             self.assertEqual({name for name, in other.execute('SELECT DISTINCT comment FROM clashes')}, {self.NAMES[-1]})
         self.text('project', 'check', 'p.strake')
         for name in self.NAMES:
             self.text('project', 'remove', 'p.strake', '--', f'{name}.obj')
+
+    def test_views_have_names_that_can_be_read(self):
+        self.write('a.obj', cube('a', 0, (0, 0, 0), 100))
+        self.text('project', 'new', 'p.strake', 'a.obj')
+        for name in (*self.UNSEEN, 'line\nbreak', b'\xff', 'n' * 201, 'ä' * 101):
+            option = '--save=' + (os.fsdecode(name) if isinstance(name, bytes) else name)
+            done = self.run_strake('draw', '-p', 'p.strake', option)
+            self.assertEqual(done.returncode, 2, (name, done.stderr))
+            self.assertIn('--save: ', done.stderr)
 
 
 if __name__ == '__main__':

@@ -100,6 +100,40 @@ class Project(Scenario):
         database.close()
         self.assertEqual(self.text('project', 'check', 'ship.strake'), 'no faults\n')
 
+    def test_what_is_noticed_names_files_as_they_were_given(self):
+        def cubes(at):
+            return 'mtllib none.mtl\n' + cube('one', 0, (0, 0, 0), 100) + cube('two', 1, (at, 0, 0), 100)
+
+        ways = ('--unit', 'mm', '--up-axis', 'z')
+        self.write('a.obj', cubes(90))
+        self.made('a.obj', *ways)
+        for update in ((), ('a.obj', '--unit', 'mm')):
+            with self.subTest(update):
+                self.write('a.obj', cubes(80 if update else 70))
+                self.text('project', 'update', 'ship.strake', *update)
+                self.text('clash', 'ship.strake', '-o', 'p.json')
+                self.text('clash', 'a.obj', *ways, '-o', 'f.json')
+                self.assertIn(b'obj-material-library-missing', (self.folder / 'f.json').read_bytes())
+                self.assertEqual((self.folder / 'p.json').read_bytes(), (self.folder / 'f.json').read_bytes())
+
+    def test_rules_that_say_otherwise_of_a_file_are_refused(self):
+        self.two_files()
+        self.made('a.obj', 'b.obj', '--unit', 'a.obj=m')
+        runs = (('clash', '-p', 'ship.strake', '--rules', 'r.toml'), ('clash', 'ship.strake', '--rules', 'r.toml'))
+        for says, read, option in (('unit = "mm"', 'unit m,', '--unit mm'), ('up_axis = "y"', 'z up', '--up-axis y')):
+            self.write('r.toml', f'[[file]]\nname = "a.*"\n{says}\n[[test]]\nname = "all"\n')
+            for run in runs:
+                told = self.refused(2, *run)
+                self.assertIn("'a.obj'", told)
+                self.assertIn(read, told)
+                self.assertIn(f'strake project update ship.strake {self.folder / "a.obj"} {option}', told)
+        self.write('r.toml', '[[file]]\nname = "a.*"\nunit = "m"\nup_axis = "z"\n[[file]]\nname = "c.*"\nunit = "in"\n'
+                             '[[test]]\nname = "all"\n')
+        for run in runs:
+            told = self.run_strake(*run).stderr
+            self.assertNotIn("[[file]] 'a.*'", told)
+            self.assertIn("[[file]] 'c.*': no file of the run has such a name", told)
+
     def test_a_renamed_file_takes_the_place_of_what_it_was(self):
         boxes = [(f'/P{i}', (300 * i, 0, 0)) for i in range(8)]
         self.write_rvm('HA.RVM', boxes)
@@ -187,6 +221,35 @@ class Project(Scenario):
             self.assertEqual(self.as_json('info', name)['total']['objects'], 2)
         self.assertIn('.obj', self.refused(2, 'project', 'export', 'ship.strake', '-o', 'out.step'))
 
+    def test_the_decisions_are_exported(self):
+        self.two_files()
+        self.made('a.obj', 'b.obj')
+        self.run_strake('clash', '-p', 'ship.strake', '--clearance', '25mm')
+        row, *_ = self.listed('clashes')
+        self.text('clash', 'set', row['key'], '-p', 'ship.strake', '--status', 'approved')
+        self.text('project', 'export', 'ship.strake', '-o', 'decisions.csv', '-o', 'out.glb', '--quiet')
+        self.text('clash', 'list', '-p', 'ship.strake', '-o', 'listed.csv')
+        exported = (self.folder / 'decisions.csv').read_text(encoding='utf-8')
+        self.assertEqual(exported, (self.folder / 'listed.csv').read_text(encoding='utf-8'))
+        self.assertIn('approved', exported)
+        self.assertTrue((self.folder / 'out.glb').exists())
+
+    def test_model_files_of_the_project_are_not_written_over(self):
+        self.two_files()
+        self.made('a.obj')
+        before = (self.folder / 'a.obj').read_bytes()
+        (self.folder / 'link.obj').symlink_to('a.obj')
+        for name in ('a.obj', str(self.folder / 'a.obj'), 'link.obj'):
+            told = self.refused(2, 'project', 'export', 'ship.strake', '-o', name)
+            self.assertIn('would be overwritten', told)
+        # A model file is known by what it holds: its name may be that of a result.
+        (self.folder / 'a.obj').rename(self.folder / 'a.json')
+        self.text('project', 'new', 'other.strake', 'a.json', '--quiet')
+        for verb in (['clash'], ['draw'], ['draw', '--save', 'top']):
+            told = self.refused(2, *verb, '-p', 'other.strake', '-o', 'a.json')
+            self.assertIn('would be overwritten', told)
+        self.assertEqual((self.folder / 'a.json').read_bytes(), before)
+
     def test_damage_is_told_with_its_place(self):
         self.two_files()
         self.made('a.obj', 'b.obj')
@@ -201,6 +264,29 @@ class Project(Scenario):
         jsonschema.validate(faults, json.loads((self.SCHEMAS / 'project-check.schema.json').read_text(encoding='utf-8')))
         self.assertEqual(faults['faults'][0]['where'], 'model')
         self.refused(3, 'clash', 'ship.strake')
+
+    def test_results_that_do_not_fit_their_rows_are_told(self):
+        self.write('a.obj', ''.join(cube(f'o{i}', i, (90 * i, 0, 0), 100) for i in range(4)))
+        self.made('a.obj')
+        self.run_strake('clash', '-p', 'ship.strake')
+        self.text('draw', '-p', 'ship.strake', '--save', 'top', '--view', 'top', '-o', 'top.svg')
+        self.assertEqual(self.text('project', 'check', 'ship.strake'), 'no faults\n')
+        sound = (self.folder / 'ship.strake').read_bytes()
+        for change, told in (("UPDATE clash SET a_id = 'x' WHERE id = 1", 'has another key than its objects'),
+                             ('DELETE FROM clash WHERE id = 2', 'clash 2 has a result, and is not there'),
+                             ('UPDATE clash SET (a_file, a_id, b_file, b_id) = (SELECT a_file, a_id, b_file, b_id '
+                              'FROM clash WHERE id = 2) WHERE id = 1', 'is of other objects than its result'),
+                             ('UPDATE test SET objects = objects + 1', 'and its row says'),
+                             ('UPDATE drawing SET pieces = pieces + 1', "the drawing of the view 'top' is of another size")):
+            with self.subTest(change):
+                (self.folder / 'ship.strake').write_bytes(sound)
+                database = sqlite3.connect(self.folder / 'ship.strake')
+                database.execute(change)
+                database.commit()
+                database.close()
+                done = self.run_strake('project', 'check', 'ship.strake')
+                self.assertEqual(done.returncode, 1, done.stderr)
+                self.assertIn(told, done.stdout)
 
     def test_a_second_writer_is_told_or_waits(self):
         self.two_files()

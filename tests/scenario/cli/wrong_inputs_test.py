@@ -47,6 +47,18 @@ def behind(lines, values):
 USAGE = [
     *behind(LENGTHS, LENGTH), *behind(COUNTS, COUNT), *behind(['project remove p.strake a.obj --wait'], SECONDS),
     ('project list p.strake things', 'what', "'things' is not one of"),
+    # What only a project has, and files beside it.
+    *[(f'{line} {option}', option.split()[0], 'add --project') for line, options in (
+        ('clash a.obj', ('--by me', '--full', '--verify')),
+        ('draw a.obj -o x.svg', ('--save deck', '--stored deck', '--full', '--verify'))) for option in options],
+    *behind(['clash -p p.strake --by', 'draw -p p.strake -o x.svg --save', 'draw -p p.strake -o x.svg --stored', 'clash --project',
+             'draw -o x.svg --project'], [("''", 'the value is empty')]),
+    ('clash a.obj --project p.strake', "'a.obj'", "'strake project add'"),
+    ('draw a.obj --project p.strake -o x.svg', "'a.obj'", "'strake project add'"),
+    ('clash --project p.strake --decisions d.csv', '--decisions', 'leave one of them out'),
+    ('draw --project p.strake --sheet s.toml -o x.svg', '--sheet', 'leave one of them out'),
+    ('draw -p p.strake -o x.svg --save deck --stored deck', '--stored', 'leave one of them out'),
+    ('draw -p p.strake -o x.svg --full', '--full', '--stored NAME'), ('draw -p p.strake -o x.svg --verify', '--verify', '--stored NAME'),
     *behind(CHOICES, [('sideways', "'sideways' is not one of"), ("''", "'' is not one of")]),
     *behind(['draw a.obj -o x.svg --sharp-angle', 'draw a.obj -o x.svg --eye 1m,1m,1m --target 0,0,0 --field-of-view'], ANGLE),
     *behind(['draw a.obj -o x.svg --target 1,2,3 --eye', 'draw a.obj -o x.svg --eye 1,2,3 --target'], POINT),
@@ -179,6 +191,8 @@ USAGE = [
 ]
 
 OUTPUT = [
+    ('clash --project p.strake', 'p.strake', 'cannot be read'), ('draw --project p.strake -o x.svg', 'p.strake', 'cannot be read'),
+    ('clash --project a.obj', 'a.obj', 'is no project'), ('draw --project a.obj -o x.svg', 'a.obj', 'is no project'),
     ('clash a.obj -o no/x.json', 'no/x.json', 'make the folder first'),
     ('clash a.obj -o d.json', 'd.json', 'give the name of a file'),
     ('clash a.obj --log-pairs no/x.csv', 'no/x.csv', 'make the folder first'),

@@ -2,17 +2,20 @@
 #include "project/database/database.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 
 #include "project/database/schema.hpp"
+#include "strake/project/check.hpp"
 #include "strake/project/project.hpp"
 #include "support/io_files.hpp"
 #include "support/stored_models.hpp"
@@ -127,6 +130,61 @@ TEST_F(ProjectFileTest, AJournalOfTheOldKindIsRefused) {
   expect_error(Project::open(file_, {}), ErrorCode::input, "WAL");
 }
 
+/// A copy that VACUUM INTO of SQLite makes is in this mode.
+TEST_F(ProjectFileTest, WithoutAWriteLogItIsAProjectAllTheSame) {
+  static_cast<void>(make());
+  for (const Access access : {Access::read, Access::write}) {
+    edit("PRAGMA journal_mode = DELETE");
+    ASSERT_EQ(contents(file_)[18], 1);
+    auto opened = Project::open(file_, {.access = access});
+    ASSERT_TRUE(opened) << opened.error().text();
+    EXPECT_TRUE(opened->database().execute("SELECT * FROM file"));
+    // Whoever reads it is not in the way of a writer.
+    auto writer = Project::open(file_, {.access = Access::write});
+    ASSERT_TRUE(writer) << writer.error().text();
+    auto transaction = Transaction::begin(writer->database());
+    ASSERT_TRUE(transaction) << transaction.error().text();
+    ASSERT_TRUE(writer->database().execute("UPDATE model_seal SET files = zeroblob(15)"));
+    ASSERT_TRUE(transaction->commit());
+    EXPECT_EQ(contents(file_)[18], 2);
+  }
+}
+
+TEST_F(ProjectFileTest, WithoutAWriteLogItIsReadWhereNothingMayBeWritten) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+  static_cast<void>(make());
+  edit("PRAGMA journal_mode = DELETE");
+  const std::string before = contents(file_);
+  ASSERT_EQ(before[18], 1);
+  ASSERT_EQ(::chmod(file_.c_str(), 0444), 0);
+  ASSERT_EQ(::chmod(folder_.path().c_str(), 0555), 0);
+  EXPECT_TRUE(Project::open(file_, {}));
+  expect_error(Project::open(file_, {.access = Access::write}), ErrorCode::output, "read-only");
+  EXPECT_EQ(contents(file_), before);
+  ASSERT_EQ(::chmod(folder_.path().c_str(), 0755), 0);
+}
+
+TEST_F(ProjectFileTest, AFileThatMayNotGrowIsToldAsThat) {
+  static_cast<void>(make());
+  auto project = Project::open(file_, {.access = Access::write});
+  ASSERT_TRUE(project);
+  auto transaction = Transaction::begin(project->database());
+  ASSERT_TRUE(transaction);
+  ASSERT_TRUE(project->database().execute(
+      "CREATE TABLE large (bytes); INSERT INTO large VALUES (zeroblob(1000000))"));
+  struct rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  struct rlimit small = limit;
+  small.rlim_cur = 65536;
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const Status committed = transaction->commit();
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::signal(SIGXFSZ, before);
+  expect_error(committed, ErrorCode::output, "File too large");
+  EXPECT_NE(committed.error().mend.find("ulimit -f"), std::string::npos);
+}
+
 TEST_F(ProjectFileTest, ReadersNeitherWaitNorSeeHalf) {
   static_cast<void>(make());
   auto writer = Project::open(file_, {.access = Access::write});
@@ -181,6 +239,42 @@ TEST_F(ProjectFileTest, AReaderCannotWrite) {
   ASSERT_TRUE(reader);
   expect_error(Transaction::begin(reader->database()), ErrorCode::output, "read-only");
   EXPECT_FALSE(reader->database().execute("DELETE FROM model_seal"));
+}
+
+TEST_F(ProjectFileTest, WhoeverClosesLastLeavesOneFile) {
+  static_cast<void>(make());
+  const auto count = [&] {
+    return std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator());
+  };
+  EXPECT_TRUE(Project::open(file_, {}));
+  EXPECT_EQ(count(), 1);
+  {
+    auto reader = Project::open(file_, {});
+    ASSERT_TRUE(reader) << reader.error().text();
+    edit("UPDATE model_seal SET files = zeroblob(15)");
+    EXPECT_GT(count(), 1);
+  }
+  EXPECT_EQ(count(), 1);
+  auto later = Project::open(file_, {});
+  ASSERT_TRUE(later) << later.error().text();
+  EXPECT_EQ(test::number(*later, "SELECT length(files) FROM model_seal"), 15);
+}
+
+TEST_F(ProjectFileTest, ALastPageThatIsCutOffIsFound) {
+  static_cast<void>(make());
+  const auto faults = [&] {
+    auto project = Project::open(file_, {});
+    EXPECT_TRUE(project) << project.error().text();
+    const auto found = check(*project, {});
+    EXPECT_TRUE(found) << found.error().text();
+    return found->size();
+  };
+  EXPECT_EQ(faults(), 0U);
+  // The last byte of an empty page: zero, which is what SQLite takes it for.
+  edit("CREATE TABLE more (a); INSERT INTO more VALUES (zeroblob(20000)); DROP TABLE more");
+  EXPECT_EQ(faults(), 0U);
+  fs::resize_file(file_, fs::file_size(file_) - 1);
+  EXPECT_EQ(faults(), 1U);
 }
 
 TEST_F(ProjectFileTest, AFolderThatMayNotBeWrittenIsReadAllTheSame) {

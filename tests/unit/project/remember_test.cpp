@@ -38,8 +38,8 @@ class Remembered : public ::testing::Test {
   }
 
   /// Tests the model in full and remembers the run.
-  RememberedRun run(const ClashModel& m, const clash::Policy& policy = {}, double deeper_mm = 1) {
-    const clash::Options options;
+  RememberedRun run(const ClashModel& m, const clash::Policy& policy = {}, double deeper_mm = 1,
+                    const clash::Options& options = {}) {
     const auto scene = make_scene(m.model, clash::scene_options(options), {}).value();
     const clash::Sets sets = clash::one_set(scene);
     const clash::Signatures signed_by = clash::signatures(scene, sets, options, policy, {}).value();
@@ -51,6 +51,10 @@ class Remembered : public ::testing::Test {
         *database_, m.model, {"2026-01-01T00:00:00Z", "ann", 1, deeper_mm}, {&tested, 1}, {});
     EXPECT_TRUE(run) << run.error().text();
     return std::move(run).value();
+  }
+
+  RememberedRun run(const ClashModel& m, const clash::Options& options) {
+    return run(m, {}, 1, options);
   }
 
   std::vector<ListedClash> clashes() { return list_clashes(*database_, {}).value(); }
@@ -83,6 +87,24 @@ TEST_F(Remembered, clashes_are_new_once_and_active_then_without_a_row_written) {
   EXPECT_EQ(second.trends[0].written, 0U);
   EXPECT_EQ(second.decided.counts[1], 3U);
   EXPECT_EQ(statuses(), (Statuses{"active", "active", "active"}));
+}
+
+TEST_F(Remembered, results_that_are_not_all_there_are_damage_and_not_less_clashes) {
+  run(row(4));
+  for (const char* const damage :
+       {"DELETE FROM report_part", "UPDATE report_part SET part = part + 1",
+        "INSERT INTO report_part SELECT test, part + 1, data FROM report_part",
+        "UPDATE test SET seal = x''", "UPDATE test SET seal = zeroblob(16)"}) {
+    SCOPED_TRACE(damage);
+    ASSERT_TRUE(database_->execute("SAVEPOINT before"));
+    ASSERT_TRUE(database_->execute(damage));
+    const Result<std::optional<StoredTest>> read = read_test(*database_, "", {});
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::input);
+    EXPECT_NE(read.error().text().find("is damaged"), std::string::npos) << read.error().text();
+    ASSERT_TRUE(database_->execute("ROLLBACK TO before; RELEASE before"));
+  }
+  EXPECT_TRUE(read_test(*database_, "", {}));
 }
 
 TEST_F(Remembered, decisions_hold_and_settle) {
@@ -192,6 +214,87 @@ TEST_F(Remembered, a_rule_that_allows_resolves_and_one_that_exempts_cannot_tell)
   EXPECT_EQ(statuses(), Statuses{"active"});
 }
 
+TEST_F(Remembered, a_test_that_reaches_less_far_cannot_tell_on_any_later_night) {
+  clash::Options far;
+  far.tolerances.clearance_mm = 25;
+  run(row(2, -20), far);
+  ASSERT_EQ(clashes()[0].row.now.cls, clash::Class::clearance_violation);
+  for (int night = 0; night < 3; ++night) {
+    EXPECT_EQ(run(row(2, -20)).trends[0].cannot_tell, 1U) << night;
+    EXPECT_EQ(clashes()[0].row.unknown, "the test does not reach as far as it did") << night;
+    EXPECT_EQ(statuses(), Statuses{"active"}) << night;
+  }
+  run(row(2, -50), far);
+  EXPECT_EQ(statuses(), Statuses{"resolved"}) << "it reaches as far again, and they are apart";
+}
+
+TEST_F(Remembered, another_reason_in_between_does_not_hide_that_a_test_reaches_less_far) {
+  clash::Options far;
+  far.tolerances.clearance_mm = 25;
+  run(row(2, -20), far);
+  ClashModel early = row(2, -20);
+  early.model.files[0].ends_early = true;
+  run(early);
+  EXPECT_EQ(clashes()[0].row.unknown, "t.obj ends early");
+  run(row(2, -20));
+  EXPECT_EQ(clashes()[0].row.unknown, "the test does not reach as far as it did");
+}
+
+TEST_F(Remembered, lines_that_are_not_checked_any_more_stay_unknown) {
+  geometry::Polylines line;
+  line.points = {{-50, 50, 40}, {150, 50, 40}};
+  line.first = {0, 2};
+  ClashModel m = row(1);
+  m.object("line").body(line);
+  clash::Options curves;
+  curves.engine.curves = clash::Curves::on;
+  run(m, curves);
+  ASSERT_EQ(clashes().size(), 1U);
+  for (int night = 0; night < 3; ++night) {
+    run(m);
+    EXPECT_EQ(clashes()[0].row.unknown, "lines are not checked any more") << night;
+  }
+  EXPECT_EQ(statuses(), Statuses{"active"});
+}
+
+TEST_F(Remembered, a_mesh_that_became_open_stays_unknown_until_it_is_closed) {
+  const auto within = [](bool open) {
+    ClashModel m;
+    m.box("hull", {0, 0, 0}, {1000, 1000, 1000});
+    m.box("inner", {400, 400, 400}, {600, 600, 600});
+    auto& mesh = std::get<geometry::TriangleMesh>(m.model.shapes[0]);
+    if (open) mesh.triangles.resize(2);
+    return m;
+  };
+  run(within(false));
+  ASSERT_EQ(clashes().size(), 1U);
+  for (int night = 0; night < 3; ++night) {
+    run(within(true));
+    EXPECT_NE(clashes()[0].row.unknown.find("'hull' has surfaces that enclose nothing"),
+              std::string::npos)
+        << night;
+  }
+  EXPECT_EQ(statuses(), Statuses{"active"});
+  run(within(false));
+  EXPECT_EQ(clashes()[0].row.unknown, "");
+}
+
+TEST_F(Remembered, a_violation_that_closes_to_a_counted_contact_is_not_resolved) {
+  clash::Options options;
+  options.tolerances.clearance_mm = 25;
+  options.engine.contacts = clash::Contacts::count;
+  options.engine.keep_for_changes = true;
+  run(row(3, -20), options);
+  ASSERT_EQ(statuses(), (Statuses{"new", "new"}));
+  decide(0, DecisionStatus::approved);
+  ClashModel closed;  // The first two touch, and the third is far away.
+  closed.box("c0", {0, 0, 0}, {100, 100, 100}).box("c1", {100, 0, 0}, {200, 100, 100});
+  closed.box("c2", {900, 0, 0}, {1000, 100, 100});
+  run(closed, options);
+  EXPECT_EQ(clashes()[0].row.unknown, "it is among the contacts, which are only counted");
+  EXPECT_EQ(statuses(), (Statuses{"approved", "resolved"})) << "of the other it is known";
+}
+
 TEST_F(Remembered, one_change_among_many_writes_a_handful_of_rows) {
   run(row(300));
   ClashModel moved = row(300);
@@ -220,11 +323,64 @@ TEST_F(Remembered, keys_and_decisions_follow_files_that_exchange_their_names) {
   EXPECT_EQ(clashes()[0].row.b.file, "z.obj");
 }
 
+TEST_F(Remembered, who_sees_to_a_clash_leaves_an_event_and_empty_texts_clear) {
+  run(row(2));
+  const std::vector<std::string> keys{clashes()[0].row.key};
+  ClashDecision decision;
+  decision.by = "bob";
+  decision.at = "2026-01-02T00:00:00Z";
+  decision.assignee = "ann";
+  EXPECT_EQ(project::decide(*database_, keys, decision).value(), 1U);
+  EXPECT_EQ(project::decide(*database_, keys, decision).value(), 0U) << "it is so already";
+  decision.assignee.reset();
+  decision.comment = "soon";
+  EXPECT_EQ(project::decide(*database_, keys, decision).value(), 1U);
+  decision.assignee = decision.comment = "";
+  EXPECT_EQ(project::decide(*database_, keys, decision).value(), 1U);
+  EXPECT_EQ(clashes()[0].row.assignee, "");
+  EXPECT_EQ(clashes()[0].row.comment, "");
+  std::vector<std::string> comments;
+  const std::vector<ClashEvent> events = read_events(*database_, keys[0]).value();
+  for (const ClashEvent& event : events) comments.push_back(event.comment);
+  EXPECT_EQ(comments, (std::vector<std::string>{"assigned to ann", "soon",
+                                                "the comment is taken back; assigned to nobody"}));
+}
+
+TEST_F(Remembered, clashes_of_a_test_that_never_ran_are_an_error) {
+  ClashFilter filter;
+  filter.test = "nope";
+  EXPECT_EQ(list_clashes(*database_, filter).error().code, ErrorCode::usage);
+  run(row(2));
+  ASSERT_TRUE(database_->execute("UPDATE test SET name = 'all'"));
+  EXPECT_EQ(list_clashes(*database_, filter).error().mend, "there are 'all'");
+  filter.test = "all";
+  EXPECT_EQ(list_clashes(*database_, filter).value().size(), 1U);
+}
+
 TEST_F(Remembered, an_unknown_key_is_an_error) {
   run(row(2));
   const std::vector<std::string> keys{"none"};
   EXPECT_FALSE(project::decide(*database_, keys, {}));
   EXPECT_FALSE(read_events(*database_, "none"));
+}
+
+TEST_F(Remembered, a_damaged_result_names_its_test) {
+  run(row(2));
+  ASSERT_TRUE(database_->execute("UPDATE test SET snapshot = x'00'"));
+  EXPECT_NE(read_test(*database_, "", {}).error().where.find("the test of the command line"),
+            std::string::npos);
+  ASSERT_TRUE(database_->execute("UPDATE test SET name = 'all'"));
+  EXPECT_NE(read_test(*database_, "all", {}).error().where.find("the result of test 'all'"),
+            std::string::npos);
+}
+
+TEST_F(Remembered, the_tests_of_the_last_run_are_those_that_it_ran) {
+  run(row(2));
+  EXPECT_EQ(last_tests(*database_).value(), std::vector<std::string>{""});
+  ASSERT_TRUE(database_->execute("UPDATE test SET name = 'before'"));
+  run(row(2));
+  EXPECT_EQ(test_names(*database_).value(), (std::vector<std::string>{"before", ""}));
+  EXPECT_EQ(last_tests(*database_).value(), std::vector<std::string>{""});
 }
 
 TEST_F(Remembered, the_trend_has_each_run) {

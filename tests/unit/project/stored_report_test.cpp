@@ -18,16 +18,18 @@ namespace strake::project {
 namespace {
 
 RememberedReport remembered(clash::Report report) {
-  RememberedReport all{std::move(report), {}};
+  RememberedReport all{std::move(report), {}, {}};
   for (std::size_t i = 0; i < all.report.pairs.size(); ++i)
     all.rows.push_back(all.report.pairs[i].allowed < 0 ? static_cast<std::int64_t>(i + 1) : 0);
   return all;
 }
 
 EncodedReport encoded(const RememberedReport& all, const std::vector<std::byte>& head) {
-  EncodedReport bytes{head, {}};
+  EncodedReport bytes{head, {}, {}, {}};
+  std::vector<Hash128> hashes;
   for (const PartRange& part : parts_of(all.report, all.report.in_a.size()))
-    bytes.parts.push_back(encode_part(all, part).value());
+    hashes.push_back(hash_bytes(bytes.parts.emplace_back(encode_part(all, part).value())));
+  bytes.seal = seal_of(head, {}, hashes);
   return bytes;
 }
 
@@ -80,17 +82,16 @@ TEST(StoredReport, with_contacts_that_are_counted_is_read_as_it_was_written) {
 
 TEST(StoredReport, under_rules_is_read_as_it_was_written) {
   const auto ship = generate::generate_ship({1500, 3}, {}).value();
-  const auto rules = rules::Rules::parse(R"toml([[test]]
-name = "all"
-clearance = "20mm"
-min_volume = "1cm3"
-[[discipline]]
+  const auto rules = rules::Rules::parse(R"toml([[discipline]]
 name = "meshes"
 select = "type = mesh"
 [[discipline]]
 name = "rest"
 select = "*"
 [matrix]
+name = "all"
+clearance = "20mm"
+min_volume = "1cm3"
 missing = "checked"
 [matrix.cells.meshes]
 meshes = { clearance = "5mm" }
@@ -154,11 +155,38 @@ TEST(StoredReport, refuses_any_byte_that_changed) {
   m.box("b", {80, 0, 0}, {200, 100, 100});
   const RememberedReport good = remembered(m.detect());
   const std::vector<std::byte> head = encode_head(good.report).value();
+  EncodedReport stored = encoded(good, head);
+  ASSERT_TRUE(decode_report(stored, 2, "it", {}));
   for (std::size_t i = 0; i < head.size(); ++i) {
     std::vector<std::byte> bad = head;
     bad[i] ^= std::byte{0x10};
-    EXPECT_FALSE(decode_report(encoded(good, bad), 2, "it", {})) << i;
+    stored.head = bad;
+    EXPECT_FALSE(decode_report(stored, 2, "it", {})) << i;
   }
+}
+
+TEST(StoredReport, refuses_parts_that_are_missing_too_many_or_of_another_run) {
+  const RememberedReport good = remembered(of_ship(measured()));
+  const std::size_t objects = good.report.in_a.size();
+  const std::vector<std::byte> head = encode_head(good.report).value();
+  const EncodedReport stored = encoded(good, head);
+  ASSERT_GT(stored.parts.size(), 1U);
+  const auto refused = [&](auto&& change) {
+    EncodedReport bad = stored;
+    change(bad);
+    return !decode_report(bad, objects, "it", {});
+  };
+  EXPECT_FALSE(refused([](EncodedReport&) {}));
+  EXPECT_TRUE(refused([](EncodedReport& e) { e.parts.pop_back(); }));
+  EXPECT_TRUE(refused([](EncodedReport& e) { e.parts.clear(); }));
+  EXPECT_TRUE(refused([](EncodedReport& e) { e.parts.push_back(e.parts.back()); }));
+  RememberedReport earlier = good;
+  earlier.report.pairs.front().d_mm -= 1;
+  const PartRange first = parts_of(earlier.report, objects).front();
+  ASSERT_GT(first.last_pair, first.first_pair);
+  const std::vector<std::byte> of_earlier = encode_part(earlier, first).value();
+  EXPECT_TRUE(refused([&](EncodedReport& e) { e.parts.front() = of_earlier; }));
+  EXPECT_TRUE(refused([&](EncodedReport& e) { e.kept = head; }));
 }
 
 }  // namespace
