@@ -75,6 +75,15 @@ class ProjectDraw(Scenario):
                 self.same(f'a.{name}', f'f.{name}')
             self.assertIn('nothing solved again', self.told('--stored', 'hall'))
 
+    def test_a_file_of_another_name_is_not_solved_again(self):
+        self.save(*VIEW)
+        (self.folder / 'm.obj').rename(self.folder / 'b.obj')
+        self.text('project', 'update', 'p.strake', 'b.obj', '--match-files', 'm.obj=b.obj')
+        self.assertIn('nothing solved again', self.told('--stored', 'hall', '-o', 'a.svg', '-o', 'a.json'))
+        self.text('draw', 'b.obj', *WAYS, *VIEW, '-o', 'f.svg', '-o', 'f.json')
+        self.same('a.svg', 'f.svg')
+        self.same('a.json', 'f.json')
+
     def test_the_file_alone_holds_all(self):
         self.save(*VIEW)
         for command in (('project', 'info', 'p.strake'), ('draw', '-p', 'p.strake', '--stored', 'hall', '-o', 'a.svg'),
