@@ -355,13 +355,15 @@ Status whole_number(std::uint64_t& value, const std::string& text, const std::st
 }
 
 Status check_no_empty_values(const CLI::App& command) {
-  for (const CLI::Option* const option : command.get_options())
+  for (const CLI::Option* const option : command.get_options()) {
+    if (option->get_type_name().ends_with(kOrEmpty)) continue;
     for (const std::string& value : option->results())
       if (value.empty())
         return usage("the value is empty",
                      option->get_positional() ? option->get_type_name() : option->get_name(),
                      option->get_positional() ? "give a value, or leave it out"
                                               : "give a value, or leave the option out");
+  }
   for (const CLI::App* const inner : command.get_subcommands())
     if (Status status = check_no_empty_values(*inner); !status) return status;
   return {};

@@ -45,8 +45,11 @@ CLI::Option* add_match_files_option(CLI::App& command, std::vector<std::string>&
 CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
                         const std::vector<std::string>& words, const std::string& help);
 
+/// The end of the type of an option for which an empty value has a meaning of its own.
+inline constexpr std::string_view kOrEmpty = "|''";
+
 /// Returns an error where an option of the command, or of the one within it, was given an empty
-/// value: an unset variable of a script is no default.
+/// value, but for types that end in kOrEmpty: an unset variable of a script is no default.
 [[nodiscard]] Status check_no_empty_values(const CLI::App& command);
 
 /// Returns the number of workers asked for, or the machine's own.

@@ -98,8 +98,8 @@ Verb add_clash_list(CLI::App& clash, CommonOptions& common) {
   command
       ->add_option_function<std::string>(
           "--test", [options](const std::string& name) { options->test = name; },
-          "Those of this test")
-      ->type_name("NAME");
+          "Those of this test; '' is the test of the command line")
+      ->type_name("NAME|''");
   add_list_options(*command, *options, common);
   command->footer(R"(
 The CSV is a file of decisions, as 'strake clash --decisions' takes it.

@@ -251,12 +251,12 @@ Verb add_clash_set(CLI::App& clash, CommonOptions& common) {
       ->add_option_function<std::string>(
           "--comment", [options](const std::string& text) { options->comment = text; },
           "Why; '' takes it back")
-      ->type_name("TEXT");
+      ->type_name("TEXT|''");
   command
       ->add_option_function<std::string>(
           "--assignee", [options](const std::string& name) { options->assignee = name; },
           "Who sees to it; '' for nobody")
-      ->type_name("NAME");
+      ->type_name("NAME|''");
   command->add_option("--by", options->by, "Who decides (default: the user)")->type_name("NAME");
   add_common_options(*command, common);
   command->footer(R"(

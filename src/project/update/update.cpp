@@ -16,8 +16,8 @@
 #include "core/text_encoding.hpp"
 #include "project/database/database.hpp"
 #include "project/model/model_store.hpp"
-#include "project/results/rename_files.hpp"
 #include "project/update/file_plan.hpp"
+#include "project/update/rename_files.hpp"
 #include "project/update/revision_store.hpp"
 
 namespace strake::project {

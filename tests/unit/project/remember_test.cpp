@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "project/database/result_tables.hpp"
+#include "project/database/view_tables.hpp"
 #include "project/results/clash_queries.hpp"
-#include "project/results/rename_files.hpp"
+#include "project/update/rename_files.hpp"
 #include "strake/clash/incremental.hpp"
 #include "support/clash_model.hpp"
 
@@ -35,6 +36,7 @@ class Remembered : public ::testing::Test {
   void SetUp() override {
     database_ = std::move(Database::in_memory()).value();
     ASSERT_TRUE(database_->execute(kResultTables));
+    ASSERT_TRUE(database_->execute(kViewTables));
   }
 
   /// Tests the model in full and remembers the run.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "project/results/rename_files.hpp"
+#include "project/update/rename_files.hpp"
 
 #include <cstdint>
 #include <map>
