@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "core/glob.hpp"
-#include "core/seeded_hash.hpp"
 #include "core/number.hpp"
+#include "core/seeded_hash.hpp"
 #include "model/assemblies.hpp"
 #include "model/attributes.hpp"
 #include "model/ends/end_joints.hpp"
