@@ -83,7 +83,7 @@ OWN_CONCURRENCY = {
     'cli/evaluate/time_limit.hpp': 'a run that may take too long is stopped from outside',
     'cli/output/console.cpp': 'lines of several threads on one terminal, one of them the progress of a run',
     'cli/output/console.hpp': 'lines of several threads on one terminal, one of them the progress of a run',
-    'cli/run/child_process.cpp': 'starts another program and waits for its end',
+    'src/core/child_process.cpp': 'starts another program and waits for its end',
     'cli/run/interrupts.cpp': 'waits for signals',
     'cli/run/interrupts.hpp': 'waits for signals',
     'cli/program.cpp': 'a file beyond the limit is an error of writing, no signal',

@@ -7,9 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "strake/parallel/context.hpp"
 #include "strake/parallel/host_executor.hpp"
 
 namespace strake::parallel {
+
+unsigned workers_of(const Context& context) {
+  return context.team == nullptr ? 1 : context.team->size();
+}
 
 bool Executor::run(FunctionRef<void(Seat)> body) noexcept {
   if (size_ == 1 || busy_.exchange(true, std::memory_order_acquire)) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/evaluate/peers/peer_rows.hpp"
-#include "cli/run/child_process.hpp"
+#include "core/child_process.hpp"
 #include "io/source/input_file.hpp"
 
 namespace strake::cli {

@@ -35,4 +35,8 @@ struct Context {
   std::size_t least_chunk = 1;
 };
 
+/// Returns how many workers a region of the run has: for other programs that are told how many
+/// threads they may take. What is computed must not depend on it.
+[[nodiscard]] unsigned workers_of(const Context& context);
+
 }  // namespace strake::parallel

@@ -26,18 +26,6 @@ namespace {
 using geometry::Placement;
 using geometry::Vec3d;
 
-/// Returns the standard's metres with y up, unless the file says otherwise as our own writer does.
-FrameDefault stated_frame(const JsonValue& root) {
-  FrameDefault frame{1000.0, UpAxis::y, true};
-  const JsonValue extras = root["asset"]["extras"];
-  if (const auto unit = extras["unit_mm"].number(); unit && *unit > 0 && *unit < 1e12)
-    frame.unit_mm = *unit;
-  const std::string up = extras["up_axis"].text_value();
-  if (up == "z") frame.up = UpAxis::z;
-  if (up == "x") frame.up = UpAxis::x;
-  return frame;
-}
-
 double largest_coordinate_of(const geometry::Box3d& box) {
   return box.empty() ? 0 : largest_coordinate(std::array{box.lo, box.hi});
 }
@@ -271,6 +259,17 @@ Result<model::Model> Importer::run() {
 }
 
 }  // namespace
+
+FrameDefault stated_frame(const JsonValue& root) {
+  FrameDefault frame{1000.0, UpAxis::y, true};
+  const JsonValue extras = root["asset"]["extras"];
+  if (const auto unit = extras["unit_mm"].number(); unit && *unit > 0 && *unit < 1e12)
+    frame.unit_mm = *unit;
+  const std::string up = extras["up_axis"].text_value();
+  if (up == "z") frame.up = UpAxis::z;
+  if (up == "x") frame.up = UpAxis::x;
+  return frame;
+}
 
 Error error_in_json(const FileBytes& file, Error error) {
   if (error.code == ErrorCode::cancelled) return cancelled(file);

@@ -3,6 +3,7 @@
 
 #include "io/gltf/container.hpp"
 #include "io/gltf/document.hpp"
+#include "io/source/units_and_axes.hpp"
 #include "strake/io/reader.hpp"
 
 namespace strake::io::gltf {
@@ -12,6 +13,9 @@ struct ImportInput {
   const ReadOptions& options;
   const parallel::Context& context;
 };
+
+/// Returns the standard's metres with y up, unless the file says otherwise as our own writer does.
+[[nodiscard]] FrameDefault stated_frame(const JsonValue& root);
 
 /// Turns a document whose version and extensions were checked into a model.
 [[nodiscard]] Result<model::Model> import_document(const ImportInput& input,

@@ -18,7 +18,7 @@
 #include "cli/evaluate/peers/peer_rows.hpp"
 #include "cli/evaluate/peers/peer_runs.hpp"
 #include "cli/evaluate/record_json.hpp"
-#include "cli/run/child_process.hpp"
+#include "core/child_process.hpp"
 #include "support/io_files.hpp"
 
 namespace strake::cli {

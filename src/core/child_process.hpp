@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
 
-namespace strake::cli {
+namespace strake {
 
 /// Which processes end with a child that is killed.
 enum class KilledWith : std::uint8_t {
@@ -20,9 +24,13 @@ enum class KilledWith : std::uint8_t {
 /// Another program, run without a shell.
 struct ChildProgram {
   std::vector<std::string> words;  ///< the first is searched in PATH where it has no slash
-  double limit_s = 0;              ///< after which it is killed
+  std::optional<double> limit_s;   ///< after which it is killed
   std::filesystem::path log;       ///< takes all that it writes, and stays
+  /// A log that grows longer is begun anew: a program that repeats one warning may fill a disk.
+  std::uintmax_t most_log_bytes = std::numeric_limits<std::uintmax_t>::max();
   KilledWith killed_with = KilledWith::its_group;
+  /// Asked every few milliseconds where there is one; the child is killed when it says no.
+  std::function<bool()> may_go_on;
 };
 
 /// How a child ended.
@@ -31,6 +39,7 @@ struct ChildEnd {
     exited,
     not_started,  ///< it is not there, or no program
     over_limit,   ///< killed for its time
+    refused,      ///< killed because `may_go_on` said no
     stopped,      ///< killed because the run was stopped
     killed,       ///< by a signal that is not ours
   } how = How::exited;
@@ -38,12 +47,15 @@ struct ChildEnd {
   std::string output;  ///< the last of what the log holds, a megabyte at most
 };
 
-/// Runs a program to its end, to its limit or until `stop` is requested. It reads nothing, and no
-/// signal is blocked or ignored for it.
+/// Runs a program to its end, to its limit or until `stop` is requested. It reads nothing, has none
+/// of our open files, and no signal is blocked or ignored for it.
 [[nodiscard]] ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop);
 
 /// Returns the end of an output in so many bytes at most, from the beginning of a line where there
 /// is one.
 [[nodiscard]] std::string tail_of(const std::string& output, std::size_t bytes);
 
-}  // namespace strake::cli
+/// Returns "signal 11 (segmentation fault)".
+[[nodiscard]] std::string signal_text(int signal);
+
+}  // namespace strake

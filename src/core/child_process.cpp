@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/child_process.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <thread>
+
+namespace strake {
+
+namespace {
+
+/// How a child is started: its files, its group and its signals.
+class SpawnOptions {
+ public:
+  SpawnOptions(const std::filesystem::path& log, KilledWith killed_with) {
+    ::posix_spawn_file_actions_init(&files_);
+    ::posix_spawn_file_actions_addopen(&files_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    constexpr mode_t kMode = 0644;
+    ::posix_spawn_file_actions_addopen(&files_, STDOUT_FILENO, log.c_str(),
+                                       O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, kMode);
+    ::posix_spawn_file_actions_adddup2(&files_, STDOUT_FILENO, STDERR_FILENO);
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
+    // Files that other threads have opened by streams, which do not close themselves.
+    ::posix_spawn_file_actions_addclosefrom_np(&files_, STDERR_FILENO + 1);
+#endif
+    ::posix_spawnattr_init(&attributes_);
+    sigset_t none, ignored_by_us;
+    sigemptyset(&none);
+    sigemptyset(&ignored_by_us);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) sigaddset(&ignored_by_us, signal);
+    ::posix_spawnattr_setsigmask(&attributes_, &none);
+    ::posix_spawnattr_setsigdefault(&attributes_, &ignored_by_us);
+    int flags = POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF;
+    if (killed_with == KilledWith::its_group) flags |= POSIX_SPAWN_SETPGROUP;
+    ::posix_spawnattr_setflags(&attributes_, static_cast<short>(flags));
+  }
+  ~SpawnOptions() {
+    ::posix_spawnattr_destroy(&attributes_);
+    ::posix_spawn_file_actions_destroy(&files_);
+  }
+  SpawnOptions(const SpawnOptions&) = delete;
+  SpawnOptions& operator=(const SpawnOptions&) = delete;
+  SpawnOptions(SpawnOptions&&) = delete;
+  SpawnOptions& operator=(SpawnOptions&&) = delete;
+
+  /// Starts the program; -1 where that cannot be done.
+  [[nodiscard]] pid_t start(const std::vector<std::string>& words) const {
+    std::vector<char*> arguments;
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    pid_t process = -1;
+    const int fault =
+        ::posix_spawnp(&process, arguments[0], &files_, &attributes_, arguments.data(), environ);
+    return fault == 0 ? process : -1;
+  }
+
+ private:
+  posix_spawn_file_actions_t files_{};
+  posix_spawnattr_t attributes_{};
+};
+
+/// A child that has begun. None outlives the value, whatever is thrown meanwhile.
+class Child {
+ public:
+  Child(pid_t process, KilledWith killed_with) : process_(process), killed_with_(killed_with) {}
+  ~Child() {
+    if (process_ > 0) end();
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  Child(Child&&) = delete;
+  Child& operator=(Child&&) = delete;
+
+  /// Whether it has ended. It stays known to the system until end(), so that what it left running
+  /// can still be found by its group.
+  [[nodiscard]] bool has_ended() const {
+    siginfo_t info{};
+    const int fault =
+        ::waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT);
+    return fault != 0 || info.si_pid == process_;
+  }
+  /// Kills what belongs to it, itself if it has not ended, and returns how it ended.
+  int end() {
+    int status = 0;
+    ::kill(killed_with_ == KilledWith::its_group ? -process_ : process_, SIGKILL);
+    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = -1;
+    return status;
+  }
+
+ private:
+  pid_t process_;
+  KilledWith killed_with_;
+};
+
+constexpr std::size_t kMostOutput = std::size_t{1} << 20U;
+
+/// Returns the end of a file.
+std::string end_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in.tellg();
+  in.seekg(std::max<std::streamoff>(0, size - static_cast<std::streamoff>(kMostOutput)));
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// What a child writes. It appends, so that a log that is cut to nothing goes on from there.
+class Log {
+ public:
+  explicit Log(const ChildProgram& program)
+      : file_(program.log), most_bytes_(program.most_log_bytes) {}
+
+  void keep_short() {
+    std::error_code failed;
+    const std::uintmax_t size = std::filesystem::file_size(file_, failed);
+    if (failed || size <= most_bytes_) return;
+    before_ = end_of(file_);
+    std::filesystem::resize_file(file_, 0, failed);
+  }
+  [[nodiscard]] std::string end() const {
+    const std::string text = before_ + end_of(file_);
+    return text.substr(text.size() - std::min(text.size(), kMostOutput));
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::uintmax_t most_bytes_;
+  std::string before_;
+};
+
+/// Returns why a child has to end before it has, if it has.
+std::optional<ChildEnd::How> reason_to_end(const ChildProgram& program,
+                                           std::chrono::duration<double> age,
+                                           const std::stop_token& stop) {
+  if (stop.stop_requested()) return ChildEnd::How::stopped;
+  if (program.limit_s && age.count() >= *program.limit_s) return ChildEnd::How::over_limit;
+  if (program.may_go_on && !program.may_go_on()) return ChildEnd::How::refused;
+  return std::nullopt;
+}
+
+ChildEnd wait_for(Child& child, const ChildProgram& program, Log& log,
+                  const std::stop_token& stop) {
+  // Shorter than the time in which a program that was told to stop must have ended.
+  constexpr auto kLook = std::chrono::milliseconds(5);
+  const auto begin = std::chrono::steady_clock::now();
+  while (!child.has_ended()) {
+    if (const auto why = reason_to_end(program, std::chrono::steady_clock::now() - begin, stop)) {
+      child.end();
+      return {*why, 0, {}};
+    }
+    log.keep_short();
+    std::this_thread::sleep_for(kLook);
+  }
+  const int status = child.end();
+  if (WIFEXITED(status)) return {ChildEnd::How::exited, WEXITSTATUS(status), {}};
+  return {ChildEnd::How::killed, WTERMSIG(status), {}};
+}
+
+}  // namespace
+
+ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop) {
+  const pid_t process = SpawnOptions(program.log, program.killed_with).start(program.words);
+  if (process < 0) return {ChildEnd::How::not_started, 0, {}};
+  Child child(process, program.killed_with);
+  Log log(program);
+  ChildEnd end = wait_for(child, program, log, stop);
+  end.output = log.end();
+  return end;
+}
+
+std::string signal_text(int signal) {
+  struct Known {
+    int signal;
+    const char* name;
+  };
+  constexpr std::array<Known, 7> kKnown{{{SIGSEGV, "segmentation fault"},
+                                         {SIGABRT, "abort"},
+                                         {SIGBUS, "bus error"},
+                                         {SIGFPE, "arithmetic fault"},
+                                         {SIGILL, "illegal instruction"},
+                                         {SIGKILL, "killed, as when memory runs out"},
+                                         {SIGTERM, "terminated"}}};
+  std::string text = "signal " + std::to_string(signal);
+  const auto* const known = std::ranges::find(kKnown, signal, &Known::signal);
+  if (known != kKnown.end()) text.append(" (").append(known->name).append(")");
+  return text;
+}
+
+std::string tail_of(const std::string& output, std::size_t bytes) {
+  const std::size_t last = output.find_last_not_of(" \n\r\t");
+  if (last == std::string::npos) return {};
+  const std::string text = output.substr(0, last + 1);
+  if (text.size() <= bytes) return text;
+  const std::string tail = text.substr(text.size() - bytes);
+  const std::size_t line = tail.find('\n');
+  return line == std::string::npos ? tail : tail.substr(line + 1);
+}
+
+}  // namespace strake

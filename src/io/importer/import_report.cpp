@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/importer/import_report.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/text_encoding.hpp"
+
+namespace strake::io {
+namespace {
+
+constexpr std::string_view kOdd = "import-report", kOther = "import-other";
+
+/// Returns a text as messages show it: one line of valid characters, cut where it is very long.
+std::string short_text(const gltf::JsonValue& value, std::size_t most) {
+  if (!value.is_string()) return {};
+  std::string text = printable(value.text_value());
+  if (text.size() <= most) return text;
+  std::size_t kept = most;
+  while (kept > 0 && (static_cast<unsigned char>(text[kept]) & 0xC0U) == 0x80U) --kept;
+  return text.substr(0, kept) + "...";
+}
+
+bool is_code(std::string_view text) {
+  constexpr std::size_t kLongest = 64;
+  return !text.empty() && text.size() <= kLongest && std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  });
+}
+
+std::optional<Severity> severity_of(std::string_view name) {
+  for (const Severity severity : {Severity::note, Severity::warning, Severity::skipped})
+    if (name == severity_name(severity)) return severity;
+  return std::nullopt;
+}
+
+constexpr std::size_t kLongestMessage = 1000, kLongestName = 100;
+
+}  // namespace
+
+void ImportReport::feed(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const std::size_t end = std::min(bytes.find('\n'), bytes.size());
+    if (line_.size() + end > kLongestLine) {
+      too_long_ = true;
+      line_.clear();
+    }
+    if (!too_long_) line_ += bytes.substr(0, end);
+    if (end < bytes.size()) take_line();
+    bytes.remove_prefix(std::min(end + 1, bytes.size()));
+  }
+}
+
+void ImportReport::end() { take_line(); }
+
+void ImportReport::note_odd() {
+  facts_.diagnostics.add(Severity::warning, kOdd,
+                         "a line of the importer's report cannot be understood", {});
+}
+
+void ImportReport::take_line() {
+  const std::string line = std::exchange(line_, {});
+  if (std::exchange(too_long_, false)) return note_odd();
+  if (trimmed(line, " \t\r").empty()) return;
+  const Result<gltf::JsonDocument> document = gltf::JsonDocument::parse(line);
+  if (!document || !document->root().is_object()) return note_odd();
+  const auto [progress, severity, error, made_by] =
+      document->root().pick<4>({"progress", "severity", "error", "made_by"});
+  if (error.is_string()) {
+    fault_ = {short_text(error, kLongestMessage),
+              short_text(document->root()["mend"], kLongestMessage)};
+  } else if (severity.is_string()) {
+    take_diagnostic(document->root(), severity.text_value());
+  } else if (made_by.is_string()) {
+    take_end(document->root());
+  } else if (const std::optional<double> done = progress.number()) {
+    if (*done > progress_) progress_ = std::min(*done, 1.0);
+  } else {
+    note_odd();
+  }
+}
+
+void ImportReport::take_diagnostic(const gltf::JsonValue& line, std::string_view severity) {
+  const std::optional<Severity> known = severity_of(severity);
+  if (!known) return note_odd();
+  std::string code = line["code"].text_value();
+  const auto& counts = facts_.diagnostics.counts();
+  const auto before = std::ranges::find(counts, code, &Diagnostics::Count::code);
+  const bool fits =
+      before == counts.end() ? counts.size() < kMostCodes : before->severity == *known;
+  // All of one code count with the severity of the first.
+  if (!is_code(code) || !fits)
+    code = std::string(kOther) + '-' + std::string(severity_name(*known));
+  facts_.diagnostics.add(*known, code, short_text(line["message"], kLongestMessage),
+                         short_text(line["object"], kLongestName));
+}
+
+void ImportReport::take_end(const gltf::JsonValue& line) {
+  complete_ = true;
+  facts_.made_by = short_text(line["made_by"], kLongestName);
+  facts_.format = short_text(line["format"], kLongestName);
+  facts_.unit = short_text(line["unit"], kLongestName);
+  facts_.depends_on.clear();
+  line["depends_on"].elements([&](const gltf::JsonValue& file) {
+    if (file.is_string() && facts_.depends_on.size() < kMostDepends)
+      facts_.depends_on.push_back(file.text_value());
+  });
+}
+
+}  // namespace strake::io
