@@ -2,14 +2,20 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "io/importer/find_importer.hpp"
+#include "io/importer/importing_reader.hpp"
 #include "io/source/input_file.hpp"
 #include "io/source/reader_support.hpp"
+#include "strake/io/importer.hpp"
 #include "strake/io/reader.hpp"
 
 namespace strake::io {
@@ -17,12 +23,23 @@ namespace {
 
 using Readers = std::vector<std::unique_ptr<Reader>>;
 
-const Reader* best_reader(const Readers& readers, const FileBytes& file) {
-  const Reader* best = nullptr;
-  int sureness = 0;
+/// Returns the readers that need no other program.
+Readers own_readers() {
+  Readers readers;
+  readers.push_back(make_rvm_reader());
+  readers.push_back(make_gltf_reader());
+  readers.push_back(make_obj_reader());
+  readers.push_back(make_stl_reader());
+  return readers;
+}
+
+/// Returns the reader that is surest; `last` reads where no other is as sure.
+const Reader* best_reader(const Readers& readers, const FileBytes& file, const Reader& last) {
+  int sureness = last.recognise(file);
+  const Reader* best = sureness > 0 ? &last : nullptr;
   for (const std::unique_ptr<Reader>& reader : readers) {
     const int mine = reader->recognise(file);
-    if (mine <= sureness) continue;
+    if (mine < sureness || mine == 0 || (mine == sureness && best != &last)) continue;
     best = reader.get();
     sureness = mine;
   }
@@ -30,30 +47,22 @@ const Reader* best_reader(const Readers& readers, const FileBytes& file) {
 }
 
 /// Returns how a file of that suffix is made into one that is read.
-std::string_view conversion_of(std::string_view suffix) {
-  struct Known {
-    std::string_view suffix, advice;
-  };
-  constexpr std::string_view kIfc = "; convert it first: IfcConvert model.ifc model.glb";
-  constexpr std::string_view kCad = "; open it in a CAD program, as FreeCAD, and export it as glTF";
-  constexpr std::string_view kMesh = "; open it in Blender and export it as glTF";
-  constexpr std::array<Known, 11> kKnown{{{".ifc", kIfc},
-                                          {".ifczip", kIfc},
-                                          {".ifcxml", kIfc},
-                                          {".step", kCad},
-                                          {".stp", kCad},
-                                          {".iges", kCad},
-                                          {".igs", kCad},
-                                          {".brep", kCad},
-                                          {".ply", kMesh},
-                                          {".fbx", kMesh},
-                                          {".dae", kMesh}}};
-  const auto found = std::ranges::find(kKnown, suffix, &Known::suffix);
-  return found == kKnown.end() ? std::string_view("; export the model as one of these")
-                               : found->advice;
+std::string conversion_of(std::string_view suffix) {
+  constexpr std::array<std::string_view, 5> kCad{"step", "stp", "iges", "igs", "brep"};
+  constexpr std::array<std::string_view, 3> kMesh{"ply", "fbx", "dae"};
+  std::string advice;
+  if (std::ranges::find(kCad, suffix) != kCad.end())
+    advice = "; open it in a CAD program, as FreeCAD, and export it as glTF";
+  if (std::ranges::find(kMesh, suffix) != kMesh.end())
+    advice = "; open it in Blender and export it as glTF";
+  if (advice.empty()) return "; export the model as one of these";
+  return advice.append("; a program strake-import-")
+      .append(suffix)
+      .append(" in PATH would be taken, too");
 }
 
 Error unknown_format(const Readers& readers, const FileBytes& file) {
+  if (std::optional<Error> missing = missing_importer(file)) return std::move(*missing);
   std::string formats;
   for (std::size_t r = 0; r < readers.size(); ++r) {
     const std::string_view format = readers[r]->format();
@@ -63,47 +72,89 @@ Error unknown_format(const Readers& readers, const FileBytes& file) {
         .append(format == "glTF" ? "glTF/GLB" : format);
   }
   return {ErrorCode::input, "unsupported format", file.path.string(),
-          "Strake reads " + formats + std::string(conversion_of(lower_extension(file.path)))};
+          "Strake reads " + formats + conversion_of(importer_suffix(file.path))};
 }
 
-Result<model::Model> read_one(const Readers& readers, const std::filesystem::path& path,
-                              const ReadOptions& options, const parallel::Context& context) {
-  const Result<FileContent> content = FileContent::read(path, context);
+/// Reads the files of one call.
+class Reading {
+ public:
+  Reading(const Result<ImportSettings>& settings, const parallel::Context& context)
+      : importing_(settings), context_(context) {}
+
+  /// Has importers make what they read, several at once. That a file cannot be read is told when it
+  /// is its turn.
+  Status make_scenes(std::span<const FileToRead> files);
+  Result<model::Model> read(std::span<const FileToRead> files);
+  /// Returns the error of the first file that has no scene and should.
+  [[nodiscard]] Status scene_faults() const;
+
+ private:
+  Result<model::Model> read_one(const FileToRead& file);
+  [[nodiscard]] const Reader* reader_of(const FileBytes& file) const {
+    return best_reader(readers_, file, importing_);
+  }
+
+  const Readers readers_ = own_readers();
+  const ImportingReader importing_;
+  const parallel::Context& context_;
+  std::vector<SceneJob> jobs_;
+  ImportedScenes scenes_;
+};
+
+Status Reading::make_scenes(std::span<const FileToRead> files) {
+  for (const auto& [path, options] : files) {
+    if (!may_need_importer(path)) continue;
+    if (context_.stop.stop_requested())
+      return Error{ErrorCode::cancelled, "reading was cancelled", path.string(), ""};
+    const Result<FileContent> content = FileContent::read(path, context_);
+    if (!content || content->bytes().empty()) continue;
+    const FileBytes file{path, content->bytes()};
+    if (reader_of(file) != &importing_) continue;
+    if (std::optional<SceneJob> job = importing_.maker().job_of(file))
+      jobs_.push_back(std::move(*job));
+  }
+  scenes_ = importing_.maker().make_all(jobs_, context_);
+  return {};
+}
+
+Status Reading::scene_faults() const {
+  for (const SceneJob& job : jobs_)
+    if (const auto& scene = scenes_.at(job.key); !scene) return scene.error();
+  return {};
+}
+
+Result<model::Model> Reading::read_one(const FileToRead& to_read) {
+  const auto& [path, options] = to_read;
+  const Result<FileContent> content = FileContent::read(path, context_);
   if (!content) return content.error();
   const FileBytes file{path, content->bytes()};
   if (file.bytes.empty())
     return Error{ErrorCode::input, "is empty", path.string(), "export the model again"};
-  const Reader* const reader = best_reader(readers, file);
-  if (reader == nullptr) return unknown_format(readers, file);
+  const Reader* const reader = reader_of(file);
+  if (reader == nullptr) return unknown_format(readers_, file);
   try {
-    return reader->read(file, options, context);
-  } catch (const std::bad_alloc&) {
-    return out_of_memory();
+    if (reader == &importing_) return importing_.read_with(file, options, scenes_, context_);
+    return reader->read(file, options, context_);
   } catch (const std::length_error&) {
     return Error{ErrorCode::input, "is too large", path.string(), "split the file"};
   }
 }
 
-}  // namespace
-
-Result<model::Model> read_models(std::span<const FileToRead> files,
-                                 const parallel::Context& context) {
-  if (files.empty())
-    return Error{ErrorCode::usage, "no model file was given", "", "name at least one file"};
-  for (const FileToRead& file : files)
-    if (const auto& unit = file.options.unit_mm; unit && !(*unit > 0 && *unit < 1e12))
-      return Error{ErrorCode::usage, "the length of a unit must be positive and finite", "",
-                   "give a unit such as mm, m or in"};
-  const Readers readers = all_readers();
+Result<model::Model> Reading::read(std::span<const FileToRead> files) {
   model::Model all;
   // Diagnostics are reported in the order of the files' names, whatever the order in which they
   // were given.
   std::map<std::pair<std::string, std::string>, Diagnostics> diagnostics;
-  for (const auto& [path, options] : files) {
-    if (context.stop.stop_requested())
+  bool keeps_scenes = true;
+  for (const FileToRead& file : files) {
+    const std::filesystem::path& path = file.path;
+    if (context_.stop.stop_requested())
       return Error{ErrorCode::cancelled, "reading was cancelled", path.string(), ""};
-    Result<model::Model> one = read_one(readers, path, options, context);
+    Result<model::Model> one = read_one(file);
     if (!one) return one.error();
+    // That is of the run and not of a file, and said once.
+    if (one->diagnostics.count(kSceneNotKept) > 0 && !std::exchange(keeps_scenes, false))
+      one->diagnostics.remove(kSceneNotKept);
     diagnostics[{path.filename().string(), path.string()}].append(
         std::exchange(one->diagnostics, Diagnostics()));
     model::append(all, std::move(*one));
@@ -111,6 +162,47 @@ Result<model::Model> read_models(std::span<const FileToRead> files,
   for (const auto& [name, of_file] : diagnostics) all.diagnostics.append(of_file);
   model::finish(all);
   return all;
+}
+
+Result<model::Model> read_by(const Result<ImportSettings>& settings,
+                             std::span<const FileToRead> files, const parallel::Context& context) {
+  if (files.empty())
+    return Error{ErrorCode::usage, "no model file was given", "", "name at least one file"};
+  for (const FileToRead& file : files)
+    if (const auto& unit = file.options.unit_mm; unit && !(*unit > 0 && *unit < 1e12))
+      return Error{ErrorCode::usage, "the length of a unit must be positive and finite", "",
+                   "give a unit such as mm, m or in"};
+  try {
+    Reading reading(settings, context);
+    if (const Status made = reading.make_scenes(files); !made) return made.error();
+    return reading.read(files);
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
+}
+
+}  // namespace
+
+Result<model::Model> read_models(std::span<const FileToRead> files,
+                                 const parallel::Context& context) {
+  return read_by(import_settings_of_environment(), files, context);
+}
+
+Result<model::Model> read_models(std::span<const FileToRead> files, const ImportSettings& settings,
+                                 const parallel::Context& context) {
+  return read_by(settings, files, context);
+}
+
+Status make_scenes(std::span<const FileToRead> files, const parallel::Context& context) {
+  const Result<ImportSettings> settings = import_settings_of_environment();
+  if (!settings || !settings->cache) return {};
+  try {
+    Reading reading(settings, context);
+    if (Status made = reading.make_scenes(files); !made) return made;
+    return reading.scene_faults();
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  }
 }
 
 Result<model::Model> read_models(std::span<const std::filesystem::path> paths,
@@ -128,18 +220,16 @@ std::vector<std::filesystem::path> Reader::companions(const FileBytes& /*file*/,
 
 std::vector<std::filesystem::path> files_read_with(const FileBytes& file,
                                                    const parallel::Context& context) {
-  const Readers readers = all_readers();
-  const Reader* const reader = best_reader(readers, file);
+  const Readers readers = own_readers();
+  const ImportingReader importing(import_settings_of_environment());
+  const Reader* const reader = best_reader(readers, file, importing);
   return reader == nullptr ? std::vector<std::filesystem::path>()
                            : reader->companions(file, context);
 }
 
 std::vector<std::unique_ptr<Reader>> all_readers() {
-  std::vector<std::unique_ptr<Reader>> readers;
-  readers.push_back(make_rvm_reader());
-  readers.push_back(make_gltf_reader());
-  readers.push_back(make_obj_reader());
-  readers.push_back(make_stl_reader());
+  Readers readers = own_readers();
+  readers.push_back(std::make_unique<ImportingReader>(import_settings_of_environment()));
   return readers;
 }
 

@@ -36,7 +36,7 @@ struct FileBytes {
 class Reader {
  public:
   virtual ~Reader() = default;
-  /// Returns "RVM", "glTF", "OBJ" or "STL".
+  /// Returns "RVM", "glTF", "OBJ" or "STL"; "imported" of the one that runs importers.
   [[nodiscard]] virtual std::string_view format() const = 0;
   /// Returns how sure this reader is, from the content first and the extension as a tie-breaker: 0
   /// (not mine) to 100 (certain).
@@ -54,7 +54,8 @@ class Reader {
 [[nodiscard]] std::unique_ptr<Reader> make_obj_reader();
 [[nodiscard]] std::unique_ptr<Reader> make_stl_reader();
 
-/// Returns all readers of this build, in a fixed order.
+/// Returns all readers of this build, in a fixed order; the last runs importers as the environment
+/// says (strake/io/importer.hpp).
 [[nodiscard]] std::vector<std::unique_ptr<Reader>> all_readers();
 
 /// Returns the files that are read with a model file, as the attributes of an RVM file; none where
@@ -62,8 +63,9 @@ class Reader {
 [[nodiscard]] std::vector<std::filesystem::path> files_read_with(const FileBytes& file,
                                                                  const parallel::Context& context);
 
-/// Reads files into one finished model, each by the reader that recognises it best.
-/// A file that no reader recognises, or that holds nothing usable, is an error that names it.
+/// Reads files into one finished model, each by the reader that recognises it best. Importers are
+/// run at the same time where there are workers for it. A file that no reader recognises, or that
+/// holds nothing usable, is an error that names it.
 [[nodiscard]] Result<model::Model> read_models(std::span<const std::filesystem::path> paths,
                                                const ReadOptions& options,
                                                const parallel::Context& context);
