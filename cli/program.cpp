@@ -8,6 +8,7 @@
 #include <csignal>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/options/usage_error.hpp"
@@ -87,6 +88,7 @@ int run(int argc, char** argv) {
   const Verb draw = add_draw(program, common);
   const Verb info = add_info(program, common);
   std::vector<Verb> verbs = add_project_verbs(program, common);
+  for (Verb& verb : add_cache_verbs(program, common)) verbs.push_back(std::move(verb));
   verbs.insert(verbs.end(),
                {add_clash_diff(*clash.command, common), add_clash_set(*clash.command, common),
                 add_clash_list(*clash.command, common), add_clash_history(*clash.command, common),

@@ -17,8 +17,10 @@
 #include "cli/run/load.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/number.hpp"
+#include "io/importer/find_importer.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/io/importer.hpp"
 
 namespace strake::cli {
 
@@ -185,6 +187,26 @@ std::string info_text(const model::Model& model, const model::Scene& scene, cons
   return out;
 }
 
+/// Returns the formats that are read, and by which programs.
+std::string formats_text() {
+  std::string text =
+      "RVM          .rvm, binary and text, with attribute files\n"
+      "glTF 2.0     .glb, .gltf\n"
+      "OBJ          .obj, with materials\n"
+      "STL          .stl, binary and text";
+  const Result<io::ImportSettings> settings = io::import_settings_of_environment();
+  const std::vector<io::ImporterProgram> importers =
+      settings ? io::all_importers(settings->folders) : std::vector<io::ImporterProgram>();
+  for (const io::ImporterProgram& importer : importers) {
+    text += importer.suffix.empty()
+                ? fmt::format("\n{:<13}by importers of Python packages that {} knows", "others",
+                              importer.file.string())
+                : fmt::format("\n{:<13}by {}", '.' + importer.suffix, importer.file.string());
+  }
+  if (importers.empty()) text += "\nNo importer is found; that of IFC: pip install 'strake[ifc]'";
+  return text;
+}
+
 struct InfoOptions {
   InputOptions input;
   SceneInput scene;
@@ -226,6 +248,10 @@ Verb add_info(CLI::App& program, CommonOptions& common) {
   command->add_flag("--attributes", options->attributes,
                     "List the attributes of each file: how many objects state or inherit them, how "
                     "many different values there are, and the first of these");
+  // As --version does, it needs no files.
+  command->set_version_flag(
+      "--formats", formats_text,
+      "Print the formats that are read, with the importers that are found, and end");
   add_common_options(*command, common);
   command->footer(R"(
 Examples:

@@ -15,7 +15,8 @@ VERBS = [[], ['clash'], ['clash', 'diff'], ['clash', 'set'], ['clash', 'list'], 
          ['draw'], ['draw', 'diff'], ['info'],
          *[['project', *verb] for verb in ([], ['new'], ['add'], ['update'], ['remove'], ['list'], ['info'], ['check'],
                                            ['export'])],
-         ['rules'], ['rules', 'list'], ['rules', 'show'], ['evaluate'], ['generate'],
+         ['rules'], ['rules', 'list'], ['rules', 'show'],
+         ['cache'], ['cache', 'list'], ['cache', 'clear'], ['evaluate'], ['generate'],
          ['generate', 'ship'], ['help'], ['man'], ['completion']]
 CUBE_FACES = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8)]
 

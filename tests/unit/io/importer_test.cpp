@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: Apache-2.0
+// Importers, played by scripts: whatever they do, the file is read or the error says why not.
+#include "strake/io/importer.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "io/importer/import_report.hpp"
+#include "io/importer/scene_cache.hpp"
+#include "strake/parallel/team.hpp"
+#include "support/gltf_files.hpp"
+#include "support/io_files.hpp"
+
+namespace strake::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEnd =
+    R"(echo '{"made_by": "toy 1", "format": "TOY2", "unit": "mm"}' >> "$report")";
+
+/// Two folders: one with importers, one with what they made.
+class FakeImporters : public testing::Test {
+ protected:
+  FakeImporters() {
+    fs::create_directory(bin_);
+    settings_.folders = {bin_};
+    settings_.cache = folder_.path() / "cache";
+    settings_.silence_s = 20;
+    scene_ =
+        folder_.write("scene", test::triangle_glb(R"("nodes":[{"mesh":0,"extras":{"id":"T1"}}])"));
+  }
+
+  /// Makes the importer of a suffix: a script, which knows $input, $output, $report and $threads.
+  void play(const std::string& script, const std::string& suffix = "toy") {
+    const fs::path program = bin_ / ("strake-import-" + suffix);
+    std::ofstream(program) << "#!/bin/sh\ninput=$2 output=$4 report=$6 threads=$8\necho x >> "
+                           << calls_.string() << "\n"
+                           << script << "\n";
+    fs::permissions(program, fs::perms::owner_all);
+  }
+  [[nodiscard]] std::string make_scene() const {
+    return "cp " + scene_.string() + " \"$output\"\n";
+  }
+  void play_well(const std::string& more = {}) { play(more + "\n" + make_scene() + kEnd); }
+
+  [[nodiscard]] Result<model::Model> read(const std::vector<fs::path>& files,
+                                          const parallel::Context& context = {},
+                                          const ReadOptions& options = {}) const {
+    std::vector<FileToRead> to_read;
+    for (const fs::path& file : files) to_read.push_back({file, options});
+    return read_models(to_read, settings_, context);
+  }
+  [[nodiscard]] std::string error() const {
+    const Result<model::Model> model = read({toy_});
+    return model ? "no error" : model.error().text();
+  }
+  /// How often importers were run.
+  [[nodiscard]] std::size_t calls() const {
+    std::ifstream in(calls_);
+    return static_cast<std::size_t>(std::count(std::istreambuf_iterator<char>(in), {}, '\n'));
+  }
+  [[nodiscard]] std::size_t kept() const { return list_scenes(*settings_.cache).size(); }
+  /// Whether nothing of an importer's own folder is left.
+  [[nodiscard]] bool is_tidy() const {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(*settings_.cache, none))
+      if (entry.is_directory()) return false;
+    return true;
+  }
+
+  test::TemporaryFolder folder_;
+  fs::path bin_ = folder_.path() / "bin", calls_ = folder_.path() / "calls", scene_;
+  fs::path toy_ = folder_.write("arch.toy", "a toy\n");
+  ImportSettings settings_;
+};
+
+TEST_F(FakeImporters, AreCalledOnceForAFileAndItsSceneIsItsModel) {
+  play_well(R"(echo '{"progress": 0.5}' >> "$report"
+echo '{"severity": "skipped", "code": "toy-lost", "object": "T7", "message": "no shape"}' >> "$report")");
+  for (int run = 0; run < 2; ++run) {
+    const Result<model::Model> model = read({toy_});
+    ASSERT_TRUE(model) << model.error().text();
+    const model::SourceFile& file = model->files.at(0);
+    EXPECT_EQ(file.label, "arch.toy");
+    EXPECT_EQ(file.format, "TOY2");
+    EXPECT_EQ(file.unit, "mm (stated)");
+    EXPECT_EQ(file.bytes, 6U);
+    ASSERT_EQ(model->objects.size(), 1U);
+    EXPECT_EQ(model->objects[0].id, "T1");
+    EXPECT_EQ(model->diagnostics.skipped(), 1U);
+    EXPECT_EQ(model->diagnostics.kept().at(0).where, toy_.string() + ", T7");
+    EXPECT_EQ(calls(), 1U) << "the second run finds the scene";
+  }
+  EXPECT_TRUE(is_tidy());
+}
+
+TEST_F(FakeImporters, WhatTheContentSaysWins) {
+  play_well();
+  const fs::path glb = folder_.write("b.toy", test::triangle_glb(R"("nodes":[{"mesh":0}])"));
+  const Result<model::Model> model = read({glb});
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_EQ(model->files[0].format, "GLB");
+  EXPECT_EQ(calls(), 0U);
+}
+
+TEST_F(FakeImporters, AreNamedByTheSchemaOfAStepFile) {
+  play(make_scene() + kEnd, "ifc");
+  EXPECT_TRUE(
+      read({folder_.write("a.stp", "ISO-10303-21;\nHEADER;FILE_SCHEMA(('IFC4'));ENDSEC;\n")}));
+  const fs::path step =
+      folder_.write("b.stp", "ISO-10303-21;\nHEADER;FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\n");
+  EXPECT_NE(read({step}).error().text().find("strake-import-stp"), std::string::npos);
+  play(make_scene() + kEnd, "step");
+  EXPECT_TRUE(read({step}));
+}
+
+TEST_F(FakeImporters, WithoutOneTheErrorSaysWhatToInstall) {
+  const std::string said = read({folder_.write("a.ifc", "ISO-10303-21;\n")}).error().text();
+  EXPECT_NE(said.find("IFC files are read by an importer: pip install 'strake[ifc]'"),
+            std::string::npos)
+      << said;
+  EXPECT_EQ(said.find('\n'), std::string::npos);
+}
+
+TEST_F(FakeImporters, AUnitThatIsGivenIsThatOfTheFile) {
+  play_well();  // the file is in millimetres, its scene in metres
+  ReadOptions options;
+  options.unit_mm = 10;
+  const Result<model::Model> model = read({toy_}, {}, options);
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_EQ(model->files[0].unit, "cm (given)");
+  const auto width = [](const model::Model& m) {
+    return std::get<geometry::TriangleMesh>(m.shapes.at(0)).vertices.at(1).x;
+  };
+  EXPECT_DOUBLE_EQ(width(*model), 10 * width(*read({toy_})));
+}
+
+TEST_F(FakeImporters, FailWithTheReasonThatTheyGive) {
+  play(R"(echo '{"error": "no geometry at all", "mend": "export it again"}' >> "$report"; exit 1)");
+  EXPECT_EQ(error(), toy_.string() + ": no geometry at all (export it again)");
+  play(make_scene() + R"(echo '{"error": "half of it is lost"}' >> "$report")");
+  EXPECT_NE(error().find("half of it is lost"), std::string::npos) << "an exit status of 0 or not";
+  play("echo out of luck; exit 3");
+  EXPECT_NE(
+      error().find("ended with exit status 3 and gave no reason; it printed last: out of luck"),
+      std::string::npos)
+      << error();
+  play("exit 0");
+  EXPECT_NE(error().find("its report has no end"), std::string::npos);
+  play(kEnd);
+  EXPECT_NE(error().find("made no scene"), std::string::npos);
+  play(std::string("echo nothing > \"$output\"\n") + kEnd);
+  EXPECT_NE(error().find("no GLB"), std::string::npos);
+  play("ln -s /etc/passwd \"$output\"\n" + std::string(kEnd));
+  EXPECT_NE(error().find("made no scene"), std::string::npos);
+  EXPECT_TRUE(is_tidy());
+  EXPECT_EQ(kept(), 0U) << "what failed is not kept";
+}
+
+TEST_F(FakeImporters, ACrashNamesTheFileAndTheSignal) {
+  play("echo at element 77; kill -SEGV $$");
+  EXPECT_NE(error().find("signal 11 (segmentation fault); it printed last: at element 77"),
+            std::string::npos)
+      << error();
+  EXPECT_TRUE(error().starts_with(toy_.string()));
+}
+
+TEST_F(FakeImporters, ATruncatedSceneIsAnErrorAndNotKept) {
+  play("head -c 200 " + scene_.string() + " > \"$output\"\n" + kEnd);
+  EXPECT_NE(error().find("the scene that strake-import-toy made cannot be read"), std::string::npos)
+      << error();
+  EXPECT_EQ(kept(), 0U);
+  play_well();
+  EXPECT_TRUE(read({toy_}));
+}
+
+TEST_F(FakeImporters, OnlySilenceEndsThem) {
+  settings_.silence_s = 1;
+  play_well(
+      "for i in 1 2 3 4 5 6; do sleep 0.4; echo '{\"progress\": 0.'$i'}' >> \"$report\"; done");
+  EXPECT_TRUE(read({toy_})) << "slow, but it goes on";
+  settings_.silence_s = 0.3;
+  play("echo thinking; sleep 60");
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_NE(error().find("was ended after 0.3 s without progress; it printed last: thinking"),
+            std::string::npos)
+      << error();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+  play("while :; do echo chatter; sleep 0.01; done");
+  EXPECT_NE(error().find("without progress"), std::string::npos) << "what it prints is no progress";
+}
+
+TEST_F(FakeImporters, MayPrintAGigabyte) {
+  play_well("head -c 1000000000 /dev/zero | tr '\\0' 'x'");
+  EXPECT_TRUE(read({toy_}));
+}
+
+TEST_F(FakeImporters, LeaveNobodyBehind) {
+  const fs::path pid = folder_.path() / "pid";
+  play_well("sleep 600 & echo $! > " + pid.string());
+  ASSERT_TRUE(read({toy_}));
+  int number = 0;
+  std::ifstream(pid) >> number;
+  ASSERT_GT(number, 0);
+  for (int i = 0; i < 500 && ::kill(number, 0) == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  // It may wait for init to take notice of its end.
+  std::string state;
+  std::ifstream status("/proc/" + std::to_string(number) + "/stat");
+  std::string id, name;
+  if (status >> id >> name >> state) {
+    EXPECT_EQ(state, "Z");
+  }
+}
+
+TEST_F(FakeImporters, HaveNoneOfOurFiles) {
+  const std::ifstream held(scene_);
+  play("ls /proc/self/fd | tr '\\n' ' '; exit 7");
+  // Its own three, and that of the folder which ls reads.
+  EXPECT_NE(error().find("printed last: 0 1 2 3"), std::string::npos) << error();
+  EXPECT_EQ(error().find(" 4 "), std::string::npos) << error();
+}
+
+TEST_F(FakeImporters, AreCancelledWithTheRun) {
+  play("sleep 60");
+  std::stop_source stop;
+  std::thread stopper([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    stop.request_stop();
+  });
+  const Result<model::Model> model = read({toy_}, {.stop = stop.get_token()});
+  stopper.join();
+  ASSERT_FALSE(model);
+  EXPECT_EQ(model.error().code, ErrorCode::cancelled);
+  EXPECT_TRUE(is_tidy());
+}
+
+TEST_F(FakeImporters, OddReportsAreCountedAndSurvived) {
+  play_well(R"(printf 'no json\n[1]\n{"progress": "much"}\n\377\376\n' >> "$report"
+echo '{"severity": "fatal", "code": "x"}' >> "$report"
+head -c 3000000 /dev/zero | tr '\0' '[' >> "$report"; echo >> "$report")");
+  const Result<model::Model> model = read({toy_});
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_EQ(model->diagnostics.count("import-report"), 6U);
+}
+
+TEST_F(FakeImporters, AChangedProgramOrPartOfItMakesTheSceneAnew) {
+  const fs::path part = folder_.write("part.py", "1");
+  play(make_scene() + R"(echo '{"made_by": "toy 1", "depends_on": [")" + part.string() +
+       R"("]}' >> "$report")");
+  ASSERT_TRUE(read({toy_}));
+  ASSERT_TRUE(read({toy_}));
+  EXPECT_EQ(calls(), 1U);
+  EXPECT_EQ(read({toy_})->files[0].format, "TOY");
+  std::ofstream(part) << "22";
+  ASSERT_TRUE(read({toy_}));
+  EXPECT_EQ(calls(), 2U);
+  play_well();
+  ASSERT_TRUE(read({toy_}));
+  EXPECT_EQ(calls(), 3U);
+  std::ofstream(toy_) << "another toy\n";
+  ASSERT_TRUE(read({toy_}));
+  EXPECT_EQ(calls(), 4U);
+}
+
+TEST_F(FakeImporters, ADamagedSceneIsMadeAnew) {
+  play_well();
+  ASSERT_TRUE(read({toy_}));
+  const fs::path entry = list_scenes(*settings_.cache).at(0).path;
+  const auto size = fs::file_size(entry);
+  for (std::uintmax_t at = 0; at < size; at += 97) {
+    std::fstream file(entry, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekg(static_cast<std::streamoff>(at));
+    const char was = static_cast<char>(file.get());
+    file.seekp(static_cast<std::streamoff>(at));
+    file.put(static_cast<char>(was ^ 0x20));
+    file.close();
+    const std::size_t before = calls();
+    const Result<model::Model> model = read({toy_});
+    ASSERT_TRUE(model) << model.error().text();
+    EXPECT_EQ(model->files[0].format, "TOY2");
+    EXPECT_EQ(calls(), before + 1) << "byte " << at;
+  }
+  fs::resize_file(entry, size / 2);
+  EXPECT_TRUE(read({toy_}));
+}
+
+TEST_F(FakeImporters, TheLeastRecentlyUsedSceneGoes) {
+  play_well();
+  std::vector<fs::path> files;
+  for (int i = 0; i < 3; ++i)
+    files.push_back(folder_.write("f" + std::to_string(i) + ".toy", std::to_string(i)));
+  ASSERT_TRUE(read({files[0]}));
+  settings_.cache_bytes = 2 * list_scenes(*settings_.cache).at(0).bytes + 10;
+  ASSERT_TRUE(read({files[1]}));
+  ASSERT_TRUE(read({files[0]}));  // used again, so that the other goes
+  ASSERT_TRUE(read({files[2]}));
+  EXPECT_EQ(kept(), 2U);
+  EXPECT_EQ(calls(), 3U);
+  ASSERT_TRUE(read({files[0]}));
+  EXPECT_EQ(calls(), 3U);
+  ASSERT_TRUE(read({files[1]}));
+  EXPECT_EQ(calls(), 4U);
+  settings_.cache_bytes = 10;
+  std::ofstream(files[0]) << "new";
+  const Result<model::Model> model = read({files[0], files[2]});
+  ASSERT_TRUE(model);
+  EXPECT_EQ(model->diagnostics.count("scene-not-kept"), 1U);
+}
+
+TEST_F(FakeImporters, WorkWithoutAFolderForScenes) {
+  play_well();
+  settings_.cache.reset();
+  const Result<model::Model> off = read({toy_});
+  ASSERT_TRUE(off) << off.error().text();
+  EXPECT_EQ(off->diagnostics.count("scene-not-kept"), 0U) << "nobody asked for it";
+  settings_.cache = toy_ / "no folder";
+  const fs::path other = folder_.write("other.toy", "other");
+  const Result<model::Model> model = read({toy_, other});
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_EQ(model->diagnostics.count("scene-not-kept"), 1U) << "it is said once";
+}
+
+TEST_F(FakeImporters, RunAtTheSameTimeWithThreadsSharedOut) {
+  // Each waits for the other: one by one they would wait for ever.
+  const std::string all = folder_.path().string();
+  play_well("echo $threads >> " + all + "/threads; touch " + all +
+            "/here.$(basename $input); until [ -e " + all + "/here.a.toy ] && [ -e " + all +
+            "/here.b.toy ]; do sleep 0.01; done");
+  const fs::path a = folder_.write("a.toy", "a"), b = folder_.write("b.toy", "b");
+  parallel::Team team(4);
+  const Result<model::Model> model = read({a, b}, {.team = &team});
+  ASSERT_TRUE(model) << model.error().text();
+  std::ifstream in(folder_.path() / "threads");
+  const std::string threads(std::istreambuf_iterator<char>(in), {});
+  EXPECT_EQ(threads, "2\n2\n");
+}
+
+TEST_F(FakeImporters, TheFirstFileThatFailsIsTold) {
+  play(
+      "case $input in *a.toy) sleep 0.3; echo '{\"error\": \"bad a\"}' >> $report; exit 1;; "
+      "*b.toy) echo '{\"error\": \"bad b\"}' >> $report; exit 1;; *) sleep 60;; esac");
+  const fs::path a = folder_.write("a.toy", "a"), b = folder_.write("b.toy", "b"),
+                 c = folder_.write("c.toy", "c");
+  parallel::Team team(3);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_NE(read({a, b, c}, {.team = &team}).error().text().find("bad a"), std::string::npos);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30))
+      << "those of later files are given up";
+}
+
+TEST_F(FakeImporters, FilesWithEqualBytesShareAScene) {
+  play_well();
+  settings_.cache.reset();
+  const fs::path twin = folder_.write("twin.toy", "a toy\n");
+  const Result<model::Model> model = read({toy_, twin});
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_EQ(model->objects.size(), 2U);
+  EXPECT_EQ(calls(), 1U);
+}
+
+TEST_F(FakeImporters, AFileThatIsWrittenMeanwhileIsNotRead) {
+  play_well("echo more >> \"$input\"");
+  EXPECT_NE(error().find("is being written while it is read"), std::string::npos) << error();
+  EXPECT_EQ(kept(), 0U);
+}
+
+TEST(ImportReport, HoldsLittleWhateverIsWritten) {
+  ImportReport report;
+  for (int i = 0; i < 5000; ++i)
+    report.feed("{\"severity\": \"warning\", \"code\": \"c" + std::to_string(i) + "\"}\n");
+  report.feed("{\"severity\": \"warning\", \"code\": \"one\"}\n");
+  report.feed("{\"severity\": \"skipped\", \"code\": \"c1\", \"message\": \"" +
+              std::string(100000, 'x') + "\"}\n");
+  report.feed(R"({"progress": 7})");
+  report.feed("\n{\"progress\": 0.1}\n");
+  report.end();
+  const Diagnostics& diagnostics = report.facts().diagnostics;
+  EXPECT_LE(diagnostics.counts().size(), ImportReport::kMostCodes + 3);
+  EXPECT_EQ(diagnostics.skipped(), 1U) << "a code that was one of warnings before";
+  EXPECT_LT(diagnostics.kept().back().message.size(), 2000U);
+  EXPECT_EQ(report.progress(), 1);
+  EXPECT_FALSE(report.is_complete());
+}
+
+}  // namespace
+}  // namespace strake::io
