@@ -68,6 +68,7 @@ set(manual
   docs/drawing.md
   docs/evaluation.md
   docs/first-run.md
+  docs/formats/importers.md
   docs/hidden-line-algorithms.md
   docs/hlr.md
   docs/pictures
@@ -86,6 +87,7 @@ strake_component(model
   DEPENDS parallel geometry
   PACKAGES fmt re2
   HEADERS
+    io/importer.hpp
     io/reader.hpp
     io/writer.hpp
     model/model.hpp

@@ -8,9 +8,11 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "core/text_encoding.hpp"
 #include "project/changes/run_files.hpp"
+#include "strake/io/importer.hpp"
 
 namespace strake::project {
 namespace {
@@ -202,6 +204,9 @@ Result<FilePlan> plan_update(const std::vector<StoredFile>& files,
   FilePlan plan;
   std::vector<const StoredFile*> known;
   std::vector<std::size_t> sought;
+  std::vector<io::FileToRead> to_read;
+  for (const OutdatedFile& file : outdated) to_read.push_back(file.file);
+  if (const Status made = io::make_scenes(to_read, context); !made) return made.error();
   for (const OutdatedFile& file : outdated) {
     Result<FileToStore> read = read_file(file.file, context);
     if (!read) return read.error();

@@ -19,6 +19,7 @@
 #include "project/update/file_plan.hpp"
 #include "project/update/rename_files.hpp"
 #include "project/update/revision_store.hpp"
+#include "strake/io/importer.hpp"
 
 namespace strake::project {
 namespace {
@@ -124,10 +125,13 @@ Result<Update> add_model_files(Project& project, std::span<const io::FileToRead>
   if (!then) return then.error();
   std::vector<FileToStore> read;
   bool namesakes = false;
-  for (const io::FileToRead& file : files) {
+  for (const io::FileToRead& file : files)
     if (find_file(*then, file.path) != nullptr)
       return Error{ErrorCode::usage, "is in the project already", file.path.string(),
                    "'strake project update' reads it again"};
+  // Files that importers read wait for them together, not one by one.
+  if (const Status made = io::make_scenes(files, context); !made) return made.error();
+  for (const io::FileToRead& file : files) {
     Result<FileToStore> one = read_file(file, context);
     if (!one) return one.error();
     read.push_back(std::move(*one));

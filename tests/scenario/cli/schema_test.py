@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """schema_test.py STRAKE SCHEMAS: everything that the program writes as JSON follows its schema."""
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -89,6 +90,15 @@ class Schemas(unittest.TestCase):
         self.assertEqual(len(odd['files']), 2)
         self.assertGreater(odd['skipped'], 0)
         self.assertEqual(odd['files'][0]['inverted'], 1)
+
+    def test_kept_scenes(self):
+        (self.folder / 'cache' / 'scenes').mkdir(parents=True)
+        (self.folder / 'cache' / 'scenes' / 'x.scene').write_text('damaged')
+        cache = {**os.environ, 'STRAKE_CACHE': str(self.folder / 'cache')}
+        listed = self.follows(self.run_strake('cache', 'list', '--json', env=cache), 'cache-list')
+        self.assertEqual([scene['scene'] for scene in listed['scenes']], ['x.scene'])
+        cleared = self.follows(self.run_strake('cache', 'clear', '--json', env=cache), 'cache-clear')
+        self.assertEqual(cleared['removed'], 1)
 
     def test_a_file_that_ends_early(self):
         (self.folder / 'cut.rvm').write_bytes(rvm([('/A', (0, 0, 0))], whole=False))

@@ -74,7 +74,8 @@ TEST(Registry, SaysHowAModelOfAnotherFormatIsConverted) {
   };
   const std::string formats = ": unsupported format (Strake reads RVM, glTF/GLB, OBJ and STL; ";
   EXPECT_NE(said("a.txt").find(formats + "export the model as one of these)"), std::string::npos);
-  EXPECT_NE(said("a.IFC").find(formats + "convert it first: IfcConvert"), std::string::npos);
+  EXPECT_NE(said("a.IFC").find("pip install 'strake[ifc]' (or convert it: IfcConvert"),
+            std::string::npos);
   EXPECT_NE(said("a.stp").find(formats + "open it in a CAD program"), std::string::npos);
   EXPECT_NE(said("a.ply").find(formats + "open it in Blender"), std::string::npos);
 }
