@@ -90,7 +90,7 @@ OWN_CONCURRENCY = {
     'cli/program.cpp': 'a file beyond the limit is an error of writing, no signal',
     'cli/run/session.cpp': 'the step that the progress line names',
     'cli/run/session.hpp': 'the step that the progress line names',
-    'src/core/child_process.cpp': 'starts another program and waits for its end',
+    'src/io/importer/child_process.cpp': 'starts another program and waits for its end',
 }
 
 

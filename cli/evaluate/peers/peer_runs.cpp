@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cli/evaluate/peers/peer_rows.hpp"
-#include "core/child_process.hpp"
+#include "io/importer/child_process.hpp"
 #include "io/source/input_file.hpp"
 
 namespace strake::cli {
@@ -43,8 +43,9 @@ class PeerRun {
   Result<PeerRecord> run(const std::stop_token& stop) {
     std::error_code none;
     fs::remove(rows_file_, none);  // those of an earlier run
-    const ChildEnd end = run_child(child_, stop);
-    if (end.how == ChildEnd::How::stopped) return Error{ErrorCode::cancelled, "cancelled", {}, {}};
+    const io::ChildEnd end = io::run_child(child_, stop);
+    if (end.how == io::ChildEnd::How::stopped)
+      return Error{ErrorCode::cancelled, "cancelled", {}, {}};
     PeerRecord record{std::string(one_.name), {}};
     std::string fault = read_rows(record);
     if (fault.empty()) fault = fault_of(end, record);
@@ -67,30 +68,31 @@ class PeerRun {
   }
 
   /// Says what the end of the program leaves to say beside its rows.
-  [[nodiscard]] std::string fault_of(const ChildEnd& end, const PeerRecord& record) const {
+  [[nodiscard]] std::string fault_of(const io::ChildEnd& end, const PeerRecord& record) const {
     constexpr std::size_t kTail = 300;
     switch (end.how) {
-      case ChildEnd::How::not_started:
+      case io::ChildEnd::How::not_started:
         return fmt::format("{} cannot be run: './run bench --build' builds it", program_.string());
-      case ChildEnd::How::over_limit:
+      case io::ChildEnd::How::over_limit:
         return fmt::format("no answer within {:g} s, several times --peer-limit", limit_s_);
-      case ChildEnd::How::killed:
-        return fmt::format("ended by signal {}: {}", end.code, tail_of(end.output, kTail));
-      case ChildEnd::How::stopped:
-      case ChildEnd::How::exited:
+      case io::ChildEnd::How::killed:
+        return fmt::format("ended by signal {}: {}", end.code, io::tail_of(end.output, kTail));
+      case io::ChildEnd::How::refused:
+      case io::ChildEnd::How::stopped:
+      case io::ChildEnd::How::exited:
         break;
     }
     // It ends with another status where a result disagrees, too.
     const bool told =
         std::ranges::find(record.rows, kDisagrees, &PeerRow::outcome) != record.rows.end();
     if (end.code != 0 && !told)
-      return fmt::format("exit status {}: {}", end.code, tail_of(end.output, kTail));
+      return fmt::format("exit status {}: {}", end.code, io::tail_of(end.output, kTail));
     return record.rows.empty() ? "it ended without an answer" : std::string();
   }
 
-  static std::string_view outcome_of(const ChildEnd& end) {
-    if (end.how == ChildEnd::How::not_started) return kNotThere;
-    return end.how == ChildEnd::How::over_limit ? kOverLimit : kFailed;
+  static std::string_view outcome_of(const io::ChildEnd& end) {
+    if (end.how == io::ChildEnd::How::not_started) return kNotThere;
+    return end.how == io::ChildEnd::How::over_limit ? kOverLimit : kFailed;
   }
 
   [[nodiscard]] PeerRow without_result(std::string_view outcome, std::string why) const {
@@ -107,7 +109,7 @@ class PeerRun {
   fs::path program_, rows_file_;
   double limit_s_;
   std::uint64_t objects_;
-  ChildProgram child_;
+  io::ChildProgram child_;
 };
 
 }  // namespace

@@ -12,9 +12,9 @@
 #include <system_error>
 #include <utility>
 
-#include "core/child_process.hpp"
 #include "core/number.hpp"
 #include "core/text_encoding.hpp"
+#include "io/importer/child_process.hpp"
 
 namespace strake::io {
 namespace {

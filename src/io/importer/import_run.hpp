@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0072 says why importers are programs of their own.
+
 #include <filesystem>
 #include <functional>
 #include <stop_token>

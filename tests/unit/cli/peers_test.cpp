@@ -18,7 +18,7 @@
 #include "cli/evaluate/peers/peer_rows.hpp"
 #include "cli/evaluate/peers/peer_runs.hpp"
 #include "cli/evaluate/record_json.hpp"
-#include "core/child_process.hpp"
+#include "io/importer/child_process.hpp"
 #include "support/io_files.hpp"
 
 namespace strake::cli {
@@ -215,11 +215,11 @@ TEST(PeerCases, HaveNamesOfTheirOwnAndScenesThatFollowTheScale) {
 }
 
 TEST(TailOf, IsTheEndFromTheBeginningOfALine) {
-  EXPECT_EQ(tail_of("", 10), "");
-  EXPECT_EQ(tail_of("\n\n", 10), "");
-  EXPECT_EQ(tail_of("all of it\n", 10), "all of it");
-  EXPECT_EQ(tail_of("first\nsecond\nthird\n", 12), "third");
-  EXPECT_EQ(tail_of("one long line", 4), "line");
+  EXPECT_EQ(io::tail_of("", 10), "");
+  EXPECT_EQ(io::tail_of("\n\n", 10), "");
+  EXPECT_EQ(io::tail_of("all of it\n", 10), "all of it");
+  EXPECT_EQ(io::tail_of("first\nsecond\nthird\n", 12), "third");
+  EXPECT_EQ(io::tail_of("one long line", 4), "line");
 }
 
 }  // namespace

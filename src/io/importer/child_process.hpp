@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace strake {
+namespace strake::io {
 
 /// Which processes end with a child that is killed.
 enum class KilledWith : std::uint8_t {
@@ -58,4 +58,4 @@ struct ChildEnd {
 /// Returns "signal 11 (segmentation fault)".
 [[nodiscard]] std::string signal_text(int signal);
 
-}  // namespace strake
+}  // namespace strake::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/child_process.hpp"
+#include "io/importer/child_process.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -16,7 +16,7 @@
 #include <system_error>
 #include <thread>
 
-namespace strake {
+namespace strake::io {
 
 namespace {
 
@@ -207,4 +207,4 @@ std::string tail_of(const std::string& output, std::size_t bytes) {
   return line == std::string::npos ? tail : tail.substr(line + 1);
 }
 
-}  // namespace strake
+}  // namespace strake::io
