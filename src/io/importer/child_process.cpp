@@ -90,10 +90,13 @@ class Child {
         ::waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT);
     return fault != 0 || info.si_pid == process_;
   }
+  void kill() const {
+    ::kill(killed_with_ == KilledWith::its_group ? -process_ : process_, SIGKILL);
+  }
   /// Kills what belongs to it, itself if it has not ended, and returns how it ended.
   int end() {
     int status = 0;
-    ::kill(killed_with_ == KilledWith::its_group ? -process_ : process_, SIGKILL);
+    kill();
     while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
     }
     process_ = -1;
@@ -139,32 +142,33 @@ class Log {
   std::string before_;
 };
 
-/// Returns why a child has to end before it has, if it has.
-std::optional<ChildEnd::How> reason_to_end(const ChildProgram& program,
-                                           std::chrono::duration<double> age,
-                                           const std::stop_token& stop) {
-  if (stop.stop_requested()) return ChildEnd::How::stopped;
-  if (program.limit_s && age.count() >= *program.limit_s) return ChildEnd::How::over_limit;
-  if (program.may_go_on && !program.may_go_on()) return ChildEnd::How::refused;
-  return std::nullopt;
-}
-
-ChildEnd wait_for(Child& child, const ChildProgram& program, Log& log,
-                  const std::stop_token& stop) {
-  // Shorter than the time in which a program that was told to stop must have ended.
+/// Waits until a child has ended or has to end before; returns why, if it has to.
+std::optional<ChildEnd::How> wait_for(const Child& child, const ChildProgram& program, Log& log,
+                                      const std::stop_token& stop) {
   constexpr auto kLook = std::chrono::milliseconds(5);
+  // A program that was told to stop may end before this thread looks again.
+  const std::stop_callback at_once(stop, [&] { child.kill(); });
   const auto begin = std::chrono::steady_clock::now();
   while (!child.has_ended()) {
-    if (const auto why = reason_to_end(program, std::chrono::steady_clock::now() - begin, stop)) {
-      child.end();
-      return {*why, 0, {}};
-    }
+    const std::chrono::duration<double> age = std::chrono::steady_clock::now() - begin;
+    if (stop.stop_requested()) return ChildEnd::How::stopped;
+    if (program.limit_s && age.count() >= *program.limit_s) return ChildEnd::How::over_limit;
+    if (program.may_go_on && !program.may_go_on()) return ChildEnd::How::refused;
     log.keep_short();
     std::this_thread::sleep_for(kLook);
   }
+  return std::nullopt;
+}
+
+/// Returns how a child ended, which is no more then.
+ChildEnd end_of(Child& child, const std::optional<ChildEnd::How>& why,
+                const std::stop_token& stop) {
   const int status = child.end();
+  if (why) return {*why, 0, {}};
   if (WIFEXITED(status)) return {ChildEnd::How::exited, WEXITSTATUS(status), {}};
-  return {ChildEnd::How::killed, WTERMSIG(status), {}};
+  const int signal = WTERMSIG(status);
+  if (signal == SIGKILL && stop.stop_requested()) return {ChildEnd::How::stopped, 0, {}};
+  return {ChildEnd::How::killed, signal, {}};
 }
 
 }  // namespace
@@ -174,7 +178,8 @@ ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop) {
   if (process < 0) return {ChildEnd::How::not_started, 0, {}};
   Child child(process, program.killed_with);
   Log log(program);
-  ChildEnd end = wait_for(child, program, log, stop);
+  const std::optional<ChildEnd::How> why = wait_for(child, program, log, stop);
+  ChildEnd end = end_of(child, why, stop);
   end.output = log.end();
   return end;
 }
