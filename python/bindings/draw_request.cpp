@@ -137,10 +137,10 @@ Result<hlr::Options> line_options(const DrawRequest& request) {
   if (request.hidden != "off" && request.hidden != "dashed" && request.hidden != "all")
     return usage(fmt::format("'{}' is none of the words that it may be", request.hidden), "hidden",
                  "write one of off, dashed, all");
-  if (request.visible_only && request.hidden != "off")
+  if (request.visible_only && (request.hidden != "off" || request.keep_hidden))
     return usage("hidden lines cannot be drawn and left out", "visible_only",
                  "leave out hidden or visible_only");
-  options.hidden = !request.visible_only;
+  options.hidden = request.keep_hidden || request.hidden != "off";
   options.flush_seams = request.flush_seams;
   options.contact_distance_mm = request.contact_distance_mm.value_or(options.contact_distance_mm);
   options.sharp_angle_deg = request.sharp_angle_deg.value_or(options.sharp_angle_deg);

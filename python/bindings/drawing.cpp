@@ -132,6 +132,7 @@ void bind_request(nb::module_& module) {
       .def_rw("intersections", &DrawRequest::intersections)
       .def_rw("own_polylines", &DrawRequest::own_polylines)
       .def_rw("smooth", &DrawRequest::smooth)
+      .def_rw("keep_hidden", &DrawRequest::keep_hidden)
       .def_rw("visible_only", &DrawRequest::visible_only)
       .def_rw("flush_seams", &DrawRequest::flush_seams)
       .def_rw("obstructions", &DrawRequest::obstructions)
@@ -171,6 +172,12 @@ void bind_drawing(nb::module_& module) {
                    [&](const parallel::Context& context) { return draw(model, request, context); });
       },
       nb::arg("model"), nb::arg("request"), nb::arg("options"));
+  module.def(
+      "shows_ink",
+      [](const std::filesystem::path& path) {
+        return value_or_raise(find_writer(drawing::drawing_writers(), path.string())).needs_ink;
+      },
+      nb::arg("path"), "Whether a file shows the lines that get ink, or holds all that there are.");
   module.def("svg", &svg, nb::arg("run"));
   module.def("segments", &segments, nb::arg("run"));
   module.def("chains", &chains, nb::arg("run"));

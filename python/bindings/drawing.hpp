@@ -29,6 +29,8 @@ struct DrawRequest {
   std::string hidden = "off";  ///< "off", "dashed" or "all"
   std::string stage = "global", intersections = "primitives", own_polylines = "visible",
               smooth = "off";
+  /// Hidden lines are kept where they are shown, or where they are to be kept all the same.
+  bool keep_hidden = false;
   bool visible_only = false, flush_seams = true, obstructions = false, insulation = false;
   std::optional<double> sharp_angle_deg, contact_distance_mm, sag_mm, weld_mm;
   std::string scale, paper, title;

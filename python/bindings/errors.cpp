@@ -2,6 +2,7 @@
 #include "python/bindings/errors.hpp"
 
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
 
 #include <array>
 #include <cstddef>

@@ -121,7 +121,10 @@ def paths(value: PathLike | Iterable[PathLike], name: str) -> list[Path]:
     """One path or several. Raises: UsageError where there are none."""
     if isinstance(value, (str, os.PathLike)):
         return [path(value, name)]
-    several = [path(one, name) for one in value]
+    try:
+        several = [path(one, name) for one in value]
+    except TypeError as error:
+        raise UsageError(f"{type(value).__name__} is no path", name) from error
     if not several:
         raise UsageError("no file is given", name)
     return several

@@ -55,9 +55,19 @@ class Lines(NamedTuple):
 class Drawing:
     """A view on paper, as draw() makes it."""
 
-    def __init__(self, core: _core.DrawRun, model: Model) -> None:
-        self._core = core
+    def __init__(self, model: Model, request: _core.DrawRequest, options: _core.RunOptions) -> None:
         self.model = model
+        self._request = request
+        self._options = options
+        self._core = _core.draw(model._core, request, options)
+
+    @cached_property
+    def _whole(self) -> _core.DrawRun:
+        """The drawing with its hidden lines, which are found when they are asked for, unless they are shown anyway."""
+        if self._request.visible_only or self._request.hidden != "off":
+            return self._core
+        self._request.keep_hidden = True
+        return _core.draw(self.model._core, self._request, self._options)
 
     @cached_property
     def svg(self) -> str:
@@ -80,7 +90,7 @@ class Drawing:
 
     @property
     def summary(self) -> dict[str, int]:
-        """The number of lines of each state."""
+        """The number of lines of each state; hidden ones only where they are shown."""
         return self._core.summary
 
     @cached_property
@@ -90,12 +100,14 @@ class Drawing:
 
     @cached_property
     def segments(self) -> npt.NDArray[np.void]:
-        """A structured array of all straight pieces, inked or not, without a copy and read-only.
+        """A structured array of all straight pieces, inked or not, hidden or not, without a copy and read-only.
+
+        Where `hidden` was "off" the first use draws once more, to find the hidden lines, unless `visible_only`.
 
         Fields: object, edge (number among those of the object), kind (LINE_KINDS), state (LINE_STATES), other (the second
         object of an intersection), a and b (3, mm of the model), a_paper and b_paper (2, mm on paper).
         """
-        return np.asarray(_core.segments(self._core))
+        return np.asarray(_core.segments(self._whole))
 
     @property
     def diagnostics(self) -> list[Diagnostic]:
@@ -103,8 +115,12 @@ class Drawing:
         return [Diagnostic(*one) for one in self._core.diagnostics]
 
     def save(self, path_to: PathLike, threads: int | None = None, progress: Progress | None = None) -> None:
-        """Writes .svg, or .json or .view (docs/drawing.md), whole or not at all. Raises: UsageError, OutputError."""
-        _core.save_drawing(self._core, path(path_to, "path_to"), run_options(threads, progress))
+        """Writes .svg, or .json or .view (docs/drawing.md), whole or not at all; these two have all of `segments`.
+
+        Raises: UsageError, OutputError.
+        """
+        into, options = path(path_to, "path_to"), run_options(threads, progress)
+        _core.save_drawing(self._core if _core.shows_ink(into) else self._whole, into, options)
 
     def __repr__(self) -> str:
         width, height = self.size
@@ -186,7 +202,7 @@ def draw(
     request.uncut = texts(uncut, "uncut")
     if pens is not None:
         request.pens = _pens(pens)
-    return Drawing(_core.draw(model._core, request, run_options(threads, progress)), model)
+    return Drawing(model, request, run_options(threads, progress))
 
 
 def _set_view(request: _core.DrawRequest, view: str | Mapping[str, Any]) -> None:

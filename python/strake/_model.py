@@ -160,7 +160,7 @@ class Model:
 
     @cached_property
     def boxes(self) -> npt.NDArray[np.float64]:
-        """(N, 2, 3) least and greatest corner of each object, mm; NaN for objects without geometry."""
+        """(N, 2, 3) least and greatest corner of each object, mm; NaN for objects of which nothing could be placed."""
         return _core.boxes(self._core, run_options(None, None))
 
     @property
