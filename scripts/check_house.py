@@ -29,7 +29,7 @@ MOST_IN_ROOM = 22
 LINES = {'.hpp': 300, '.cpp': 600}
 IN_ROOT = {'.clang-format', '.clang-tidy', '.gitattributes', '.gitignore', 'ARCHITECTURE.md', 'CHANGELOG.md', 'CMakeLists.txt',
            'CMakePresets.json', 'CONTRIBUTING.md', 'HACKING.md', 'LICENSE', 'NOTICE', 'README.md', 'SECURITY.md',
-           'packages.txt', 'run'}
+           'packages.txt', 'pyproject.toml', 'run'}
 SOURCES = ('src', 'include', 'cli')
 CODE = {'.hpp', '.cpp', '.inc'}
 NEEDS_SPDX = {'.cpp', '.hpp', '.py', '.sh', '.cmake'}

@@ -18,4 +18,5 @@ if [ "$preset" = nightly ]; then
 else
   scripts/lint.sh
 fi
+[ "$preset" = nightly ] && scripts/python.sh
 ctest --test-dir "build/$preset" -j "$jobs" --output-on-failure --no-tests=error

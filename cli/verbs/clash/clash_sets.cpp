@@ -2,48 +2,14 @@
 #include "cli/verbs/clash/clash_sets.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cstddef>
 #include <utility>
 
+#include "clash/sets_by_file.hpp"
 #include "cli/run/object_selection.hpp"
 
 namespace strake::cli {
 
 namespace {
-
-/// Returns a file as a selection names it: always quoted, so that no letter of the label is a
-/// pattern's.
-std::string file_selection(const std::string& label) {
-  std::string text = "file = '";
-  for (const char c : label) {
-    if (c == '*' || c == '?' || c == '[' || c == '\\') text += '\\';
-    if (c == '\'') text += '\'';
-    text += c;
-  }
-  return text + "'";
-}
-
-clash::Sets sets_by_file(const model::Model& model, bool self) {
-  const std::size_t n = model.objects.size();
-  clash::Sets sets;
-  sets.in_a.assign(n, true);
-  sets.in_b.assign(n, true);
-  if (self || model.files.size() < 2) return sets;
-  if (model.files.size() > 2) {
-    for (const model::Object& object : model.objects) sets.group.push_back(object.file);
-    for (const model::SourceFile& file : model.files)
-      sets.group_names.push_back(Hasher().add(std::string_view(file.label)).value());
-    sets.name_b = "* of another file";
-    return sets;
-  }
-  for (std::size_t o = 0; o < n; ++o) {
-    sets.in_a[o] = model.objects[o].file == 0;
-    sets.in_b[o] = !sets.in_a[o];
-  }
-  sets.name_a = file_selection(model.files[0].label);
-  sets.name_b = file_selection(model.files[1].label);
-  return sets;
-}
 
 /// Joins selections into one: each in brackets where there are several.
 std::string joined(const std::vector<model::Selection>& selections) {
@@ -86,7 +52,8 @@ Result<SetRequest> set_request(const SetInput& input) {
 
 Result<ChosenSets> choose_sets(Session& session, const Loaded& loaded, const SetRequest& request) {
   if (request.a.empty() && request.b.empty())
-    return ChosenSets{sets_by_file(*loaded.model, request.self), {}};
+    return ChosenSets{
+        request.self ? clash::one_set(loaded.scene) : clash::sets_by_file(*loaded.model), {}};
   ChosenSets chosen{clash::one_set(loaded.scene), {}};
   struct Side {
     const std::vector<model::Selection>& selections;

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "python/bindings/clash.hpp"
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include "clash/results/clash_key.hpp"
+#include "core/output_format.hpp"
+#include "python/bindings/arrays.hpp"
+#include "python/bindings/bindings.hpp"
+#include "python/bindings/clash_rows.hpp"
+#include "python/bindings/diagnostics.hpp"
+#include "python/bindings/run.hpp"
+#include "report/report_writers.hpp"
+#include "strake/core/atomic_file.hpp"
+
+namespace nb = nanobind;
+
+namespace strake::python {
+
+namespace {
+
+using RunPointer = std::shared_ptr<ClashRun>;
+
+nb::dict summary_of(const ClashRun& run) {
+  std::uint64_t hit = 0, contact = 0, clearance = 0, allowed = 0;
+  for (const clash::Report& test : run.findings.tests) {
+    hit += test.count_hit;
+    contact += test.count_contact;
+    clearance += test.count_clearance;
+    allowed += test.count_allowed;
+  }
+  const clash::NotComparedCounts lacks = clash::counts_of(run.findings.tests);
+  nb::dict counts;
+  counts["hit"] = hit;
+  counts["contact"] = contact;
+  counts["clearance_violation"] = clearance;
+  counts["allowed"] = allowed;
+  counts["objects_not_compared_whole"] = lacks.objects;
+  counts["pairs_not_compared"] = lacks.pairs;
+  return counts;
+}
+
+nb::list tests_of(const ClashRun& run) {
+  nb::list names;
+  for (const clash::Report& test : run.findings.tests) names.append(nb::cast(test.name));
+  return names;
+}
+
+/// Returns the name of the rule that a number in the column `allowed` of a test means.
+nb::list allowing_rules(const ClashRun& run) {
+  nb::list all;
+  for (const clash::Report& test : run.findings.tests) {
+    nb::list names;
+    for (const clash::AllowedCount& one : test.allowed) names.append(nb::cast(one.rule));
+    all.append(names);
+  }
+  return all;
+}
+
+nb::list groups_of(const ClashRun& run, const std::optional<clash::Grouping>& grouping) {
+  std::vector<std::uint32_t> first_row;
+  std::uint32_t rows = 0;
+  for (const clash::Report& test : run.findings.tests) {
+    first_row.push_back(rows);
+    rows += static_cast<std::uint32_t>(test.pairs.size());
+  }
+  nb::list groups;
+  if (!grouping) return groups;
+  for (const clash::Group& group : grouping->groups) {
+    std::vector<std::uint32_t> members;
+    members.reserve(group.results.size());
+    for (const clash::ResultRef& r : group.results) members.push_back(first_row[r.test] + r.pair);
+    const std::size_t size = members.size();
+    groups.append(nb::make_tuple(group.id, group.name, static_cast<int>(group.worst), group.d_mm,
+                                 array_of(std::move(members), {size})));
+  }
+  return groups;
+}
+
+nb::list groups(const RunPointer& run) {
+  if (run->grouping) return groups_of(*run, run->grouping);
+  Result<clash::Grouping> made = clash::group_results(run->findings, run->model->model(), {});
+  return groups_of(*run, value_or_raise(std::move(made)));
+}
+
+std::string key_of(const RunPointer& run, std::uint32_t test, std::uint32_t a, std::uint32_t b) {
+  const std::size_t objects = run->model->model().objects.size();
+  if (test >= run->findings.tests.size() || a >= objects || b >= objects)
+    throw nb::index_error("no such pair");
+  return clash::pair_key(run->findings.tests[test].name, run->model->model(), model::ObjectId(a),
+                         model::ObjectId(b));
+}
+
+/// Writes as the suffix of the path asks for.
+void save(const RunPointer& run, const std::filesystem::path& path,
+          const std::vector<std::string>& columns, const RunOptions& options) {
+  const auto writer = value_or_raise(find_writer(report::clash_writers(), path.string()));
+  run_status(options, "write", [&](const parallel::Context& context) -> Status {
+    report::ClashContents contents = run->contents();
+    contents.columns = columns;
+    Result<AtomicFile> file = AtomicFile::create(path);
+    if (!file) return file.error();
+    const Status written =
+        writer.write(contents, [&](std::string_view text) { file->write(text); }, context);
+    return written ? file->commit() : written;
+  });
+}
+
+nb::object rows(const RunPointer& run, const RunOptions& options) {
+  return array_of_rows(python::run(options, "rows", [&](const parallel::Context& context) {
+    return rows_of(run->findings, context);
+  }));
+}
+
+}  // namespace
+
+void bind_clash(nb::module_& module) {
+  nb::class_<Pick>(module, "Pick")
+      .def(
+          "__init__",
+          [](Pick* self, std::vector<std::string> selections, std::vector<bool> objects) {
+            new (self) Pick{std::move(selections), std::move(objects)};
+          },
+          nb::arg("selections"), nb::arg("objects"));
+  nb::class_<ClashRequest>(module, "ClashRequest")
+      .def(nb::init<>())
+      .def_rw("a", &ClashRequest::a)
+      .def_rw("b", &ClashRequest::b)
+      .def_rw("within_files", &ClashRequest::within_files)
+      .def_rw("rules", &ClashRequest::rules)
+      .def_rw("profile", &ClashRequest::profile)
+      .def_rw("clearance", &ClashRequest::clearance)
+      .def_rw("touch_gap_mm", &ClashRequest::touch_gap_mm)
+      .def_rw("touch_overlap_mm", &ClashRequest::touch_overlap_mm)
+      .def_rw("contact_distance_mm", &ClashRequest::contact_distance_mm)
+      .def_rw("thickness_cap", &ClashRequest::thickness_cap)
+      .def_rw("volumes", &ClashRequest::volumes)
+      .def_rw("curves", &ClashRequest::curves)
+      .def_rw("contacts", &ClashRequest::contacts)
+      .def_rw("regions", &ClashRequest::regions)
+      .def_rw("group_by", &ClashRequest::group_by)
+      .def_rw("group_distance_mm", &ClashRequest::group_distance_mm)
+      .def_rw("group_contacts", &ClashRequest::group_contacts);
+  nb::class_<ClashRun>(module, "ClashRun")
+      .def_prop_ro("summary", &summary_of)
+      .def_prop_ro("tests", &tests_of)
+      .def_prop_ro("allowing_rules", &allowing_rules)
+      .def_prop_ro("hash", [](const ClashRun& run) { return clash::hash_of(run.findings); })
+      .def_prop_ro("diagnostics",
+                   [](const ClashRun& run) { return listed(run.findings.all_diagnostics()); })
+      .def(
+          "table",
+          [](const ClashRun& run, std::size_t count) {
+            return report::clash_table(run.contents(), {.rows = count});
+          },
+          nb::arg("rows"));
+  module.def(
+      "clash",
+      [](const ModelPointer& model, const ClashRequest& request, const RunOptions& options) {
+        return run(options, "clash", [&](const parallel::Context& context) {
+          return find_clashes(model, request, context);
+        });
+      },
+      nb::arg("model"), nb::arg("request"), nb::arg("options"));
+  module.def("clash_rows", &rows, nb::arg("run"), nb::arg("options"));
+  module.def("clash_groups", &groups, nb::arg("run"));
+  module.def("clash_key", &key_of, nb::arg("run"), nb::arg("test"), nb::arg("a"), nb::arg("b"));
+  module.def("save_clashes", &save, nb::arg("run"), nb::arg("path"), nb::arg("columns"),
+             nb::arg("options"));
+}
+
+}  // namespace strake::python

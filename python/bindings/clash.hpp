@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "python/bindings/model.hpp"
+#include "python/bindings/selection.hpp"
+#include "strake/clash/clash.hpp"
+#include "strake/clash/group.hpp"
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
+#include "strake/report/clash.hpp"
+
+namespace strake::python {
+
+/// What a clash run is asked for.
+struct ClashRequest {
+  Pick a, b;
+  bool within_files = false;
+  std::string rules, profile;  ///< a file, a name; empty: none
+  std::string clearance;       ///< as the program takes it; empty: none
+  std::optional<double> touch_gap_mm, touch_overlap_mm, contact_distance_mm;
+  bool thickness_cap = true, volumes = false, curves = false;
+  std::string contacts = "list";  ///< "list", "count" or "off"
+  std::uint64_t regions = clash::EngineOptions{}.most_regions;
+  std::string group_by;  ///< empty: no groups
+  std::optional<double> group_distance_mm;
+  bool group_contacts = false;
+};
+
+/// What a clash run found, with what it is written with.
+struct ClashRun {
+  ModelPointer model;
+  clash::Findings findings;
+  std::optional<clash::Grouping> grouping;
+  std::optional<report::RulesSource> rules;
+  report::WrittenClasses classes;
+  Diagnostics loading;
+
+  [[nodiscard]] report::ClashContents contents() const {
+    return {.findings = findings,
+            .model = model->model(),
+            .grouping = grouping ? &*grouping : nullptr,
+            .rules = rules ? &*rules : nullptr,
+            .loading = &loading,
+            .classes = classes};
+  }
+};
+
+/// Runs what the program's verb `clash` runs. Errors: usage, input, cancelled, memory.
+[[nodiscard]] Result<std::shared_ptr<ClashRun>> find_clashes(const ModelPointer& model,
+                                                             const ClashRequest& request,
+                                                             const parallel::Context& context);
+
+}  // namespace strake::python

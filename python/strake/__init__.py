@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Exact clash detection and hidden-line drawings of ship, plant and building models.
+
+    import strake
+
+    model = strake.load("ship.glb")
+    clashes = strake.clash(model, clearance=25)
+    clashes.save("clashes.json")
+    strake.draw(model, "iso", hidden="dashed").save("ship.svg")
+
+Lengths are millimetres where they are numbers, and have their unit where they are texts: 25, "25mm",
+"1in". Coordinates are millimetres of the model, z up. Results have the bytes that the program `strake`
+writes, for any number of threads.
+
+Every foreseeable failure is a `strake.Error`; Ctrl-C ends a call soon, as KeyboardInterrupt.
+"""
+
+from strake import _core
+from strake._clash import Clash, Clashes, Group, Kind, Relation, clash
+from strake._drawing import Drawing, Lines, draw
+from strake._errors import (
+    Cancelled,
+    Error,
+    InputError,
+    InternalError,
+    OutOfMemory,
+    OutputError,
+    UsageError,
+)
+from strake._model import Diagnostic, Mesh, Model, Object, generate, load
+from strake._program import evaluate, run_program
+from strake._project import Project
+from strake._sheet import Sheet, SheetDrawing
+
+__version__: str = _core.version()
+
+__all__ = [
+    "Cancelled",
+    "Clash",
+    "Clashes",
+    "Diagnostic",
+    "Drawing",
+    "Error",
+    "Group",
+    "InputError",
+    "InternalError",
+    "Kind",
+    "Lines",
+    "Mesh",
+    "Model",
+    "Object",
+    "OutOfMemory",
+    "OutputError",
+    "Project",
+    "Relation",
+    "Sheet",
+    "SheetDrawing",
+    "UsageError",
+    "__version__",
+    "clash",
+    "draw",
+    "evaluate",
+    "generate",
+    "load",
+    "run_program",
+]

@@ -1,0 +1,386 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Clash detection."""
+
+from __future__ import annotations
+
+import enum
+import html
+from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from strake import _core
+from strake._arguments import (
+    Length,
+    PathLike,
+    Progress,
+    Selection,
+    length,
+    number,
+    optional_length,
+    path,
+    pick,
+    run_options,
+    texts,
+)
+from strake._errors import UsageError
+from strake._model import Diagnostic, Model, _position
+
+if TYPE_CHECKING:
+    import pandas
+    import pyarrow
+
+
+class Kind(enum.IntEnum):
+    """Classes of results, from the least to the most severe (docs/clash.md)."""
+
+    NO_HIT = 0
+    CLEARANCE_VIOLATION = 1
+    CONTACT = 2
+    HIT = 3
+
+
+class Relation(enum.IntEnum):
+    """How a stands to b (docs/clash.md)."""
+
+    SEPARATE = 0
+    ABUT_OUTSIDE = 1
+    ABUT_INSIDE = 2
+    INTERFERE = 3
+    A_IN_B = 4
+    B_IN_A = 5
+    DUPLICATE = 6
+    CROSS = 7
+
+
+class Flag(enum.IntFlag):
+    """What else is to be known of a result (docs/clash.md)."""
+
+    BORDERLINE = 1
+    UNCERTAIN = 2
+    OPEN = 4
+    INVERTED = 8
+
+
+class Clash(NamedTuple):
+    """One pair of objects that is not NO_HIT. Lengths are mm."""
+
+    test: str
+    a: int
+    """Number of the object in its model."""
+    b: int
+    a_id: str
+    b_id: str
+    kind: Kind
+    relation: Relation
+    flags: Flag
+    separation: float
+    """The distance, or minus the depth."""
+    lower: float
+    upper: float
+    """The true separation lies between lower and upper."""
+    depth: float
+    distance: float
+    point: tuple[float, float, float]
+    """The deepest point, or the middle between the closest two."""
+    push_out: tuple[float, float, float]
+    """Unit vector along which a moves away from b; zero where there is none."""
+    volume: float | None
+    """Of the common part, mm3, where it was asked for and is known."""
+    allowed: str | None
+    """The rule that allows it."""
+    key: str
+    """The same tomorrow: decisions are looked up by it."""
+
+
+class Group(NamedTuple):
+    """Clashes about one thing."""
+
+    id: str
+    name: str
+    worst: Kind
+    separation: float
+    """The least of the worst kind, mm."""
+    rows: npt.NDArray[np.uint32]
+    """Rows of Clashes.array."""
+
+
+class Clashes(Sequence[Clash]):
+    """What clash() found."""
+
+    def __init__(self, core: _core.ClashRun, model: Model) -> None:
+        self._core = core
+        self.model = model
+
+    def __len__(self) -> int:
+        return len(self.array)
+
+    @cached_property
+    def array(self) -> npt.NDArray[np.void]:
+        """A structured array of all results, read-only.
+
+        Fields: test (number in `tests`), a and b (numbers of objects, a < b), kind (Kind), relation (Relation), flags
+        (Flag), separation, lower, upper, depth, distance (mm), point, point_on_a, point_on_b (3, mm), push_out (3, unit
+        vector), volume (mm3, NaN where not known), allowed (rule, or -1), regions (how many; 0 where not told).
+        """
+        return np.asarray(_core.clash_rows(self._core, run_options(None, None)))
+
+    @property
+    def tests(self) -> list[str]:
+        """Names of the tests; "" without rules."""
+        return self._core.tests
+
+    @cached_property
+    def _allowing(self) -> list[list[str]]:
+        return self._core.allowing_rules
+
+    @overload
+    def __getitem__(self, index: int) -> Clash: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Clash]: ...
+    def __getitem__(self, index: int | slice) -> Clash | list[Clash]:
+        if isinstance(index, slice):
+            return [self._record(i) for i in range(*index.indices(len(self)))]
+        return self._record(_position(index, len(self)))
+
+    def __iter__(self) -> Iterator[Clash]:
+        return (self._record(i) for i in range(len(self)))
+
+    def _record(self, i: int) -> Clash:
+        row: Any = self.array[i]
+        test, a, b, allowed = int(row["test"]), int(row["a"]), int(row["b"]), int(row["allowed"])
+        volume = float(row["volume"])
+        return Clash(
+            test=self.tests[test],
+            a=a,
+            b=b,
+            a_id=str(self.model.ids[a]),
+            b_id=str(self.model.ids[b]),
+            kind=Kind(int(row["kind"])),
+            relation=Relation(int(row["relation"])),
+            flags=Flag(int(row["flags"])),
+            separation=float(row["separation"]),
+            lower=float(row["lower"]),
+            upper=float(row["upper"]),
+            depth=float(row["depth"]),
+            distance=float(row["distance"]),
+            point=tuple(row["point"].tolist()),
+            push_out=tuple(row["push_out"].tolist()),
+            volume=None if np.isnan(volume) else volume,
+            allowed=None if allowed < 0 else self._allowing[test][allowed],
+            key=_core.clash_key(self._core, test, a, b),
+        )
+
+    @property
+    def summary(self) -> dict[str, int]:
+        """Counts: hit, contact, clearance_violation, allowed, and what could not be compared."""
+        return self._core.summary
+
+    @property
+    def hash(self) -> str:
+        """Equal for equal results."""
+        return self._core.hash
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """What the tests noticed, as sets that are empty and rules that do nothing."""
+        return [Diagnostic(*one) for one in self._core.diagnostics]
+
+    @cached_property
+    def groups(self) -> list[Group]:
+        """Results put together as `group_by` said, or by element: the object with most of them first takes its own."""
+        return [Group(id, name, Kind(worst), d, rows) for id, name, worst, d, rows in _core.clash_groups(self._core)]
+
+    def table(self, rows: int = 20) -> str:
+        """Returns the worst results as the program shows them, at most so many."""
+        return self._core.table(max(0, int(number(rows, "rows"))))
+
+    def __repr__(self) -> str:
+        counts = self.summary
+        return (
+            f"<strake.Clashes: {counts['hit']} hits, {counts['contact']} contacts, "
+            f"{counts['clearance_violation']} clearance violations>"
+        )
+
+    def __str__(self) -> str:
+        return self.table()
+
+    def _repr_html_(self, most: int = 50) -> str:
+        names = ("kind", "separation", "relation", "point", "a_id", "b_id")
+        head = "".join(f"<th>{name}</th>" for name in names)
+        body = "".join(f"<tr>{''.join(_cells(one))}</tr>" for one in self[:most])
+        more = len(self) - most
+        rest = f"<p>… and {more} more</p>" if more > 0 else ""
+        return f"<p>{html.escape(repr(self)[1:-1])}</p><table><tr>{head}</tr>{body}</table>{rest}"
+
+    def save(
+        self,
+        path_to: PathLike,
+        columns: Sequence[str] = (),
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> None:
+        """Writes .json (schemas/clash.schema.json) or .csv, the bytes that the program writes, whole or not at all.
+
+        `columns` are attributes of both objects that are written, too, as "DN" or "@DN". Raises: UsageError, OutputError.
+        """
+        options = run_options(threads, progress)
+        names = [name.removeprefix("@") for name in texts(columns, "columns")]
+        _core.save_clashes(self._core, path(path_to, "path_to"), names, options)
+
+    def columns(self) -> dict[str, npt.NDArray[Any]]:
+        """Returns flat columns by name: those of `array`, points split in x, y, z, with ids and names of both objects."""
+        rows = self.array
+        flat: dict[str, npt.NDArray[Any]] = {}
+        for field in rows.dtype.names or ():
+            if rows[field].ndim == 1:
+                flat[field] = rows[field]
+            else:
+                for k, axis in enumerate("xyz"):
+                    flat[f"{field}_{axis}"] = rows[field][:, k]
+        for side in ("a", "b"):
+            flat[f"{side}_id"] = self.model.ids[rows[side]]
+            flat[f"{side}_name"] = self.model.names[rows[side]]
+        return flat
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Returns a data frame with columns(); test, kind and relation are categories.
+
+        Raises: ImportError where pandas is not installed.
+        """
+        try:
+            import pandas
+        except ImportError as error:
+            raise ImportError("Clashes.to_pandas() needs pandas: pip install pandas") from error
+        columns: dict[str, Any] = dict(self.columns())
+        for name, words in (
+            ("test", self.tests),
+            ("kind", [kind.name for kind in Kind]),
+            ("relation", [relation.name for relation in Relation]),
+        ):
+            columns[name] = pandas.Categorical.from_codes(columns[name], words)
+        return pandas.DataFrame(columns)
+
+    def to_arrow(self) -> pyarrow.Table:
+        """Returns an Arrow table with columns(); test, kind and relation are dictionaries.
+
+        Raises: ImportError where pyarrow is not installed.
+        """
+        try:
+            import pyarrow
+        except ImportError as error:
+            raise ImportError("Clashes.to_arrow() needs pyarrow: pip install pyarrow") from error
+        columns: dict[str, Any] = {name: pyarrow.array(values) for name, values in self.columns().items()}
+        for name, words in (
+            ("test", self.tests),
+            ("kind", [kind.name for kind in Kind]),
+            ("relation", [relation.name for relation in Relation]),
+        ):
+            codes = pyarrow.array(self.array[name].astype(np.int32))
+            columns[name] = pyarrow.DictionaryArray.from_arrays(codes, words)
+        return pyarrow.table(columns)
+
+
+def _cells(one: Clash) -> Iterator[str]:
+    point = ", ".join(f"{x:.0f}" for x in one.point)
+    for text in (one.kind.name, f"{one.separation:.3f}", one.relation.name, point, one.a_id, one.b_id):
+        yield f"<td>{html.escape(text)}</td>"
+
+
+def clash(
+    model: Model,
+    a: Selection | None = None,
+    b: Selection | None = None,
+    *,
+    rules: PathLike | None = None,
+    profile: str | None = None,
+    clearance: Length = 0.0,
+    touch_gap: Length = 1.0,
+    touch_overlap: Length = 1.0,
+    contacts: Literal["list", "count", "off"] = "list",
+    within_files: bool = False,
+    contact_distance: Length | None = None,
+    thickness_cap: bool = True,
+    volumes: bool = False,
+    curves: bool = False,
+    regions: int = 8,
+    group_by: Literal["element", "proximity", "test", "files", "assembly"] | None = None,
+    group_distance: Length | None = None,
+    group_contacts: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Clashes:
+    """Finds the pairs of objects, one of set a and one of set b, that collide, touch, or come too near.
+
+    Args:
+        model: what is tested.
+        a, b: the sets: a selection ("PIPE*", docs/selection.md), several, or (N,) bool as Model.select() returns. None:
+            everything; where neither is given and the model has several files, only pairs of two files count unless
+            `within_files`.
+        rules: a rules file (docs/rules.md). It has sets and tolerances: give none besides.
+        profile: "plant", "ship" ...: leave out what is no clash in such a model.
+        clearance: pairs nearer than this violate it; "@INSU + 25mm" adds what both objects state as that attribute.
+        touch_gap, touch_overlap: up to this far apart, and this deep, is a contact.
+        contacts: "list" them, "count" those that are nothing else, or leave them "off".
+        contact_distance: what the numbers of the source cannot tell apart; None: from the precision of the files.
+        thickness_cap: whether touch_overlap is at most a quarter of the thinner part.
+        volumes: measure the common volume of hits.
+        curves: check lines, too.
+        regions: how many separate places of a pair are listed in files.
+        group_by, group_distance, group_contacts: the groups of `Clashes.groups`, which are then saved, too.
+        threads, progress: as in load().
+
+    Raises: UsageError; InputError for a rules file; KeyboardInterrupt at Ctrl-C.
+    """
+    request = _core.ClashRequest()
+    request.a = pick(a, len(model), "a")
+    request.b = pick(b, len(model), "b")
+    if rules is not None:
+        _refuse_beside_rules(
+            {
+                "a": a is not None,
+                "b": b is not None,
+                "profile": bool(profile),
+                "clearance": clearance != 0,
+                "touch_gap": touch_gap != 1,
+                "touch_overlap": touch_overlap != 1,
+                "contact_distance": contact_distance is not None,
+                "within_files": within_files,
+            }
+        )
+        request.rules = str(path(rules, "rules"))
+    request.profile = profile or ""
+    request.within_files = within_files
+    request.clearance = clearance if isinstance(clearance, str) else f"{length(clearance, 'clearance')!r}mm"
+    request.touch_gap_mm = length(touch_gap, "touch_gap")
+    request.touch_overlap_mm = length(touch_overlap, "touch_overlap")
+    request.contact_distance_mm = optional_length(contact_distance, "contact_distance")
+    request.thickness_cap, request.volumes, request.curves = thickness_cap, volumes, curves
+    if contacts not in ("list", "count", "off"):
+        raise UsageError(f"there is no way {contacts!r}", "contacts", "write list, count or off")
+    if group_contacts and contacts != "list":
+        raise UsageError("contacts that are not listed cannot be put into groups", "group_contacts")
+    if (group_distance is not None or group_contacts) and group_by is None:
+        raise UsageError("there are no groups", "group_distance" if group_distance else "group_contacts", "give group_by")
+    request.contacts = contacts
+    request.regions = _count(regions, "regions")
+    request.group_by = group_by or ""
+    request.group_distance_mm = optional_length(group_distance, "group_distance")
+    request.group_contacts = group_contacts
+    return Clashes(_core.clash(model._core, request, run_options(threads, progress)), model)
+
+
+def _count(value: int, name: str) -> int:
+    count = number(value, name)
+    if count < 0 or count != int(count):
+        raise UsageError(f"{value!r} is no count", name)
+    return int(count)
+
+
+def _refuse_beside_rules(said: Mapping[str, bool]) -> None:
+    for name, is_given in said.items():
+        if is_given:
+            raise UsageError("a rules file says this itself", name, "leave it out, or write it there")

@@ -1,0 +1,252 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Hidden-line drawings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from strake import _core
+from strake._arguments import (
+    Length,
+    PathLike,
+    Progress,
+    Selection,
+    length,
+    number,
+    numbers,
+    optional_length,
+    path,
+    pick,
+    run_options,
+    texts,
+)
+from strake._errors import UsageError
+from strake._model import Diagnostic, Model
+
+LINE_KINDS: tuple[str, ...] = tuple(_core.LINE_KINDS)
+"""Names of the kinds of lines: what `kind` counts."""
+LINE_STATES: tuple[str, ...] = tuple(_core.LINE_STATES)
+"""Names of the states of lines: what `state` counts."""
+
+_VIEW_OPTIONS = ("view", "direction", "up", "eye", "target", "near", "field_of_view", "limits", "section")
+_PENS = {"outline": 0.5, "edge": 0.5, "thin": 0.25, "section": 0.7}
+
+
+class Lines(NamedTuple):
+    """The lines that get ink, joined to chains. Chain i is points[starts[i]:starts[i + 1]]."""
+
+    points: npt.NDArray[np.float64]
+    """(P, 2) mm on paper, x to the right and y down from the upper left corner."""
+    starts: npt.NDArray[np.uint32]
+    """(C + 1,)"""
+    kinds: npt.NDArray[np.uint8]
+    """(C,) numbers of LINE_KINDS."""
+    states: npt.NDArray[np.uint8]
+    """(C,) numbers of LINE_STATES."""
+    objects: npt.NDArray[np.uint32]
+    """(C,) numbers of objects of the model."""
+
+
+class Drawing:
+    """A view on paper, as draw() makes it."""
+
+    def __init__(self, model: Model, request: _core.DrawRequest, options: _core.RunOptions) -> None:
+        self.model = model
+        self._request = request
+        self._options = options
+        self._core = _core.draw(model._core, request, options)
+
+    @cached_property
+    def _whole(self) -> _core.DrawRun:
+        """The drawing with its hidden lines, which are found when they are asked for, unless they are shown anyway."""
+        if self._request.visible_only or self._request.hidden != "off":
+            return self._core
+        self._request.keep_hidden = True
+        return _core.draw(self.model._core, self._request, self._options)
+
+    @cached_property
+    def svg(self) -> str:
+        """SVG in mm of paper, with the bytes that `strake draw` writes."""
+        return _core.svg(self._core).decode("utf-8")
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of the paper, mm."""
+        width, height = self._core.size_mm
+        return width, height
+
+    @property
+    def scale(self) -> str:
+        """As "1:50"."""
+        return self._core.scale
+
+    @property
+    def summary(self) -> dict[str, int]:
+        """The number of lines of each state; hidden ones only where they are shown."""
+        return self._core.summary
+
+    @cached_property
+    def lines(self) -> Lines:
+        """The lines that get ink."""
+        return Lines(*_core.chains(self._core))
+
+    @cached_property
+    def segments(self) -> npt.NDArray[np.void]:
+        """A structured array of all straight pieces, inked or not, hidden or not, without a copy and read-only.
+
+        Where `hidden` was "off" the first use draws once more, to find the hidden lines, unless `visible_only`.
+
+        Fields: object, edge (number among those of the object), kind (LINE_KINDS), state (LINE_STATES), other (the second
+        object of an intersection), a and b (3, mm of the model), a_paper and b_paper (2, mm on paper).
+        """
+        return np.asarray(_core.segments(self._whole))
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """What drawing noticed, as objects far from all others."""
+        return [Diagnostic(*one) for one in self._core.diagnostics]
+
+    def save(self, path_to: PathLike, threads: int | None = None, progress: Progress | None = None) -> None:
+        """Writes .svg, or .json or .view (docs/drawing.md), whole or not at all; these two have all of `segments`.
+
+        Raises: UsageError, OutputError.
+        """
+        into, options = path(path_to, "path_to"), run_options(threads, progress)
+        _core.save_drawing(self._core if _core.shows_ink(into) else self._whole, into, options)
+
+    def __repr__(self) -> str:
+        width, height = self.size
+        return f"<strake.Drawing at {self.scale} on {width:g} x {height:g} mm: {self.summary['visible']} visible lines>"
+
+
+def draw(
+    model: Model,
+    view: str | Mapping[str, Any] = "iso",
+    *,
+    select: Selection | None = None,
+    hidden: Literal["off", "dashed", "all"] | bool = "off",
+    scale: str | float | None = None,
+    paper: str | None = None,
+    title: str = "",
+    pens: Mapping[str, float] | None = None,
+    stage: Literal["none", "local", "global"] = "global",
+    intersections: Literal["off", "objects", "primitives", "parts"] = "primitives",
+    own_polylines: Literal["visible", "hidden"] = "visible",
+    smooth: Literal["off", "tangent", "on"] = "off",
+    flush_seams: bool = True,
+    sharp_angle: float = 20.0,
+    contact_distance: Length | None = None,
+    sag: Length | None = None,
+    weld: Length | None = None,
+    uncut: str | Sequence[str] | None = None,
+    obstructions: bool = False,
+    insulation: bool = False,
+    visible_only: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Drawing:
+    """Draws a view of a model, hidden lines removed.
+
+    Args:
+        model: what is drawn.
+        view: "iso", "top", "bottom", "front", "back", "left" or "right", or a mapping of: view; direction (to the viewer:
+            (1, -2, 1)); up; eye and target (3, mm), for a view in perspective, with near (mm) and field_of_view
+            (degrees); limits ((2, 3) mm, the least and the greatest corner, or "auto", which leaves out the few objects
+            far from all others); section ("z>4500mm", or several).
+        select: objects to draw: a selection (docs/selection.md), several, or (N,) bool. None: all.
+        hidden: hidden lines: "off", "dashed" where no line runs beside them, or "all"; True is "dashed".
+        scale: as "1:50", or 50; None: the largest usual one that fits the paper.
+        paper: "A3", "A1,portrait", "900mmx420mm" ...
+        title: of the sheet.
+        pens: widths in mm on paper of outline, edge, thin and section; None: by the density of the drawing.
+        stage: hide nothing, within each object, or among all.
+        intersections: lines where bodies pass through each other.
+        own_polylines: whether faces hide the lines of their own object.
+        smooth: edges where faces turn by less than `sharp_angle` (degrees): none, where a curved surface begins, or all.
+        flush_seams: whether edges of parts that join flat are drawn.
+        contact_distance: what is nearer by no more than this hides nothing.
+        sag, weld: how fine curves are, and which seams close; None: by the paper, and by the precision of the files.
+        uncut: selections of what a section leaves whole.
+        obstructions, insulation: take in bodies of these categories.
+        visible_only: leave out hidden lines of everything: less time and memory.
+        threads, progress: as in load().
+
+    Raises: UsageError, with the argument as `where`; InputError for a view that reaches too far; KeyboardInterrupt.
+    """
+    request = _core.DrawRequest()
+    _set_view(request, view)
+    request.select = pick(select, len(model), "select")
+    request.hidden = hidden if isinstance(hidden, str) else ("dashed" if hidden else "off")
+    request.scale = "" if scale is None else _scale(scale)
+    request.paper, request.title = paper or "", title
+    request.stage, request.intersections, request.own_polylines = stage, intersections, own_polylines
+    request.smooth = smooth
+    request.flush_seams, request.visible_only = flush_seams, visible_only
+    request.obstructions, request.insulation = obstructions, insulation
+    request.sharp_angle_deg = number(sharp_angle, "sharp_angle")
+    request.contact_distance_mm = optional_length(contact_distance, "contact_distance")
+    request.sag_mm = optional_length(sag, "sag")
+    if request.sag_mm is not None and request.sag_mm < 0.001:
+        raise UsageError(f"{sag!r} is finer than the grid of 1um", "sag")
+    request.weld_mm = optional_length(weld, "weld")
+    if request.weld_mm is not None and request.weld_mm > 1000:
+        raise UsageError(f"{weld!r} is longer than a metre", "weld")
+    request.uncut = texts(uncut, "uncut")
+    if pens is not None:
+        request.pens = _pens(pens)
+    return Drawing(model, request, run_options(threads, progress))
+
+
+def _set_view(request: _core.DrawRequest, view: str | Mapping[str, Any]) -> None:
+    if isinstance(view, str):
+        request.view = view
+        return
+    for name in view:
+        if name not in _VIEW_OPTIONS:
+            raise UsageError(f"there is no option {name!r} of a view", "view", f"write {', '.join(_VIEW_OPTIONS)}")
+    if sum(name in view for name in ("view", "direction", "eye")) > 1:
+        raise UsageError("view, direction and eye exclude each other", "view")
+    request.view = view.get("view", "iso")
+    request.direction = _direction(view.get("direction"), "direction")
+    request.up = _direction(view.get("up"), "up")
+    for name in ("eye", "target"):
+        if name in view:
+            setattr(request, name, numbers(view[name], 3, name, "x, y and z in millimetres"))
+    if "near" in view:
+        request.near_mm = length(view["near"], "near")
+    if "field_of_view" in view:
+        request.field_of_view_deg = number(view["field_of_view"], "field_of_view")
+    limits = view.get("limits")
+    if isinstance(limits, str) and limits == "auto":
+        request.leave_out_far_objects = True
+    elif limits is not None:
+        request.limits = numbers(limits, 6, "limits", "the least and the greatest corner in millimetres, or 'auto'")
+    request.sections = texts(view.get("section"), "section")
+
+
+def _direction(value: Any, name: str) -> str:
+    if value is None or isinstance(value, str):
+        return value or ""
+    return ",".join(f"{x:.17g}" for x in numbers(value, 3, name, "x, y and z"))
+
+
+def _scale(scale: str | float) -> str:
+    return scale if isinstance(scale, str) else f"1:{number(scale, 'scale'):.17g}"
+
+
+def _pens(pens: Mapping[str, float]) -> list[float]:
+    for name in pens:
+        if name not in _PENS:
+            raise UsageError(f"there is no pen {name!r}", "pens", f"write {', '.join(_PENS)}")
+    widths = [number(pens.get(name, usual), f"pens[{name!r}]") for name, usual in _PENS.items()]
+    if min(widths) <= 0:
+        raise UsageError("a pen has no width", "pens", "give millimetres of paper")
+    return widths

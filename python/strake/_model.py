@@ -1,0 +1,367 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Models: read, made of arrays, looked at, written."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from strake import _core
+from strake._arguments import (
+    Length,
+    PathLike,
+    Progress,
+    length,
+    number,
+    path,
+    paths,
+    run_options,
+    texts,
+)
+from strake._errors import UsageError
+
+if TYPE_CHECKING:
+    import trimesh
+
+_AXES = {"x": 0, "y": 1, "z": 2}
+_UNMOVED = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+
+
+class Diagnostic(NamedTuple):
+    """One thing that a run noticed about its input and survived."""
+
+    severity: str
+    """"note", "warning", or "skipped": what it names is absent."""
+    code: str
+    """A lasting name of the kind, as "unit-doubtful"."""
+    message: str
+    where: str
+    """A file with line or offset, or an object."""
+
+
+class Object(NamedTuple):
+    """What a user would point at: a glTF node with a mesh, an RVM group with primitives, an OBJ group."""
+
+    number: int
+    """Its place in Model.objects: what arrays call it."""
+    id: str
+    """Durable, and unique within its file."""
+    name: str
+    path: str
+    """Names of the groups above, joined by "/"."""
+    file: str
+    """The label of its file."""
+    category: str
+    """"physical", "obstruction" or "insulation"."""
+    attributes: dict[str, str]
+    """What it states, and what it inherits from the groups above."""
+
+
+class Mesh(NamedTuple):
+    """An object for Model.from_arrays()."""
+
+    name: str
+    vertices: npt.ArrayLike
+    """(V, 3), mm; float32 arrays are known to be rounded."""
+    triangles: npt.ArrayLike
+    """(T, 3), whole numbers of vertices; the outward side is counter-clockwise."""
+    attributes: Mapping[str, str] | None = None
+    placement: npt.ArrayLike | None = None
+    """(3, 4) or (4, 4), from the vertices to the model; objects that share arrays share their shape."""
+    path: str = ""
+    """Names of groups above, joined by "/"."""
+    color: Sequence[int] | None = None
+    """Red, green, blue and perhaps alpha, 0 to 255; what is transparent hides nothing."""
+
+
+class Objects(Sequence[Object]):
+    """The objects of a model in their durable order, each made when it is asked for."""
+
+    def __init__(self, core: _core.Model) -> None:
+        self._core = core
+
+    def __len__(self) -> int:
+        return len(self._core)
+
+    @overload
+    def __getitem__(self, index: int) -> Object: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Object]: ...
+    def __getitem__(self, index: int | slice) -> Object | list[Object]:
+        if isinstance(index, slice):
+            return [self._at(i) for i in range(*index.indices(len(self)))]
+        return self._at(_position(index, len(self)))
+
+    def _at(self, i: int) -> Object:
+        return Object(i, *self._core.object(i))
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} objects>"
+
+
+def _position(index: int, count: int) -> int:
+    i = int(index.__index__())
+    if not -count <= i < count:
+        raise IndexError(f"there is no object {i} of {count}")
+    return i + count if i < 0 else i
+
+
+class Model:
+    """Objects of one or several files, as load(), generate() and from_arrays() make them. It never changes."""
+
+    def __init__(self, core: _core.Model) -> None:
+        self._core = core
+
+    def __len__(self) -> int:
+        """The number of objects."""
+        return len(self._core)
+
+    def __repr__(self) -> str:
+        labels = [file[0] for file in self._core.files]
+        named = ", ".join(labels[:3]) + (f" and {len(labels) - 3} more" if len(labels) > 3 else "")
+        return f"<strake.Model of {named}: {len(self)} objects, {self._core.bodies} bodies>"
+
+    @cached_property
+    def objects(self) -> Objects:
+        """The objects in their durable order, by file and id."""
+        return Objects(self._core)
+
+    def __iter__(self) -> Iterator[Object]:
+        return iter(self.objects)
+
+    @property
+    def files(self) -> list[dict[str, Any]]:
+        """Of each file label, format, unit, up_axis and bytes."""
+        return [dict(zip(("label", "format", "unit", "up_axis", "bytes"), file, strict=True)) for file in self._core.files]
+
+    @cached_property
+    def ids(self) -> npt.NDArray[np.object_]:
+        """(N,) ids of the objects."""
+        return np.array(self._core.ids, dtype=object)
+
+    @cached_property
+    def names(self) -> npt.NDArray[np.object_]:
+        """(N,) names of the objects."""
+        return np.array(self._core.names, dtype=object)
+
+    @cached_property
+    def placements(self) -> npt.NDArray[np.float64]:
+        """(B, 3, 4) from the shape of each body to the model, mm."""
+        return _core.placements(self._core)
+
+    @cached_property
+    def object_of_body(self) -> npt.NDArray[np.uint32]:
+        """(B,) number of the object that each body belongs to."""
+        return _core.object_of_body(self._core)
+
+    @cached_property
+    def boxes(self) -> npt.NDArray[np.float64]:
+        """(N, 2, 3) least and greatest corner of each object, mm; NaN for objects of which nothing could be placed."""
+        return _core.boxes(self._core, run_options(None, None))
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """What reading noticed, at most a hundred of each kind."""
+        return [Diagnostic(*one) for one in self._core.diagnostics]
+
+    def select(self, expression: str | Sequence[str]) -> npt.NDArray[np.bool_]:
+        """Returns (N,) whether each object is picked by one of the selections (docs/selection.md).
+
+        Raises: UsageError, with the column where the text stops making sense.
+        """
+        wanted = texts(expression, "expression")
+        if not wanted:
+            raise UsageError("no selection is given", "expression")
+        return _core.select(self._core, wanted, run_options(None, None))
+
+    def mesh(self, i: int, sag: Length = 0.5) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.uint32]]:
+        """Returns vertices (V, 3), mm of the model, and triangles (T, 3) of object i.
+
+        Curved primitives are tessellated with chords no farther than `sag` from the surface; lines have no triangles.
+        Raises: IndexError; UsageError for a sag below a micrometre.
+        """
+        sag_mm = length(sag, "sag")
+        if sag_mm < 0.001:
+            raise UsageError(f"{sag!r} is finer than the grid of 1um", "sag")
+        return _core.mesh(self._core, _position(i, len(self)), sag_mm)
+
+    def save(self, path_to: PathLike, threads: int | None = None, progress: Progress | None = None) -> None:
+        """Writes a .glb or an .obj, whole or not at all. Raises: UsageError, OutputError."""
+        _core.save(self._core, path(path_to, "path_to"), run_options(threads, progress))
+
+    @classmethod
+    def from_arrays(cls, meshes: Iterable[Mesh | tuple[Any, ...]], label: str = "arrays") -> Model:
+        """Makes a model of meshes: Mesh records, or tuples of name, vertices, triangles and perhaps attributes.
+
+        `label` is what results call the file. Names that repeat gain "#2" in their ids.
+        Raises: UsageError for arrays of another shape or type, for numbers that are not finite, for corners that are no
+        vertices; it names the mesh.
+        """
+        builder = _core.ModelBuilder(label)
+        shapes: dict[tuple[int, int], int] = {}
+        kept: list[object] = []  # so that no other array gets the place of one that is remembered
+        for given in meshes:
+            mesh = Mesh(*given)
+            key = (id(mesh.vertices), id(mesh.triangles))
+            try:
+                if key not in shapes:
+                    shapes[key] = _add_shape(builder, mesh)
+                    kept.append(mesh)
+                _add_object(builder, mesh, shapes[key])
+            except UsageError as error:
+                raise UsageError(error.message, f"mesh {mesh.name!r}", error.mend) from None
+        if not kept:
+            raise UsageError("no mesh is given", "meshes")
+        return cls(builder.finish())
+
+    @classmethod
+    def from_trimesh(cls, scene: trimesh.Scene | trimesh.Trimesh, unit: str | None = None, label: str = "trimesh") -> Model:
+        """Makes a model of a trimesh scene, or of one mesh.
+
+        `unit` is what its numbers are in; None: what the scene says (`units`), or millimetres.
+        Nodes of a scene become objects; those that show one geometry share its shape.
+        Raises: UsageError.
+        """
+        unit_name = str(unit or getattr(scene, "units", None) or "mm")
+        scale = _core.unit_mm(unit_name)
+        if not hasattr(scene, "graph"):
+            name = str(getattr(scene, "metadata", {}).get("name") or "mesh")
+            return cls.from_arrays([Mesh(name, scene.vertices, scene.faces, placement=np.eye(4) * scale)], label)
+        meshes = []
+        for node in scene.graph.nodes_geometry:
+            placement, name = scene.graph[node]
+            geometry = scene.geometry[name]
+            if hasattr(geometry, "faces"):
+                meshes.append(Mesh(str(node), geometry.vertices, geometry.faces, placement=np.asarray(placement) * scale))
+        return cls.from_arrays(meshes, label)
+
+    def to_trimesh(self, sag: Length = 0.5) -> trimesh.Scene:
+        """Returns a trimesh scene in mm with a mesh per object that has triangles, named by its id.
+
+        Raises: ImportError where trimesh is not installed.
+        """
+        try:
+            import trimesh
+        except ImportError as error:
+            raise ImportError("Model.to_trimesh() needs trimesh: pip install trimesh") from error
+        scene = trimesh.Scene()
+        for i, name in enumerate(self.ids):
+            vertices, triangles = self.mesh(i, sag)
+            if len(triangles):
+                mesh = trimesh.Trimesh(vertices, triangles, process=False)
+                scene.add_geometry(mesh, node_name=name, geom_name=name)
+        scene.units = "mm"
+        return scene
+
+
+def _add_shape(builder: _core.ModelBuilder, mesh: Mesh) -> int:
+    vertices = np.asarray(mesh.vertices)
+    if vertices.dtype.kind not in "fiu" or vertices.ndim != 2 or vertices.shape[1] != 3:
+        raise UsageError(f"vertices are {vertices.dtype} of shape {vertices.shape}", mend="give numbers of shape (V, 3)")
+    triangles = np.asarray(mesh.triangles)
+    if triangles.size == 0:
+        triangles = np.zeros((0, 3), dtype=np.uint32)
+    if triangles.dtype.kind not in "iu" or triangles.ndim != 2 or triangles.shape[1] != 3:
+        raise UsageError(f"triangles are {triangles.dtype} of shape {triangles.shape}", mend="give whole numbers of shape (T, 3)")
+    if triangles.size and (triangles.min() < 0 or triangles.max() >= len(vertices)):
+        raise UsageError(f"a triangle has a corner that is none of {len(vertices)} vertices")
+    return builder.add_shape(
+        np.array(vertices, dtype=np.float64, order="C"),
+        np.array(triangles, dtype=np.uint32, order="C"),
+        vertices.dtype == np.float32,
+    )
+
+
+def _add_object(builder: _core.ModelBuilder, mesh: Mesh, shape: int) -> None:
+    if not isinstance(mesh.name, str):
+        raise UsageError(f"{mesh.name!r} is no name")
+    attributes = []
+    for name, value in (mesh.attributes or {}).items():
+        if not isinstance(name, str) or not isinstance(value, str):
+            raise UsageError(f"attribute {name!r} is {value!r}", mend="give names and values as texts")
+        attributes.append((name, value))
+    groups = [name for name in mesh.path.split("/") if name]
+    builder.add_object(mesh.name, groups, attributes, _color(mesh.color), shape, _placement(mesh.placement))
+
+
+def _placement(given: npt.ArrayLike | None) -> Sequence[float]:
+    if given is None:
+        return _UNMOVED
+    matrix = np.asarray(given)
+    if matrix.dtype.kind not in "fiu" or matrix.shape not in ((3, 4), (4, 4)):
+        raise UsageError(f"a placement is {matrix.dtype} of shape {matrix.shape}", mend="give numbers of shape (3, 4)")
+    flat: list[float] = matrix[:3].astype(np.float64).ravel().tolist()
+    return flat
+
+
+def _color(given: Sequence[int] | None) -> tuple[int, int, int, int] | None:
+    if given is None:
+        return None
+    parts = [int(number(part, "color")) for part in given]
+    if len(parts) not in (3, 4) or not all(0 <= part <= 255 for part in parts):
+        raise UsageError(f"{given!r} is no colour", mend="give red, green, blue and perhaps alpha, 0 to 255")
+    red, green, blue = parts[:3]
+    return red, green, blue, parts[3] if len(parts) == 4 else 255
+
+
+def load(
+    files: PathLike | Iterable[PathLike],
+    unit: str | float | None = None,
+    up_axis: str | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Model:
+    """Reads model files (RVM, glTF, OBJ, STL) into one model.
+
+    Args:
+        files: a path, or several.
+        unit: what the numbers of the files are in, as "mm", "m" or "in", or how many millimetres it has; None: what
+            they state.
+        up_axis: "x", "y" or "z"; None: what their format states.
+        threads: how many work; None: as many as the process can run at a time.
+        progress: called with the fraction of a step and its name, from this thread, some twenty times a second. What it
+            raises ends the call.
+
+    Raises: InputError for a file that cannot be read, with where; UsageError.
+    """
+    unit_mm: float | None = None
+    if isinstance(unit, str):
+        unit_mm = _core.unit_mm(unit)
+    elif unit is not None:
+        unit_mm = number(unit, "unit")
+        if unit_mm <= 0:
+            raise UsageError(f"{unit!r} is no length", "unit")
+    if up_axis is not None and up_axis not in _AXES:
+        raise UsageError(f"{up_axis!r} is no axis", "up_axis", "write x, y or z")
+    axis = None if up_axis is None else _AXES[up_axis]
+    return Model(_core.load(paths(files, "files"), unit_mm, axis, run_options(threads, progress)))
+
+
+def generate(
+    kind: str = "usual",
+    objects: int = 1000,
+    seed: int = 1,
+    *,
+    turned: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> Model:
+    """Makes a ship section with planted clashes, as `strake generate ship` does: for trials and tests.
+
+    Args:
+        kind: "usual", "slender", "dense", "repeated" or "unlike".
+        objects: how many it has, 100 to 5,000,000.
+        seed: equal seeds give equal ships.
+        turned: whether no face lies along an axis.
+
+    Raises: UsageError.
+    """
+    count, which = int(number(objects, "objects")), int(number(seed, "seed"))
+    if count < 0 or which < 0:
+        raise UsageError("a number is negative", "objects" if count < 0 else "seed")
+    core = _core.generate(kind, count, which, turned, run_options(threads, progress))
+    return Model(core)
