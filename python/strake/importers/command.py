@@ -76,9 +76,7 @@ def _converted(convert: Convert, job: Job) -> int:
         return 1
     except Exception as failure:
         traceback.print_exc(file=sys.stderr)
-        job.report.error(
-            f"the importer has a fault: {type(failure).__name__}: {failure}", "report it, with the file if that can be given"
-        )
+        job.report.error(f"the importer has a fault: {type(failure).__name__}: {failure}", "report it, with the file if that can be given")
         return 1
     here = sorted(str(path) for path in Path(__file__).resolve().parent.rglob("*.py"))
     job.report.made_by(job.made_by, job.format, job.unit, {*job.depends_on, *here})

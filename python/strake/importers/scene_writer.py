@@ -114,9 +114,7 @@ class SceneWriter:
             primitives = []
             for part in shape.parts:
                 positions, indices = self._piece(part)
-                primitives.append(
-                    {"attributes": {"POSITION": positions}, "indices": indices, "material": self._material(part.color)}
-                )
+                primitives.append({"attributes": {"POSITION": positions}, "indices": indices, "material": self._material(part.color)})
             mesh = self._add("meshes", {"primitives": primitives})
             self._meshes[shape.key] = mesh
         return Shape(mesh, shape.middle)

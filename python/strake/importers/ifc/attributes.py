@@ -8,10 +8,9 @@ from typing import Any
 
 import ifcopenshell
 
+from strake.importers.ifc.entity import Entity, Model, number_of
 from strake.importers.ifc.units import Units
 from strake.importers.scene_writer import encoded
-
-Entity = ifcopenshell.entity_instance
 
 _OWN = ("PredefinedType", "ObjectType", "Tag", "Description", "LongName")
 _MOST_DEPTH = 3
@@ -31,7 +30,7 @@ _BETWEEN = "; "
 class AttributeReader:
     """Reads attributes. What many products share is read once."""
 
-    def __init__(self, model: ifcopenshell.file, units: Units) -> None:
+    def __init__(self, model: Model, units: Units) -> None:
         self._units = units
         self._sets: dict[int, dict[str, Any]] = {}
         self._types: dict[int, dict[str, dict[str, Any]]] = {}
@@ -64,8 +63,8 @@ class AttributeReader:
         return result
 
     def sets_of(self, owner: Entity) -> dict[str, Any]:
-        """Returns the property and quantity sets of a product."""
-        return self._property_sets(_definitions_of(owner), _type_of(owner))
+        """Returns the property and quantity sets of a group: not those of its type, which are about how it is drawn."""
+        return self._property_sets(_definitions_of(owner), None)
 
     def length(self, value: float) -> Any:
         """Returns a length of the project's unit as an attribute."""
@@ -172,7 +171,7 @@ class AttributeReader:
         return _joined(names)
 
 
-def _layers_of_items(model: ifcopenshell.file) -> dict[int, list[str]]:
+def _layers_of_items(model: Model) -> dict[int, list[str]]:
     result: dict[int, list[str]] = {}
     for layer in model.by_type("IfcPresentationLayerAssignment"):
         for item in layer.AssignedItems or ():
@@ -191,7 +190,7 @@ def _definitions_of(product: Entity) -> list[Entity]:
                 definitions += definition.wrappedValue
             else:
                 definitions.append(definition)
-    return sorted(definitions, key=Entity.id)
+    return sorted(definitions, key=number_of)
 
 
 def _type_of(product: Entity) -> Entity | None:

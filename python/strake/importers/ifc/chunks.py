@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import ifcopenshell
 import ifcopenshell.geom
@@ -13,10 +14,9 @@ import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
+from strake.importers.ifc.entity import Model
 from strake.importers.ifc.kernels import geometry_settings
 from strake.importers.shapes import Color, Part, PreparedShape, prepare_shape
-
-Entity = ifcopenshell.entity_instance
 
 _MM_PER_M = 1000.0
 
@@ -39,6 +39,7 @@ class Converted:
     middle: tuple[float, float, float]
     placement: bytes
     shape: PreparedShape | None
+    kernel: str
     fault: str = ""
 
 
@@ -47,18 +48,19 @@ class Remark:
     """A fault that IfcOpenShell found; product 0: of none in particular."""
 
     product: int
+    kernel: str
     message: str
 
 
 Answer = Converted | Remark
 
 
-def convert_chunk(model: ifcopenshell.file, chunk: Chunk) -> Iterator[Answer]:
+def convert_chunk(model: Model, chunk: Chunk) -> Iterator[Answer]:
     """Yields what becomes of each product that gets a shape, then what is to be said of any.
 
     Raises whatever IfcOpenShell raises, and may end the process.
     """
-    log = ifcopenshell_wrapper.logger()
+    log: Any = ifcopenshell_wrapper.logger()
     log.output_format(log.FMT_INMEMORY)
     iterator = ifcopenshell.geom.iterator(
         geometry_settings(),
@@ -72,12 +74,12 @@ def convert_chunk(model: ifcopenshell.file, chunk: Chunk) -> Iterator[Answer]:
     going = iterator.initialize()
     while going:
         element = iterator.get()
-        yield _converted(element, known)
+        yield _converted(element, known, chunk.kernel)
         going = bool(iterator.next())
-    yield from _remarks(log)
+    yield from _remarks(log, chunk.kernel)
 
 
-def _converted(element: ifcopenshell_wrapper.TriangulationElement, known: dict[str, PreparedShape | str]) -> Converted:
+def _converted(element: Any, known: dict[str, PreparedShape | str], kernel: str) -> Converted:
     name = element.geometry.id
     first = name not in known
     if first:
@@ -89,13 +91,13 @@ def _converted(element: ifcopenshell_wrapper.TriangulationElement, known: dict[s
     placement = np.array(element.transformation.matrix, dtype=np.float64).reshape(4, 4).T.copy()
     placement[:3, 3] *= _MM_PER_M
     if isinstance(shape, str):
-        return Converted(element.id, b"", (0, 0, 0), b"", None, shape)
+        return Converted(element.id, b"", (0, 0, 0), b"", None, kernel, shape)
     if not np.isfinite(placement).all():
-        return Converted(element.id, b"", (0, 0, 0), b"", None, "its placement is not finite")
-    return Converted(element.id, shape.key, shape.middle, placement.tobytes(), shape if first else None)
+        return Converted(element.id, b"", (0, 0, 0), b"", None, kernel, "its placement is not finite")
+    return Converted(element.id, shape.key, shape.middle, placement.tobytes(), shape if first else None, kernel)
 
 
-def _parts(geometry: ifcopenshell_wrapper.Triangulation) -> Sequence[Part]:
+def _parts(geometry: Any) -> Sequence[Part]:
     """Returns the triangles of each style."""
     vertices: NDArray[np.float64] = np.frombuffer(geometry.verts_buffer, dtype=np.float64).reshape(-1, 3) * _MM_PER_M
     triangles: NDArray[np.int32] = np.frombuffer(geometry.faces_buffer, dtype=np.int32).reshape(-1, 3)
@@ -112,7 +114,7 @@ def _parts(geometry: ifcopenshell_wrapper.Triangulation) -> Sequence[Part]:
     return [Part(vertices, triangles[np.isin(styles, numbers)], color) for color, numbers in by_color.items()]
 
 
-def _color(style: ifcopenshell_wrapper.style) -> Color:
+def _color(style: Any) -> Color:
     red, green, blue = (round(min(max(float(x), 0.0), 1.0), 4) for x in style.diffuse.components)
     clear = float(style.transparency) if style.has_transparency() else 0.0
     alpha = round(1.0 - min(max(clear, 0.0), 1.0), 4) if clear == clear else 1.0
@@ -120,9 +122,9 @@ def _color(style: ifcopenshell_wrapper.style) -> Color:
     return (red, green, blue, max(alpha, 0.05))
 
 
-def _remarks(log: ifcopenshell_wrapper.logger) -> Iterator[Remark]:
+def _remarks(log: Any, kernel: str) -> Iterator[Remark]:
     for message in log.log_messages():
         if message.severity_string != "ERROR":
             continue
         number = re.match(r"#(\d+)=", message.product)
-        yield Remark(int(number[1]) if number else 0, message.message.strip())
+        yield Remark(int(number[1]) if number else 0, kernel, message.message.strip())

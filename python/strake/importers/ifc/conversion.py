@@ -8,6 +8,7 @@ import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import ifcopenshell
 import ifcopenshell.geom
@@ -16,12 +17,11 @@ from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
 from strake.importers.ifc.chunks import Chunk, Converted, Remark
-from strake.importers.ifc.kernels import geometry_settings, kernels_for
+from strake.importers.ifc.entity import Entity, Model
+from strake.importers.ifc.kernels import EXACT, FAST, geometry_settings, kernels_for
 from strake.importers.ifc.workers import Ended, Workers
 from strake.importers.report import Report
 from strake.importers.shapes import PreparedShape
-
-Entity = ifcopenshell.entity_instance
 
 # Products of one shape stay together, so that it is made once. How many chunks there are depends on the file alone,
 # never on the number of cores: each costs a look at all products.
@@ -36,6 +36,7 @@ class Placed:
     key: bytes
     middle: tuple[float, float, float]
     placement: bytes
+    kernel: str
 
     def matrix(self) -> NDArray[np.float64]:
         """Returns the 4x4 matrix, rows first."""
@@ -74,18 +75,25 @@ class Conversion:
     shapes: ShapeStore
     placed: dict[int, Placed] = field(default_factory=dict)
     failed: dict[int, str] = field(default_factory=dict)
-    remarks: dict[int, list[str]] = field(default_factory=dict)
+    remarks: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
     bodyless: list[int] = field(default_factory=list)
-    retried: int = 0
+
+    def remarks_of(self, number: int) -> list[str]:
+        """Returns the faults that the kernel found which made the shape; where none did, those of all."""
+        placed = self.placed.get(number)
+        found = {text for kernel, text in self.remarks.get(number, ()) if placed is None or placed.kernel == kernel}
+        return sorted(found)
 
 
-def tasks_of(model: ifcopenshell.file, products: Sequence[Entity]) -> list[tuple[Entity, ...]]:
+def tasks_of(model: Model, products: Sequence[Entity]) -> list[tuple[Entity, ...]]:
     """Returns the products that have a body; those of one shape are together."""
     settings = geometry_settings()
     settings.set("defer-processing-first-element", True)
-    iterator = ifcopenshell.geom.iterator(settings, model, 1, include=list(products), logger=ifcopenshell_wrapper.logger())
+    iterator: Any = ifcopenshell.geom.iterator(settings, model, 1, include=list(products), logger=ifcopenshell_wrapper.logger())
     iterator.initialize()
-    return [tuple(task) for task in ifcopenshell_wrapper.iterator.get_task_products(iterator)]
+    # The wrapper in Python of this function asks for a file that the iterator does not have.
+    get_task_products: Any = ifcopenshell_wrapper.iterator.get_task_products
+    return [tuple(task) for task in get_task_products(iterator)]
 
 
 def chunks_of(tasks: Sequence[tuple[Entity, ...]]) -> list[Chunk]:
@@ -102,7 +110,7 @@ def chunks_of(tasks: Sequence[tuple[Entity, ...]]) -> list[Chunk]:
     return sorted(chunks, key=lambda chunk: chunk.products[0])
 
 
-def convert_products(model: ifcopenshell.file, products: Sequence[Entity], threads: int, report: Report, folder: Path) -> Conversion:
+def convert_products(model: Model, products: Sequence[Entity], threads: int, report: Report, folder: Path) -> Conversion:
     """Converts the products. None of them can harm another, or the import."""
     result = Conversion(ShapeStore(folder))
     tasks = tasks_of(model, products) if products else []
@@ -120,7 +128,7 @@ def convert_products(model: ifcopenshell.file, products: Sequence[Entity], threa
                 _keep(event, result)
                 report.progress((len(result.placed) + len(result.failed)) / len(task_of))
             elif isinstance(event, Remark):
-                result.remarks.setdefault(event.product, []).append(event.message)
+                result.remarks.setdefault(event.product, []).append((event.kernel, event.message))
             elif isinstance(event, Ended):
                 _go_on(event, task_of, workers, result)
             else:
@@ -130,27 +138,32 @@ def convert_products(model: ifcopenshell.file, products: Sequence[Entity], threa
 
 def _keep(event: Converted, result: Conversion) -> None:
     if event.fault:
-        result.failed[event.product] = event.fault
+        # Workers count it among those without a shape, so that the next kernel tries.
+        result.remarks.setdefault(event.product, []).append((event.kernel, event.fault))
         return
     if event.shape is not None:
         result.shapes.add(event.shape)
-    result.placed[event.product] = Placed(event.key, event.middle, event.placement)
+    result.placed[event.product] = Placed(event.key, event.middle, event.placement, event.kernel)
 
 
 def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Workers, result: Conversion) -> None:
     """Sends what a chunk left behind on: to the next kernel, or after a crash apart from the product that it was at."""
-    missing = [number for number in ended.missing if number not in result.failed]
-    if ended.fault and len(ended.chunk.products) > 1 and missing:
+    chunk, missing = ended.chunk, ended.missing
+    if ended.fault and len(chunk.products) > 1 and missing:
         # Products are converted in their order, so that the first one that is missing is to be suspected.
-        first = missing[: 1 if len(missing) > 1 else None]
-        for part in (first, missing[1:]):
+        for part in (missing[:1], missing[1:]):
             if part:
-                workers.add(Chunk(tuple(part), ended.chunk.kernel, ended.chunk.attempt))
+                workers.add(Chunk(part, chunk.kernel, chunk.attempt))
         return
-    result.retried += len(missing)
     for number in missing:
-        following = kernels_of[number][ended.chunk.attempt + 1 :]
+        result.remarks.setdefault(number, []).append((chunk.kernel, ended.fault or "no shape"))
+        following = kernels_of[number][chunk.attempt + 1 :]
         if following:
-            workers.add(Chunk((number,), following[0], ended.chunk.attempt + 1))
+            workers.add(Chunk((number,), following[0], chunk.attempt + 1))
         else:
-            result.failed[number] = ended.fault or "no kernel makes a shape of it"
+            result.failed[number] = "; ".join(f"{kernel}: {text}" for kernel, text in dict.fromkeys(result.remarks[number]))
+    if chunk.kernel == FAST and not ended.fault:
+        # Where it says that something went wrong the exact one may do better.
+        for number in sorted({n for n in chunk.products if n in result.placed and result.remarks_of(n)}):
+            del result.placed[number]
+            workers.add(Chunk((number,), EXACT, max(1, chunk.attempt + 1)))

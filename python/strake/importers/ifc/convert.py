@@ -13,12 +13,13 @@ from ifcopenshell import ifcopenshell_wrapper
 from strake.importers.command import Job
 from strake.importers.ifc.attributes import AttributeReader
 from strake.importers.ifc.conversion import Conversion, convert_products
+from strake.importers.ifc.entity import Model
 from strake.importers.ifc.products import Ids, Products, choose_products, tell_of_left_out
 from strake.importers.ifc.source import open_model
 from strake.importers.ifc.spatial import SpatialGroups
 from strake.importers.ifc.units import Units
 
-# Remarks of one kind that are told of one by one; the others are counted.
+# The longest text of a kernel that is told of a product.
 _MOST_MESSAGE = 200
 
 
@@ -38,7 +39,7 @@ def convert(job: Job) -> None:
         _write(job, model, units, products, conversion)
 
 
-def _write(job: Job, model: ifcopenshell.file, units: Units, products: Products, conversion: Conversion) -> None:
+def _write(job: Job, model: Model, units: Units, products: Products, conversion: Conversion) -> None:
     report = job.report
     ids = Ids(report)
     attributes = AttributeReader(model, units)
@@ -51,23 +52,14 @@ def _write(job: Job, model: ifcopenshell.file, units: Units, products: Products,
                 continue
             object_id = ids.of(product)
             if placed is None:
-                message = f"{product.is_a()} '{product.Name or ''}' is left out: {_reason(conversion, number)}"
+                message = f"{product.is_a()} '{product.Name or ''}' is left out: {conversion.failed[number][:_MOST_MESSAGE]}"
                 report.skipped("ifc-no-shape", message, object_id)
                 continue
             shape = scene.known_shape(placed.key, placed.middle) or scene.add_shape(conversion.shapes.get(placed.key))
             if shape.middle != placed.middle:
                 shape = type(shape)(shape.mesh, placed.middle)
             scene.object(object_id, product.Name or product.is_a(), shape, placed.matrix(), groups.above(product), attributes.of(product))
-            if number in conversion.remarks:
-                report.warning("ifc-remark", f"{product.is_a()} '{product.Name or ''}': {_remark(conversion, number)}", object_id)
+            if remarks := conversion.remarks_of(number):
+                message = f"{product.is_a()} '{product.Name or ''}': {'; '.join(remarks)[:_MOST_MESSAGE]}"
+                report.warning("ifc-remark", message, object_id)
     tell_of_left_out(products, len(conversion.bodyless), report)
-
-
-def _reason(conversion: Conversion, number: int) -> str:
-    reason = conversion.failed[number]
-    remark = _remark(conversion, number)
-    return f"{reason} ({remark})" if remark and remark not in reason else reason
-
-
-def _remark(conversion: Conversion, number: int) -> str:
-    return "; ".join(sorted(set(conversion.remarks.get(number, []))))[:_MOST_MESSAGE]

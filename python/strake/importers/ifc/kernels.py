@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import ifcopenshell
 import ifcopenshell.geom
 
-Entity = ifcopenshell.entity_instance
+from strake.importers.ifc.entity import Entity
 
 # The furthest that a chord is from its curve, in metres.
 SAG_M = 0.001
@@ -15,6 +17,10 @@ ANGLE = 0.5
 
 FAST = "cgal-simple"
 EXACT = "opencascade"
+# Representations that are no body.
+_NO_BODY = {"Axis", "Box", "FootPrint", "Plan", "Annotation", "Profile", "CoG", "Clearance", "Lighting", "Reference"}
+_MOST_DEPTH = 12
+
 # What is tried for a product, one after the other, until one gives a shape.
 AFTER_FAST = (FAST, EXACT, "cgal")
 AFTER_EXACT = (EXACT, FAST, "cgal")
@@ -30,6 +36,33 @@ def geometry_settings() -> ifcopenshell.geom.settings:
     settings.set("use-world-coords", False)
     settings.set("apply-default-materials", True)
     return settings
+
+
+def items_of(product: Entity) -> set[str]:
+    """Returns the classes of the items that make a product's body, and of the openings that cut it as `opening`."""
+    result: set[str] = set()
+    if getattr(product, "HasOpenings", None):
+        result.add("opening")
+    for representation in getattr(product.Representation, "Representations", None) or ():
+        if (representation.RepresentationIdentifier or "Body") in _NO_BODY:
+            continue
+        _add_items(representation.Items or (), result, 0)
+    return result
+
+
+def _add_items(items: Iterable[Entity], result: set[str], depth: int) -> None:
+    for item in items:
+        result.add(item.is_a())
+        if depth >= _MOST_DEPTH:
+            continue
+        inner: list[Entity] = []
+        if item.is_a("IfcMappedItem"):
+            inner += item.MappingSource.MappedRepresentation.Items or ()
+        for name in ("FirstOperand", "SecondOperand", "TreeRootExpression", "SweptArea", "Directrix"):
+            value = getattr(item, name, None)
+            if isinstance(value, ifcopenshell.entity_instance):
+                inner.append(value)
+        _add_items(inner, result, depth + 1)
 
 
 def kernels_for(product: Entity) -> tuple[str, ...]:

@@ -6,11 +6,8 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 
-import ifcopenshell
-
+from strake.importers.ifc.entity import Entity, Model, is_a, number_of
 from strake.importers.report import Report
-
-Entity = ifcopenshell.entity_instance
 
 # What is no matter: rooms, holes, what is only drawn, axes, limits between rooms, loads and the members that carry them
 # in a calculation. An IfcSite is kept: its body is the ground.
@@ -41,13 +38,13 @@ class Products:
     without_body: int
 
 
-def choose_products(model: ifcopenshell.file) -> Products:
+def choose_products(model: Model) -> Products:
     """Returns the products that are to be converted, and counts the others."""
     solid: list[Entity] = []
     left_out: Counter[str] = Counter()
     without_body = 0
     kinds: dict[str, str | None] = {}
-    for product in sorted(model.by_type("IfcProduct"), key=Entity.id):
+    for product in sorted(model.by_type("IfcProduct"), key=number_of):
         if getattr(product, "Representation", None) is None:
             without_body += 1
             continue
@@ -64,11 +61,8 @@ def choose_products(model: ifcopenshell.file) -> Products:
 
 def _left_out_as(product: Entity) -> str | None:
     for name, word in _LEFT_OUT:
-        try:
-            if product.is_a(name):
-                return word
-        except RuntimeError:
-            continue  # the schema has no such class
+        if is_a(product, name):
+            return word
     return None
 
 
@@ -78,7 +72,9 @@ def tell_of_left_out(products: Products, bodyless: int, report: Report) -> None:
         counted = ", ".join(f"{count} {word}" for word, count in sorted(products.left_out.items()))
         report.note("ifc-left-out", f"left out, since they are no matter: {counted}")
     if products.without_body + bodyless:
-        report.note("ifc-no-body", f"{products.without_body + bodyless} products have no body of their own: assemblies, storeys and the like")
+        report.note(
+            "ifc-no-body", f"{products.without_body + bodyless} products have no body of their own: assemblies, storeys and the like"
+        )
 
 
 class Ids:

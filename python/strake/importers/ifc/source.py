@@ -7,10 +7,12 @@ import re
 import shutil
 import zipfile
 from pathlib import Path
+from typing import Any
 
 import ifcopenshell
 from ifcopenshell import ifcopenshell_wrapper
 
+from strake.importers.ifc.entity import Model
 from strake.importers.report import Report
 
 _EXPORT = "export the model as IFC (STEP) again, in version IFC4 or IFC2x3"
@@ -21,7 +23,7 @@ _HEAD_BYTES = 1 << 16
 _TAIL_BYTES = 1 << 12
 
 
-def open_model(path: Path, report: Report, folder: Path) -> ifcopenshell.file:
+def open_model(path: Path, report: Report, folder: Path) -> Model:
     """Returns the model of a file. What is packed is unpacked into `folder`."""
     with path.open("rb") as file:
         head = file.read(_HEAD_BYTES)
@@ -90,15 +92,13 @@ def _check_end(path: Path, report: Report) -> None:
             report.fail("the file ends too soon: END-ISO-10303-21 is missing", "copy or export it again: part of it is lost")
 
 
-def _opened(path: Path, report: Report) -> ifcopenshell.file:
-    log = ifcopenshell_wrapper.logger()
+def _opened(path: Path, report: Report) -> Model:
+    log: Any = ifcopenshell_wrapper.logger()
     log.output_format(log.FMT_INMEMORY)
     try:
         model = ifcopenshell.open(path, format=".ifc", logger=log)
     except (ifcopenshell.Error, ifcopenshell.SchemaError, OSError, RuntimeError, ValueError) as fault:
         report.fail(f"IfcOpenShell cannot read it: {fault}", _EXPORT)
-    if not isinstance(model, ifcopenshell.file):
-        report.fail("IfcOpenShell does not read it as a model", _EXPORT)
     if not model.by_type("IfcProject"):
         report.warning("ifc-no-project", "the file has no IfcProject: units are taken to be metres")
     faults = [m for m in log.log_messages() if "ERROR" in repr(m)]

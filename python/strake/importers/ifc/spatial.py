@@ -8,9 +8,8 @@ from typing import Any
 import ifcopenshell
 
 from strake.importers.ifc.attributes import AttributeReader
+from strake.importers.ifc.entity import Entity, Model, is_a
 from strake.importers.scene_writer import Group, SceneWriter
-
-Entity = ifcopenshell.entity_instance
 
 # Under which name objects inherit the name of what they are in.
 _LEVELS = (
@@ -28,7 +27,7 @@ _MOST_LEVELS = 32
 class SpatialGroups:
     """Makes the groups that products need."""
 
-    def __init__(self, model: ifcopenshell.file, scene: SceneWriter, attributes: AttributeReader) -> None:
+    def __init__(self, model: Model, scene: SceneWriter, attributes: AttributeReader) -> None:
         self._scene = scene
         self._attributes = attributes
         self._groups: dict[int, Group] = {}
@@ -56,7 +55,7 @@ class SpatialGroups:
     def _of(self, entity: Entity) -> dict[str, Any]:
         result: dict[str, Any] = {}
         for kind, name in _LEVELS:
-            if _is_a(entity, kind):
+            if is_a(entity, kind):
                 result[name] = entity.Name or entity.is_a()
                 result[f"{name}Id"] = entity.GlobalId
                 break
@@ -67,13 +66,6 @@ class SpatialGroups:
         for name, values in self._attributes.sets_of(entity).items():
             result.setdefault(name, values)
         return result
-
-
-def _is_a(entity: Entity, kind: str) -> bool:
-    try:
-        return bool(entity.is_a(kind))
-    except RuntimeError:
-        return False  # the schema has no such class
 
 
 def _parent_of(entity: Entity) -> Entity | None:
@@ -103,7 +95,7 @@ def _parent_of_host(entity: Entity) -> Entity | None:
     return None if entity.is_a("IfcFeatureElement") else _parent_of(entity)
 
 
-def _map_conversion(model: ifcopenshell.file) -> dict[str, Any]:
+def _map_conversion(model: Model) -> dict[str, Any]:
     """Returns what the file says of its place on the map."""
     if model.schema == "IFC2X3":
         return {}

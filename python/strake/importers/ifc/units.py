@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import ifcopenshell
 
+from strake.importers.ifc.entity import Entity, Model
 from strake.importers.report import Report
-
-Entity = ifcopenshell.entity_instance
 
 _PREFIXES = {
     "EXA": "E", "PETA": "P", "TERA": "T", "GIGA": "G", "MEGA": "M", "KILO": "k", "HECTO": "h", "DECA": "da",
@@ -56,7 +56,7 @@ _MEASURES = {
 class Units:
     """The units of a project."""
 
-    def __init__(self, model: ifcopenshell.file, report: Report) -> None:
+    def __init__(self, model: Model, report: Report) -> None:
         self._names: dict[str, str] = {}
         for project in model.by_type("IfcProject")[:1]:
             assignment = project.UnitsInContext
@@ -88,9 +88,13 @@ class Units:
 
     @staticmethod
     def _number(value: int | float, name: str) -> Any:
-        if value != value or value in (float("inf"), float("-inf")):
+        if isinstance(value, int) and (not name or name in _PLAIN):
+            return value
+        if not math.isfinite(value):
             return str(value)
-        number = int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e15 else value
+        # The last digits of a double are noise of the exporter: 0.1937500000000122 is 0.19375.
+        rounded = float(f"{value:.12g}")
+        number = int(rounded) if rounded.is_integer() and abs(rounded) < 1e15 else rounded
         if not name or name in _PLAIN:
             return number
         return f"{number} {name}"

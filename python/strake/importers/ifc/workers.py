@@ -13,9 +13,8 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Any
 
-import ifcopenshell
-
 from strake.importers.ifc.chunks import Answer, Chunk, Converted, Remark, convert_chunk
+from strake.importers.ifc.entity import Model
 from strake.importers.supervision import end_with_parent, signal_name
 
 # How long a worker may be silent before it counts as hung, in seconds: one product takes longer than this only where
@@ -34,7 +33,7 @@ class Ended:
 
 
 Event = Converted | Remark | Ended
-Convert = Callable[[ifcopenshell.file, Chunk], Iterator[Answer]]
+Convert = Callable[[Model, Chunk], Iterator[Answer]]
 
 
 @dataclass
@@ -52,7 +51,7 @@ class Workers:
     Chunks may be added while answers come. Close it to end the processes.
     """
 
-    def __init__(self, model: ifcopenshell.file, count: int, silent_s: float = MOST_SILENT_S, convert: Convert = convert_chunk) -> None:
+    def __init__(self, model: Model, count: int, silent_s: float = MOST_SILENT_S, convert: Convert = convert_chunk) -> None:
         self._model = model
         self._count = count
         self._silent_s = silent_s
@@ -116,7 +115,8 @@ class Workers:
             return self._lost(worker, signal_name(-code) if code is not None and code < 0 else f"exit status {code}")
         worker.heard_at = time.monotonic()
         if isinstance(answer, Converted):
-            worker.got.add(answer.product)
+            if not answer.fault:
+                worker.got.add(answer.product)
             return answer
         if isinstance(answer, Remark):
             return answer
@@ -146,7 +146,7 @@ def _end(worker: _Worker) -> None:
     worker.connection.close()
 
 
-def _work(model: ifcopenshell.file, convert: Convert, connection: Connection, others: list[Connection], parent: int) -> None:
+def _work(model: Model, convert: Convert, connection: Connection, others: list[Connection], parent: int) -> None:
     end_with_parent(parent)
     for other in others:
         other.close()
@@ -159,5 +159,5 @@ def _work(model: ifcopenshell.file, convert: Convert, connection: Connection, ot
             for answer in convert(model, chunk):
                 connection.send(answer)
         except Exception as fault:  # whatever the library raises is a fault of this chunk
-            connection.send(Remark(0, f"{type(fault).__name__}: {fault}"))
+            connection.send(Remark(0, chunk.kernel, f"{type(fault).__name__}: {fault}"))
         connection.send(None)
