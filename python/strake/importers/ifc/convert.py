@@ -16,7 +16,7 @@ from strake.importers.ifc.conversion import Conversion, convert_products
 from strake.importers.ifc.entity import Model
 from strake.importers.ifc.products import Ids, Products, choose_products, tell_of_left_out
 from strake.importers.ifc.source import open_model
-from strake.importers.ifc.spatial import SpatialGroups
+from strake.importers.ifc.spatial import SpatialGroups, map_conversion
 from strake.importers.ifc.units import Units
 
 # The longest text of a kernel that is told of a product.
@@ -62,4 +62,8 @@ def _write(job: Job, model: Model, units: Units, products: Products, conversion:
             if remarks := conversion.remarks_of(number):
                 message = f"{product.is_a()} '{product.Name or ''}': {'; '.join(remarks)[:_MOST_MESSAGE]}"
                 report.warning("ifc-remark", message, object_id)
+    if on_map := map_conversion(model).get("MapConversion"):
+        east, north = on_map.get("Eastings"), on_map.get("Northings")
+        message = f"the place on the map (east {east}, north {north}) is an attribute of the site: coordinates are those of the project"
+        report.note("ifc-map-conversion", message)
     tell_of_left_out(products, len(conversion.bodyless), report)

@@ -31,7 +31,7 @@ class SpatialGroups:
         self._scene = scene
         self._attributes = attributes
         self._groups: dict[int, Group] = {}
-        self._map = _map_conversion(model)
+        self._map = map_conversion(model)
 
     def above(self, product: Entity) -> Group | None:
         """Returns the group that a product is in."""
@@ -95,8 +95,8 @@ def _parent_of_host(entity: Entity) -> Entity | None:
     return None if entity.is_a("IfcFeatureElement") else _parent_of(entity)
 
 
-def _map_conversion(model: Model) -> dict[str, Any]:
-    """Returns what the file says of its place on the map."""
+def map_conversion(model: Model) -> dict[str, Any]:
+    """Returns what the file says of its place on the map, as attributes; nothing where it says nothing."""
     if model.schema == "IFC2X3":
         return {}
     result: dict[str, Any] = {}
