@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How an importer is called: `--input FILE --output SCENE.glb --report REPORT.jsonl --threads N`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import traceback
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from strake.importers.report import ImportFailed, Report
+from strake.importers.scene_writer import SceneTooLarge, SceneWriter
+from strake.importers.supervision import crash_of
+
+
+@dataclass
+class Job:
+    """One import: what to read, where the scene goes, and whom to tell."""
+
+    input: Path
+    output: Path
+    report: Report
+    threads: int = 1
+    made_by: str = "an importer"
+    format: str = ""
+    unit: str = ""
+    depends_on: list[str] = field(default_factory=list)
+
+    def scene(self, unit_mm: float = 1.0, up: str = "z") -> SceneWriter:
+        """Begins the scene."""
+        return SceneWriter(self.output, unit_mm, up)
+
+
+Convert = Callable[[Job], None]
+
+
+def run(convert: Convert, arguments: Sequence[str] | None = None) -> int:
+    """Converts the file that the arguments name and returns the exit status.
+
+    `convert` runs in a process of its own where the system can do that: its crash is a line of the report as well.
+    """
+    parser = argparse.ArgumentParser(description="Makes a neutral scene of a model file, for strake.")
+    parser.add_argument("--input", type=Path, required=True, metavar="FILE", help="the model file")
+    parser.add_argument("--output", type=Path, required=True, metavar="SCENE.glb", help="the scene that is written")
+    parser.add_argument("--report", type=Path, required=True, metavar="REPORT.jsonl", help="the report that is written")
+    parser.add_argument("--threads", type=int, default=os.cpu_count() or 1, metavar="N", help="how many cores to use")
+    options = parser.parse_args(arguments)
+    options.report.write_bytes(b"")
+    with Report(options.report) as report:
+        job = Job(options.input, options.output, report, max(1, options.threads))
+        crash = crash_of(lambda: _converted(convert, job))
+        if crash.name:
+            report.error(f"reading it ended with {crash.name}", "the file may be damaged: export it again, or in another version")
+        return crash.status
+
+
+def _converted(convert: Convert, job: Job) -> int:
+    try:
+        if not job.input.is_file():
+            job.report.fail("there is no such file", "give the path of a model file")
+        convert(job)
+    except ImportFailed as failure:
+        job.report.error(failure.message, failure.mend)
+        return 1
+    except SceneTooLarge as failure:
+        job.report.error(str(failure), "split the model into files by storey or discipline")
+        return 1
+    except MemoryError:
+        job.report.error("memory ran out", "use a machine with more of it, or split the model")
+        return 1
+    except OSError as failure:
+        job.report.error(f"{failure.filename or job.input}: {failure.strerror or failure}", "check the file, rights and free space")
+        return 1
+    except Exception as failure:
+        traceback.print_exc(file=sys.stderr)
+        job.report.error(f"the importer has a fault: {type(failure).__name__}: {failure}", "report it, with the file if that can be given")
+        return 1
+    here = sorted(str(path) for path in Path(__file__).resolve().parent.rglob("*.py"))
+    job.report.made_by(job.made_by, job.format, job.unit, {*job.depends_on, *here})
+    return 0

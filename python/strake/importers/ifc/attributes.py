@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a product states of itself: its class and names, property and quantity sets, material, layer, systems."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import ifcopenshell
+
+from strake.importers.ifc.entity import Entity, Model, number_of
+from strake.importers.ifc.units import Units
+from strake.importers.scene_writer import encoded
+
+_OWN = ("PredefinedType", "ObjectType", "Tag", "Description", "LongName")
+_MOST_DEPTH = 3
+_QUANTITIES = {
+    "IfcQuantityLength": ("LengthValue", "LENGTHUNIT"),
+    "IfcQuantityArea": ("AreaValue", "AREAUNIT"),
+    "IfcQuantityVolume": ("VolumeValue", "VOLUMEUNIT"),
+    "IfcQuantityWeight": ("WeightValue", "MASSUNIT"),
+    "IfcQuantityTime": ("TimeValue", "TIMEUNIT"),
+    "IfcQuantityCount": ("CountValue", None),
+    "IfcQuantityNumber": ("NumberValue", None),
+}
+# Sets of these classes of lists have names of their own; joined by this, a pattern finds each.
+_BETWEEN = "; "
+
+
+class AttributeReader:
+    """Reads attributes. What many products share is read once."""
+
+    def __init__(self, model: Model, units: Units) -> None:
+        self._units = units
+        self._sets: dict[int, dict[str, Any]] = {}
+        self._types: dict[int, dict[str, dict[str, Any]]] = {}
+        self._shared: dict[tuple[int, ...], dict[str, Any]] = {}
+        self._materials: dict[int, str] = {}
+        self._layers = _layers_of_items(model)
+
+    def of(self, product: Entity) -> dict[str, Any]:
+        """Returns the attributes of a product; each set of properties is one of them."""
+        result: dict[str, Any] = {"class": product.is_a()}
+        for name in _OWN:
+            value = getattr(product, name, None)
+            if value not in (None, ""):
+                result[name] = value
+        definitions, kind = _definitions_of(product), _type_of(product)
+        if kind is not None:
+            result["Type"] = kind.Name or kind.is_a()
+            if result.get("PredefinedType") in (None, "NOTDEFINED") and getattr(kind, "PredefinedType", None):
+                result["PredefinedType"] = kind.PredefinedType
+        for name, value in (
+            ("Material", self._material(product, kind)),
+            ("Layer", self._layer(product)),
+            *_assigned(product).items(),
+            ("Classification", _joined(_classifications(product))),
+        ):
+            if value:
+                result[name] = value
+        for name, value in self._property_sets(definitions, kind).items():
+            result.setdefault(name, value)
+        return result
+
+    def sets_of(self, owner: Entity) -> dict[str, Any]:
+        """Returns the property and quantity sets of a group: not those of its type, which are about how it is drawn."""
+        return self._property_sets(_definitions_of(owner), None)
+
+    def length(self, value: float) -> Any:
+        """Returns a length of the project's unit as an attribute."""
+        return self._units.length(value)
+
+    def _property_sets(self, definitions: list[Entity], kind: Entity | None) -> dict[str, Any]:
+        """Returns the sets of a product and its type, whose values the product's own go before."""
+        key = (*(d.id() for d in definitions), -1 if kind is None else -kind.id())
+        known = self._shared.get(key)
+        if known is None:
+            merged = {name: dict(values) for name, values in self._type_sets(kind).items()}
+            for definition in definitions:
+                if definition.Name or not definition.is_a("IfcPropertySetDefinition"):
+                    merged.setdefault(definition.Name or definition.is_a(), {}).update(self._set(definition))
+            known = {name: encoded(values) for name, values in merged.items() if values}
+            # Sets of a single product are not looked for again; those of a type are.
+            if not definitions:
+                self._shared[key] = known
+        return known
+
+    def _type_sets(self, kind: Entity | None) -> dict[str, dict[str, Any]]:
+        if kind is None:
+            return {}
+        known = self._types.get(kind.id())
+        if known is None:
+            known = {}
+            for definition in getattr(kind, "HasPropertySets", None) or ():
+                known.setdefault(definition.Name or definition.is_a(), {}).update(self._set(definition))
+            self._types[kind.id()] = known
+        return known
+
+    def _set(self, definition: Entity) -> dict[str, Any]:
+        known = self._sets.get(definition.id())
+        if known is None:
+            if definition.is_a("IfcElementQuantity"):
+                known = self._quantities(definition.Quantities, 0)
+            elif definition.is_a("IfcPropertySet"):
+                known = self._properties(definition.HasProperties, 0)
+            else:
+                known = self._predefined(definition)
+            self._sets[definition.id()] = known
+        return known
+
+    def _properties(self, properties: Iterable[Entity] | None, depth: int) -> dict[str, Any]:
+        result: dict[str, Any] = {}
+        for item in properties or ():
+            if item.is_a("IfcPropertySingleValue"):
+                value = self._units.value(item.NominalValue, item.Unit)
+            elif item.is_a("IfcPropertyEnumeratedValue"):
+                value = _single(self._units.value(list(item.EnumerationValues or ())))
+            elif item.is_a("IfcPropertyListValue"):
+                value = _single(self._units.value(list(item.ListValues or ()), item.Unit))
+            elif item.is_a("IfcPropertyBoundedValue"):
+                low, high = (self._units.value(bound, item.Unit) for bound in (item.LowerBoundValue, item.UpperBoundValue))
+                value = {name: bound for name, bound in (("low", low), ("high", high)) if bound is not None}
+            elif item.is_a("IfcComplexProperty") and depth < _MOST_DEPTH:
+                value = self._properties(item.HasProperties, depth + 1)
+            else:
+                continue
+            if value not in (None, {}, []):
+                result[str(item.Name)] = value
+        return result
+
+    def _quantities(self, quantities: Iterable[Entity] | None, depth: int) -> dict[str, Any]:
+        result: dict[str, Any] = {}
+        for item in quantities or ():
+            if item.is_a("IfcPhysicalComplexQuantity"):
+                if depth < _MOST_DEPTH:
+                    result[str(item.Name)] = self._quantities(item.HasQuantities, depth + 1)
+                continue
+            name, kind = _QUANTITIES.get(item.is_a(), ("", None))
+            value = getattr(item, name, None) if name else None
+            if value is not None:
+                result[str(item.Name)] = self._units.value(value, item.Unit, kind)
+        return result
+
+    def _predefined(self, definition: Entity) -> dict[str, Any]:
+        """Returns the values of a set that the schema itself defines, as IfcDoorLiningProperties."""
+        known = {"id", "type", "GlobalId", "OwnerHistory", "Name", "Description", "ShapeAspectStyle"}
+        result = {}
+        for index, (name, value) in enumerate(definition.get_info(recursive=False).items()):
+            if name in known or value is None or isinstance(value, (tuple, ifcopenshell.entity_instance)):
+                continue
+            declared = definition.wrapped_data.declaration().as_entity().attribute_by_index(index - 2).type_of_attribute()
+            length = "LengthMeasure" in str(declared)
+            result[name] = self._units.value(value, None, "LENGTHUNIT" if length else None)
+        return result
+
+    def _material(self, product: Entity, kind: Entity | None) -> str:
+        for owner in (product, kind):
+            for relation in getattr(owner, "HasAssociations", None) or ():
+                if relation.is_a("IfcRelAssociatesMaterial") and relation.RelatingMaterial is not None:
+                    material = relation.RelatingMaterial
+                    if material.id() not in self._materials:
+                        self._materials[material.id()] = _joined(_material_names(material, 0))
+                    return self._materials[material.id()]
+        return ""
+
+    def _layer(self, product: Entity) -> str:
+        names = []
+        for representation in product.Representation.Representations or ():
+            for item in (representation, *(representation.Items or ())):
+                names += self._layers.get(item.id(), [])
+        return _joined(names)
+
+
+def _layers_of_items(model: Model) -> dict[int, list[str]]:
+    result: dict[int, list[str]] = {}
+    for layer in model.by_type("IfcPresentationLayerAssignment"):
+        for item in layer.AssignedItems or ():
+            result.setdefault(item.id(), []).append(str(layer.Name or ""))
+    return result
+
+
+def _definitions_of(product: Entity) -> list[Entity]:
+    definitions: list[Entity] = []
+    for relation in getattr(product, "IsDefinedBy", None) or ():
+        if relation.is_a("IfcRelDefinesByProperties"):
+            definition = relation.RelatingPropertyDefinition
+            if definition is None:
+                continue
+            if definition.is_a("IfcPropertySetDefinitionSet"):
+                definitions += definition.wrappedValue
+            else:
+                definitions.append(definition)
+    return sorted(definitions, key=number_of)
+
+
+def _type_of(product: Entity) -> Entity | None:
+    # IFC2x3 has the relation among those of properties.
+    for relation in (*(getattr(product, "IsTypedBy", None) or ()), *(getattr(product, "IsDefinedBy", None) or ())):
+        if relation.is_a("IfcRelDefinesByType"):
+            return relation.RelatingType
+    return None
+
+
+def _assigned(product: Entity) -> dict[str, str]:
+    names: dict[str, list[str]] = {"System": [], "Zone": [], "Group": []}
+    for relation in getattr(product, "HasAssignments", None) or ():
+        if not relation.is_a("IfcRelAssignsToGroup") or relation.RelatingGroup is None:
+            continue
+        group = relation.RelatingGroup
+        kind = "Zone" if group.is_a("IfcZone") else "System" if group.is_a("IfcSystem") else "Group"
+        names[kind].append(group.Name or group.is_a())
+    return {kind: _joined(found) for kind, found in names.items()}
+
+
+def _classifications(product: Entity) -> list[str]:
+    names = []
+    for relation in getattr(product, "HasAssociations", None) or ():
+        if relation.is_a("IfcRelAssociatesClassification") and relation.RelatingClassification is not None:
+            reference = relation.RelatingClassification
+            names.append(
+                getattr(reference, "Identification", None)
+                or getattr(reference, "ItemReference", None)
+                or getattr(reference, "Name", None)
+                or ""
+            )
+    return names
+
+
+def _material_names(material: Entity, depth: int) -> list[str]:
+    if depth > _MOST_DEPTH:
+        return []
+    for single in ("ForLayerSet", "ForProfileSet", "Material"):
+        inner = getattr(material, single, None)
+        if isinstance(inner, ifcopenshell.entity_instance):
+            return _material_names(inner, depth + 1)
+    names: list[str] = []
+    for several in ("MaterialLayers", "MaterialProfiles", "MaterialConstituents", "Materials"):
+        for inner in getattr(material, several, None) or ():
+            names += _material_names(inner, depth + 1)
+    return names or [getattr(material, "Name", None) or getattr(material, "LayerSetName", None) or ""]
+
+
+def _joined(names: Iterable[str]) -> str:
+    return _BETWEEN.join(dict.fromkeys(name for name in names if name))
+
+
+def _single(values: list[Any]) -> Any:
+    return values[0] if len(values) == 1 else _joined(str(value) for value in values)

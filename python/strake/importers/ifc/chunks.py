@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Converts some products; runs in a worker process, which may crash of it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import ifcopenshell
+import ifcopenshell.geom
+import numpy as np
+from ifcopenshell import ifcopenshell_wrapper
+from numpy.typing import NDArray
+
+from strake.importers.ifc.entity import Model
+from strake.importers.ifc.kernels import geometry_settings
+from strake.importers.shapes import Color, Part, PreparedShape, prepare_shape
+
+_MM_PER_M = 1000.0
+
+
+@dataclass(frozen=True)
+class Chunk:
+    """Products by number, which are converted in one go by one kernel."""
+
+    products: tuple[int, ...]
+    kernel: str
+    attempt: int = 0
+
+
+@dataclass(frozen=True)
+class Converted:
+    """What became of one product. `shape` is there once for each shape of a chunk."""
+
+    product: int
+    key: bytes
+    middle: tuple[float, float, float]
+    placement: bytes
+    shape: PreparedShape | None
+    kernel: str
+    fault: str = ""
+
+
+@dataclass(frozen=True)
+class Remark:
+    """A fault that IfcOpenShell found; product 0: of none in particular."""
+
+    product: int
+    kernel: str
+    message: str
+
+
+Answer = Converted | Remark
+
+
+def convert_chunk(model: Model, chunk: Chunk) -> Iterator[Answer]:
+    """Yields what becomes of each product that gets a shape, then what is to be said of any.
+
+    Raises whatever IfcOpenShell raises, and may end the process.
+    """
+    log: Any = ifcopenshell_wrapper.logger()
+    log.output_format(log.FMT_INMEMORY)
+    iterator = ifcopenshell.geom.iterator(
+        geometry_settings(),
+        model,
+        1,
+        include=[model.by_id(number) for number in chunk.products],
+        geometry_library=chunk.kernel,
+        logger=log,
+    )
+    known: dict[str, PreparedShape | str] = {}
+    going = iterator.initialize()
+    while going:
+        element = iterator.get()
+        yield _converted(element, known, chunk.kernel)
+        going = bool(iterator.next())
+    yield from _remarks(log, chunk.kernel)
+
+
+def _converted(element: Any, known: dict[str, PreparedShape | str], kernel: str) -> Converted:
+    name = element.geometry.id
+    first = name not in known
+    if first:
+        try:
+            known[name] = prepare_shape(_parts(element.geometry))
+        except ValueError as fault:
+            known[name] = str(fault)
+    shape = known[name]
+    placement = np.array(element.transformation.matrix, dtype=np.float64).reshape(4, 4).T.copy()
+    placement[:3, 3] *= _MM_PER_M
+    if isinstance(shape, str):
+        return Converted(element.id, b"", (0, 0, 0), b"", None, kernel, shape)
+    if not np.isfinite(placement).all():
+        return Converted(element.id, b"", (0, 0, 0), b"", None, kernel, "its placement is not finite")
+    return Converted(element.id, shape.key, shape.middle, placement.tobytes(), shape if first else None, kernel)
+
+
+def _parts(geometry: Any) -> Sequence[Part]:
+    """Returns the triangles of each style."""
+    vertices: NDArray[np.float64] = np.frombuffer(geometry.verts_buffer, dtype=np.float64).reshape(-1, 3) * _MM_PER_M
+    triangles: NDArray[np.int32] = np.frombuffer(geometry.faces_buffer, dtype=np.int32).reshape(-1, 3)
+    styles: NDArray[np.int32] = np.frombuffer(geometry.material_ids_buffer, dtype=np.int32)
+    colors = [_color(material) for material in geometry.materials]
+    if len(styles) != len(triangles) or not colors:
+        return [Part(vertices, triangles)]
+    by_color: dict[Color, list[int]] = {}
+    for style in np.unique(styles).tolist():
+        color = colors[style] if 0 <= style < len(colors) else Part.color
+        by_color.setdefault(color, []).append(style)
+    if len(by_color) == 1:
+        return [Part(vertices, triangles, next(iter(by_color)))]
+    return [Part(vertices, triangles[np.isin(styles, numbers)], color) for color, numbers in by_color.items()]
+
+
+def _color(style: Any) -> Color:
+    red, green, blue = (round(min(max(float(x), 0.0), 1.0), 4) for x in style.diffuse.components)
+    clear = float(style.transparency) if style.has_transparency() else 0.0
+    alpha = round(1.0 - min(max(clear, 0.0), 1.0), 4) if clear == clear else 1.0
+    # What cannot be seen at all is a body all the same.
+    return (red, green, blue, max(alpha, 0.05))
+
+
+def _remarks(log: Any, kernel: str) -> Iterator[Remark]:
+    for message in log.log_messages():
+        if message.severity_string != "ERROR":
+            continue
+        number = re.match(r"#(\d+)=", message.product)
+        yield Remark(int(number[1]) if number else 0, kernel, message.message.strip())

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: Apache-2.0
+"""All products through the kernels: what one cannot do, the next one tries."""
+
+from __future__ import annotations
+
+import pickle
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import ifcopenshell
+import ifcopenshell.geom
+import numpy as np
+from ifcopenshell import ifcopenshell_wrapper
+from numpy.typing import NDArray
+
+from strake.importers.ifc.chunks import Chunk, Converted, Remark
+from strake.importers.ifc.entity import Entity, Model
+from strake.importers.ifc.kernels import EXACT, FAST, geometry_settings, kernels_for
+from strake.importers.ifc.workers import Ended, Workers
+from strake.importers.report import Report
+from strake.importers.shapes import PreparedShape
+
+# Products of one shape stay together, so that it is made once. How many chunks there are depends on the file alone,
+# never on the number of cores: each costs a look at all products.
+_LEAST_IN_CHUNK = 16
+_MOST_CHUNKS = 256
+
+
+@dataclass(frozen=True)
+class Placed:
+    """The shape of a product and where it is, in millimetres."""
+
+    key: bytes
+    middle: tuple[float, float, float]
+    placement: bytes
+    kernel: str
+
+    def matrix(self) -> NDArray[np.float64]:
+        """Returns the 4x4 matrix, rows first."""
+        return np.frombuffer(self.placement, dtype=np.float64).reshape(4, 4)
+
+
+class ShapeStore:
+    """Shapes on disk until the scene is written in its order."""
+
+    def __init__(self, folder: Path) -> None:
+        self._file = tempfile.TemporaryFile(dir=folder)
+        self._places: dict[bytes, tuple[int, int]] = {}
+
+    def add(self, shape: PreparedShape) -> None:
+        """Keeps a shape, if there is no equal one."""
+        if shape.key in self._places:
+            return
+        data = pickle.dumps(shape, pickle.HIGHEST_PROTOCOL)
+        self._file.seek(0, 2)
+        self._places[shape.key] = (self._file.tell(), len(data))
+        self._file.write(data)
+
+    def get(self, key: bytes) -> PreparedShape:
+        """Returns a shape that was added."""
+        offset, size = self._places[key]
+        self._file.seek(offset)
+        shape = pickle.loads(self._file.read(size))
+        assert isinstance(shape, PreparedShape)
+        return shape
+
+
+@dataclass
+class Conversion:
+    """What became of the products, by number."""
+
+    shapes: ShapeStore
+    placed: dict[int, Placed] = field(default_factory=dict)
+    failed: dict[int, str] = field(default_factory=dict)
+    remarks: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
+    bodyless: list[int] = field(default_factory=list)
+
+    def remarks_of(self, number: int) -> list[str]:
+        """Returns the faults that the kernel found which made the shape; where none did, those of all."""
+        placed = self.placed.get(number)
+        found = {text for kernel, text in self.remarks.get(number, ()) if placed is None or placed.kernel == kernel}
+        return sorted(found)
+
+
+def tasks_of(model: Model, products: Sequence[Entity]) -> list[tuple[Entity, ...]]:
+    """Returns the products that have a body; those of one shape are together."""
+    settings = geometry_settings()
+    settings.set("defer-processing-first-element", True)
+    iterator: Any = ifcopenshell.geom.iterator(settings, model, 1, include=list(products), logger=ifcopenshell_wrapper.logger())
+    iterator.initialize()
+    # The wrapper in Python of this function asks for a file that the iterator does not have.
+    get_task_products: Any = ifcopenshell_wrapper.iterator.get_task_products
+    return [tuple(task) for task in get_task_products(iterator)]
+
+
+def chunks_of(tasks: Sequence[tuple[Entity, ...]]) -> list[Chunk]:
+    """Returns the chunks, in the order of the file; each is for one kernel."""
+    by_kernel: dict[str, list[tuple[int, ...]]] = {}
+    for task in sorted(tasks, key=lambda task: min(product.id() for product in task)):
+        kernel = kernels_for(task[0])[0]
+        by_kernel.setdefault(kernel, []).append(tuple(sorted(product.id() for product in task)))
+    most = max(_LEAST_IN_CHUNK, len(tasks) // _MOST_CHUNKS)
+    chunks = []
+    for kernel, numbers in sorted(by_kernel.items()):
+        for first in range(0, len(numbers), most):
+            chunks.append(Chunk(sum(numbers[first : first + most], ()), kernel))
+    return sorted(chunks, key=lambda chunk: chunk.products[0])
+
+
+def convert_products(model: Model, products: Sequence[Entity], threads: int, report: Report, folder: Path) -> Conversion:
+    """Converts the products. None of them can harm another, or the import."""
+    result = Conversion(ShapeStore(folder))
+    tasks = tasks_of(model, products) if products else []
+    task_of: dict[int, tuple[str, ...]] = {}
+    for task in tasks:
+        kernels = kernels_for(task[0])
+        for product in task:
+            task_of[product.id()] = kernels
+    result.bodyless = [product.id() for product in products if product.id() not in task_of]
+    with Workers(model, threads) as workers:
+        for chunk in chunks_of(tasks):
+            workers.add(chunk)
+        for event in workers.answers():
+            if isinstance(event, Converted):
+                _keep(event, result)
+                report.progress((len(result.placed) + len(result.failed)) / len(task_of))
+            elif isinstance(event, Remark):
+                result.remarks.setdefault(event.product, []).append((event.kernel, event.message))
+            elif isinstance(event, Ended):
+                _go_on(event, task_of, workers, result)
+            else:
+                report.alive()
+    return result
+
+
+def _keep(event: Converted, result: Conversion) -> None:
+    if event.fault:
+        # Workers count it among those without a shape, so that the next kernel tries.
+        result.remarks.setdefault(event.product, []).append((event.kernel, event.fault))
+        return
+    if event.shape is not None:
+        result.shapes.add(event.shape)
+    result.placed[event.product] = Placed(event.key, event.middle, event.placement, event.kernel)
+
+
+def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Workers, result: Conversion) -> None:
+    """Sends what a chunk left behind on: to the next kernel, or after a crash apart from the product that it was at."""
+    chunk, missing = ended.chunk, ended.missing
+    if ended.fault and len(chunk.products) > 1 and missing:
+        # Products are converted in their order, so that the first one that is missing is to be suspected.
+        for part in (missing[:1], missing[1:]):
+            if part:
+                workers.add(Chunk(part, chunk.kernel, chunk.attempt))
+        return
+    for number in missing:
+        result.remarks.setdefault(number, []).append((chunk.kernel, ended.fault or "no shape"))
+        following = kernels_of[number][chunk.attempt + 1 :]
+        if following:
+            workers.add(Chunk((number,), following[0], chunk.attempt + 1))
+        else:
+            result.failed[number] = "; ".join(f"{kernel}: {text}" for kernel, text in dict.fromkeys(result.remarks[number]))
+    if chunk.kernel == FAST and not ended.fault:
+        # Where it says that something went wrong the exact one may do better.
+        for number in sorted({n for n in chunk.products if n in result.placed and result.remarks_of(n)}):
+            del result.placed[number]
+            workers.add(Chunk((number,), EXACT, max(1, chunk.attempt + 1)))

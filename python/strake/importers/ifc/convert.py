@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""An IFC file from its bytes to the scene."""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+import ifcopenshell
+from ifcopenshell import ifcopenshell_wrapper
+
+from strake.importers.command import Job
+from strake.importers.ifc.attributes import AttributeReader
+from strake.importers.ifc.conversion import Conversion, convert_products
+from strake.importers.ifc.entity import Model
+from strake.importers.ifc.products import Ids, Products, choose_products, tell_of_left_out
+from strake.importers.ifc.source import open_model
+from strake.importers.ifc.spatial import SpatialGroups, map_conversion
+from strake.importers.ifc.units import Units
+
+# The longest text of a kernel that is told of a product.
+_MOST_MESSAGE = 200
+
+
+def convert(job: Job) -> None:
+    """Converts the file of the job."""
+    with tempfile.TemporaryDirectory(prefix=".strake-ifc-", dir=job.output.parent) as name:
+        folder = Path(name)
+        model = open_model(job.input, job.report, folder)
+        job.made_by = f"ifcopenshell {ifcopenshell.version}"
+        job.format = model.schema_identifier
+        job.depends_on = [ifcopenshell.__file__, ifcopenshell_wrapper.__file__]
+        units = Units(model, job.report)
+        job.unit = units.length_name
+        products = choose_products(model)
+        sys.stdout.flush()
+        conversion = convert_products(model, products.solid, job.threads, job.report, folder)
+        _write(job, model, units, products, conversion)
+
+
+def _write(job: Job, model: Model, units: Units, products: Products, conversion: Conversion) -> None:
+    report = job.report
+    ids = Ids(report)
+    attributes = AttributeReader(model, units)
+    with job.scene(unit_mm=1.0) as scene:
+        groups = SpatialGroups(model, scene, attributes)
+        for product in products.solid:
+            number = product.id()
+            placed = conversion.placed.get(number)
+            if placed is None and number not in conversion.failed:
+                continue
+            object_id = ids.of(product)
+            if placed is None:
+                message = f"{product.is_a()} '{product.Name or ''}' is left out: {conversion.failed[number][:_MOST_MESSAGE]}"
+                report.skipped("ifc-no-shape", message, object_id)
+                continue
+            shape = scene.known_shape(placed.key, placed.middle) or scene.add_shape(conversion.shapes.get(placed.key))
+            if shape.middle != placed.middle:
+                shape = type(shape)(shape.mesh, placed.middle)
+            scene.object(object_id, product.Name or product.is_a(), shape, placed.matrix(), groups.above(product), attributes.of(product))
+            if remarks := conversion.remarks_of(number):
+                message = f"{product.is_a()} '{product.Name or ''}': {'; '.join(remarks)[:_MOST_MESSAGE]}"
+                report.warning("ifc-remark", message, object_id)
+    if on_map := map_conversion(model).get("MapConversion"):
+        east, north = on_map.get("Eastings"), on_map.get("Northings")
+        message = f"the place on the map (east {east}, north {north}) is an attribute of the site: coordinates are those of the project"
+        report.note("ifc-map-conversion", message)
+    tell_of_left_out(products, len(conversion.bodyless), report)

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which kernel of IfcOpenShell makes which shapes, and how fine curved ones are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import ifcopenshell
+import ifcopenshell.geom
+
+from strake.importers.ifc.entity import Entity
+
+# The furthest that a chord is from its curve, in metres.
+SAG_M = 0.001
+# The largest angle between two chords, in radians: small circles are round, too.
+ANGLE = 0.5
+
+FAST = "cgal-simple"
+EXACT = "opencascade"
+# Representations that are no body.
+_NO_BODY = {"Axis", "Box", "FootPrint", "Plan", "Annotation", "Profile", "CoG", "Clearance", "Lighting", "Reference"}
+_MOST_DEPTH = 12
+
+# What is tried for a product, one after the other, until one gives a shape.
+AFTER_FAST = (FAST, EXACT, "cgal")
+AFTER_EXACT = (EXACT, FAST, "cgal")
+
+
+def geometry_settings() -> ifcopenshell.geom.settings:
+    """Returns the settings that are the same for all kernels."""
+    settings = ifcopenshell.geom.settings()
+    settings.set("mesher-linear-deflection", SAG_M)
+    settings.set("mesher-angular-deflection", ANGLE)
+    settings.set("weld-vertices", True)
+    settings.set("no-normals", True)
+    settings.set("use-world-coords", False)
+    settings.set("apply-default-materials", True)
+    return settings
+
+
+def items_of(product: Entity) -> set[str]:
+    """Returns the classes of the items that make a product's body, and of the openings that cut it as `opening`."""
+    result: set[str] = set()
+    if getattr(product, "HasOpenings", None):
+        result.add("opening")
+    for representation in getattr(product.Representation, "Representations", None) or ():
+        if (representation.RepresentationIdentifier or "Body") in _NO_BODY:
+            continue
+        _add_items(representation.Items or (), result, 0)
+    return result
+
+
+def _add_items(items: Iterable[Entity], result: set[str], depth: int) -> None:
+    for item in items:
+        result.add(item.is_a())
+        if depth >= _MOST_DEPTH:
+            continue
+        inner: list[Entity] = []
+        if item.is_a("IfcMappedItem"):
+            inner += item.MappingSource.MappedRepresentation.Items or ()
+        for name in ("FirstOperand", "SecondOperand", "TreeRootExpression", "SweptArea", "Directrix"):
+            value = getattr(item, name, None)
+            if isinstance(value, ifcopenshell.entity_instance):
+                inner.append(value)
+        _add_items(inner, result, depth + 1)
+
+
+def kernels_for(product: Entity) -> tuple[str, ...]:
+    """Returns the kernels that are tried for a product, one after the other."""
+    return AFTER_FAST

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Groups of the scene: site, building, storey, space, assembly."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import ifcopenshell
+
+from strake.importers.ifc.attributes import AttributeReader
+from strake.importers.ifc.entity import Entity, Model, is_a
+from strake.importers.scene_writer import Group, SceneWriter
+
+# Under which name objects inherit the name of what they are in.
+_LEVELS = (
+    ("IfcSite", "Site"),
+    ("IfcBuildingStorey", "Storey"),
+    ("IfcBuilding", "Building"),
+    ("IfcSpace", "Space"),
+    ("IfcFacilityPart", "FacilityPart"),
+    ("IfcFacility", "Facility"),
+    ("IfcElement", "Assembly"),
+)
+_MOST_LEVELS = 32
+
+
+class SpatialGroups:
+    """Makes the groups that products need."""
+
+    def __init__(self, model: Model, scene: SceneWriter, attributes: AttributeReader) -> None:
+        self._scene = scene
+        self._attributes = attributes
+        self._groups: dict[int, Group] = {}
+        self._map = map_conversion(model)
+
+    def above(self, product: Entity) -> Group | None:
+        """Returns the group that a product is in."""
+        chain: list[Entity] = []
+        seen = {product.id()}
+        at = _parent_of(product)
+        while at is not None and at.id() not in seen and len(chain) < _MOST_LEVELS:
+            seen.add(at.id())
+            if at.is_a("IfcProduct"):
+                chain.append(at)
+            at = _parent_of(at)
+        group: Group | None = None
+        for entity in reversed(chain):
+            known = self._groups.get(entity.id())
+            if known is None:
+                known = self._scene.group(entity.Name or entity.is_a(), group, self._of(entity))
+                self._groups[entity.id()] = known
+            group = known
+        return group
+
+    def _of(self, entity: Entity) -> dict[str, Any]:
+        result: dict[str, Any] = {}
+        for kind, name in _LEVELS:
+            if is_a(entity, kind):
+                result[name] = entity.Name or entity.is_a()
+                result[f"{name}Id"] = entity.GlobalId
+                break
+        if isinstance(getattr(entity, "Elevation", None), float):
+            result["StoreyElevation"] = self._attributes.length(entity.Elevation)
+        if entity.is_a("IfcSite"):
+            result.update(self._map)
+        for name, values in self._attributes.sets_of(entity).items():
+            result.setdefault(name, values)
+        return result
+
+
+def _parent_of(entity: Entity) -> Entity | None:
+    for inverse, name in (
+        ("Decomposes", "RelatingObject"),
+        ("Nests", "RelatingObject"),
+        ("ContainedInStructure", "RelatingStructure"),
+        ("FillsVoids", "RelatingOpeningElement"),
+        ("VoidsElements", "RelatingBuildingElement"),
+        ("ProjectsElements", "RelatingElement"),
+    ):
+        for relation in getattr(entity, inverse, None) or ():
+            parent = getattr(relation, name, None)
+            if isinstance(parent, ifcopenshell.entity_instance):
+                # A window is beside its wall, not in it.
+                beside = inverse in ("VoidsElements", "FillsVoids")
+                return _parent_of_host(parent) if beside else parent
+    return None
+
+
+def _parent_of_host(entity: Entity) -> Entity | None:
+    """Returns what the host of an opening is in."""
+    for relation in getattr(entity, "VoidsElements", None) or ():
+        host = relation.RelatingBuildingElement
+        if host is not None and not host.is_a("IfcFeatureElement"):
+            return _parent_of(host)
+    return None if entity.is_a("IfcFeatureElement") else _parent_of(entity)
+
+
+def map_conversion(model: Model) -> dict[str, Any]:
+    """Returns what the file says of its place on the map, as attributes; nothing where it says nothing."""
+    if model.schema == "IFC2X3":
+        return {}
+    result: dict[str, Any] = {}
+    for conversion in model.by_type("IfcMapConversion")[:1]:
+        values = {name: getattr(conversion, name, None) for name in _MAP_NAMES}
+        target = conversion.TargetCRS
+        if target is not None and target.Name:
+            values["TargetCRS"] = target.Name
+        result["MapConversion"] = {name: value for name, value in values.items() if value is not None}
+    return result
+
+
+_MAP_NAMES = ("Eastings", "Northings", "OrthogonalHeight", "XAxisAbscissa", "XAxisOrdinate", "Scale")

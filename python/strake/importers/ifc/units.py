@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Units of a project, and values as a selection compares them."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import ifcopenshell
+
+from strake.importers.ifc.entity import Entity, Model
+from strake.importers.report import Report
+
+_PREFIXES = {
+    "EXA": "E", "PETA": "P", "TERA": "T", "GIGA": "G", "MEGA": "M", "KILO": "k", "HECTO": "h", "DECA": "da",
+    "DECI": "d", "CENTI": "c", "MILLI": "m", "MICRO": "u", "NANO": "n", "PICO": "p", "FEMTO": "f", "ATTO": "a",
+}  # fmt: skip
+_SI = {
+    "METRE": "m", "SQUARE_METRE": "m2", "CUBIC_METRE": "m3", "GRAM": "g", "SECOND": "s", "RADIAN": "rad", "STERADIAN": "sr",
+    "KELVIN": "K", "DEGREE_CELSIUS": "degC", "AMPERE": "A", "VOLT": "V", "WATT": "W", "NEWTON": "N", "PASCAL": "Pa",
+    "JOULE": "J", "HERTZ": "Hz", "LUX": "lx", "LUMEN": "lm", "CANDELA": "cd", "MOLE": "mol", "OHM": "ohm", "COULOMB": "C",
+    "FARAD": "F", "HENRY": "H", "SIEMENS": "S", "TESLA": "T", "WEBER": "Wb", "BECQUEREL": "Bq", "GRAY": "Gy", "SIEVERT": "Sv",
+}  # fmt: skip
+_CONVERTED = {
+    "FOOT": "ft", "INCH": "in", "YARD": "yd", "MILE": "mi", "SQUARE FOOT": "ft2", "CUBIC FOOT": "ft3", "SQUARE INCH": "in2",
+    "CUBIC INCH": "in3", "SQUARE YARD": "yd2", "CUBIC YARD": "yd3", "DEGREE": "deg", "POUND": "lb", "MINUTE": "min", "HOUR": "h",
+    "DAY": "d", "LITRE": "l", "FAHRENHEIT": "degF",
+}  # fmt: skip
+# Units of values that are plain numbers: SI without a prefix. Lengths are never plain, since a selection takes plain
+# numbers for millimetres.
+_PLAIN = {"m2", "m3", "kg", "g", "s", "rad", "sr", "K", "degC", "A", "V", "W", "N", "Pa", "J", "Hz", "lx", "lm", "cd"}
+_MEASURES = {
+    "IfcLengthMeasure": "LENGTHUNIT",
+    "IfcPositiveLengthMeasure": "LENGTHUNIT",
+    "IfcNonNegativeLengthMeasure": "LENGTHUNIT",
+    "IfcAreaMeasure": "AREAUNIT",
+    "IfcVolumeMeasure": "VOLUMEUNIT",
+    "IfcMassMeasure": "MASSUNIT",
+    "IfcTimeMeasure": "TIMEUNIT",
+    "IfcPlaneAngleMeasure": "PLANEANGLEUNIT",
+    "IfcPositivePlaneAngleMeasure": "PLANEANGLEUNIT",
+    "IfcThermodynamicTemperatureMeasure": "THERMODYNAMICTEMPERATUREUNIT",
+    "IfcPowerMeasure": "POWERUNIT",
+    "IfcPressureMeasure": "PRESSUREUNIT",
+    "IfcForceMeasure": "FORCEUNIT",
+    "IfcEnergyMeasure": "ENERGYUNIT",
+    "IfcElectricVoltageMeasure": "ELECTRICVOLTAGEUNIT",
+    "IfcElectricCurrentMeasure": "ELECTRICCURRENTUNIT",
+    "IfcFrequencyMeasure": "FREQUENCYUNIT",
+    "IfcIlluminanceMeasure": "ILLUMINANCEUNIT",
+    "IfcLuminousFluxMeasure": "LUMINOUSFLUXUNIT",
+    "IfcVolumetricFlowRateMeasure": "VOLUMETRICFLOWRATEUNIT",
+}
+
+
+class Units:
+    """The units of a project."""
+
+    def __init__(self, model: Model, report: Report) -> None:
+        self._names: dict[str, str] = {}
+        for project in model.by_type("IfcProject")[:1]:
+            assignment = project.UnitsInContext
+            for unit in (assignment.Units if assignment else None) or ():
+                kind = getattr(unit, "UnitType", None)
+                if isinstance(kind, str):
+                    self._names.setdefault(kind, unit_name(unit))
+        self.length_name = self._names.get("LENGTHUNIT", "m")
+        if model.by_type("IfcProject") and "LENGTHUNIT" not in self._names:
+            report.warning("ifc-no-unit", "the project states no unit of length: it is taken to be the metre")
+
+    def value(self, value: Any, own_unit: Entity | None = None, kind: str | None = None) -> Any:
+        """Returns a nominal value as an attribute: text, truth or a number, with its unit where that is not plain."""
+        if value is None:
+            return None
+        if isinstance(value, ifcopenshell.entity_instance):
+            kind = kind or _MEASURES.get(value.is_a())
+            value = value.wrappedValue if hasattr(value, "wrappedValue") else str(value)
+        if isinstance(value, (list, tuple)):
+            return [self.value(item, own_unit, kind) for item in value]
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            return value
+        name = unit_name(own_unit) if own_unit is not None else self._names.get(kind or "", "m" if kind == "LENGTHUNIT" else "")
+        return self._number(value, name)
+
+    def length(self, value: float) -> Any:
+        """Returns a length of the project's unit as an attribute."""
+        return self._number(value, self.length_name)
+
+    @staticmethod
+    def _number(value: int | float, name: str) -> Any:
+        if isinstance(value, int) and (not name or name in _PLAIN):
+            return value
+        if not math.isfinite(value):
+            return str(value)
+        # The last digits of a double are noise of the exporter: 0.1937500000000122 is 0.19375.
+        rounded = float(f"{value:.12g}")
+        number = int(rounded) if rounded.is_integer() and abs(rounded) < 1e15 else rounded
+        if not name or name in _PLAIN:
+            return number
+        return f"{number} {name}"
+
+
+def unit_name(unit: Entity) -> str:
+    """Returns the name of a unit as a selection has it where it knows it: mm, ft2, kg."""
+    if unit.is_a("IfcSIUnit"):
+        name = _SI.get(unit.Name, str(unit.Name).lower())
+        return _PREFIXES.get(unit.Prefix or "", "") + name
+    if unit.is_a("IfcConversionBasedUnit"):
+        name = str(unit.Name or "")
+        return _CONVERTED.get(name.upper().strip("'").replace("_", " "), name.lower())
+    if unit.is_a("IfcDerivedUnit"):
+        return "".join(
+            f"{'' if i == 0 else '.'}{unit_name(element.Unit)}{'' if element.Exponent == 1 else element.Exponent}"
+            for i, element in enumerate(unit.Elements or ())
+        )
+    return str(getattr(unit, "Currency", None) or getattr(unit, "Name", None) or "")

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Worker processes that convert chunks, and may crash or hang of a product without harm to the others."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import time
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from typing import Any
+
+from strake.importers.ifc.chunks import Answer, Chunk, Converted, Remark, convert_chunk
+from strake.importers.ifc.entity import Model
+from strake.importers.supervision import end_with_parent, signal_name
+
+# How long a worker may be silent before it counts as hung, in seconds: one product takes longer than this only where
+# its cuts have no end.
+MOST_SILENT_S = 60.0
+_TICK_S = 0.5
+
+
+@dataclass(frozen=True)
+class Ended:
+    """A chunk is done with. `missing` got no shape of its kernel; `fault` says why where the process did not live."""
+
+    chunk: Chunk
+    missing: tuple[int, ...]
+    fault: str = ""
+
+
+Event = Converted | Remark | Ended
+Convert = Callable[[Model, Chunk], Iterator[Answer]]
+
+
+@dataclass
+class _Worker:
+    process: BaseProcess
+    connection: Connection
+    chunk: Chunk | None = None
+    got: set[int] = field(default_factory=set)
+    heard_at: float = 0.0
+
+
+class Workers:
+    """Converts chunks on so many processes. They are forks of this one and share the model with it.
+
+    Chunks may be added while answers come. Close it to end the processes.
+    """
+
+    def __init__(self, model: Model, count: int, silent_s: float = MOST_SILENT_S, convert: Convert = convert_chunk) -> None:
+        self._model = model
+        self._count = count
+        self._silent_s = silent_s
+        self._convert = convert
+        self._queue: deque[Chunk] = deque()
+        self._workers: list[_Worker] = []
+
+    def __enter__(self) -> Workers:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for worker in self._workers:
+            _end(worker)
+
+    def add(self, chunk: Chunk) -> None:
+        """Adds a chunk to be converted."""
+        self._queue.append(chunk)
+
+    def answers(self) -> Iterator[Event | None]:
+        """Yields what the workers say, in no fixed order, until no chunk is left; None now and then when they are silent."""
+        while self._queue or any(worker.chunk for worker in self._workers):
+            self._hand_out()
+            ready = wait([worker.connection for worker in self._workers if worker.chunk], timeout=_TICK_S)
+            for worker in [w for w in self._workers if w.connection in ready]:
+                yield self._heard(worker)
+            if not ready:
+                yield None
+            for worker in [w for w in self._workers if w.chunk and time.monotonic() - w.heard_at > self._silent_s]:
+                yield self._lost(worker, f"no answer for {self._silent_s:g} s")
+
+    def _hand_out(self) -> None:
+        idle = [worker for worker in self._workers if worker.chunk is None]
+        while self._queue and (idle or len(self._workers) < self._count):
+            worker = idle.pop() if idle else self._started()
+            chunk = self._queue.popleft()
+            worker.chunk, worker.got, worker.heard_at = chunk, set(), time.monotonic()
+            try:
+                worker.connection.send(chunk)
+            except OSError:
+                # It died idle; the chunk was not looked at.
+                self._forget(worker)
+                self._queue.appendleft(chunk)
+
+    def _started(self) -> _Worker:
+        context = multiprocessing.get_context("fork")
+        ours, theirs = context.Pipe()
+        others = [worker.connection for worker in self._workers]
+        process = context.Process(target=_work, args=(self._model, self._convert, theirs, [ours, *others], os.getpid()), daemon=True)
+        process.start()
+        theirs.close()
+        worker = _Worker(process, ours)
+        self._workers.append(worker)
+        return worker
+
+    def _heard(self, worker: _Worker) -> Event:
+        try:
+            answer: Any = worker.connection.recv()
+        except (EOFError, OSError):
+            worker.process.join(5)
+            code = worker.process.exitcode
+            return self._lost(worker, signal_name(-code) if code is not None and code < 0 else f"exit status {code}")
+        worker.heard_at = time.monotonic()
+        if isinstance(answer, Converted):
+            if not answer.fault:
+                worker.got.add(answer.product)
+            return answer
+        if isinstance(answer, Remark):
+            return answer
+        chunk = worker.chunk
+        assert chunk is not None
+        worker.chunk = None
+        return Ended(chunk, _missing(chunk, worker.got))
+
+    def _lost(self, worker: _Worker, fault: str) -> Ended:
+        chunk = worker.chunk
+        assert chunk is not None
+        self._forget(worker)
+        return Ended(chunk, _missing(chunk, worker.got), fault)
+
+    def _forget(self, worker: _Worker) -> None:
+        _end(worker)
+        self._workers.remove(worker)
+
+
+def _missing(chunk: Chunk, got: set[int]) -> tuple[int, ...]:
+    return tuple(number for number in chunk.products if number not in got)
+
+
+def _end(worker: _Worker) -> None:
+    worker.process.kill()
+    worker.process.join()
+    worker.connection.close()
+
+
+def _work(model: Model, convert: Convert, connection: Connection, others: list[Connection], parent: int) -> None:
+    end_with_parent(parent)
+    for other in others:
+        other.close()
+    while True:
+        try:
+            chunk = connection.recv()
+        except EOFError:
+            return
+        try:
+            for answer in convert(model, chunk):
+                connection.send(answer)
+        except Exception as fault:  # whatever the library raises is a fault of this chunk
+            connection.send(Remark(0, chunk.kernel, f"{type(fault).__name__}: {fault}"))
+        connection.send(None)

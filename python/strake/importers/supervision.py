@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A process for what may crash."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Crash:
+    """How a function in a process of its own ended: with a status, and with the name of a signal where it crashed."""
+
+    status: int
+    name: str = ""
+
+
+def crash_of(function: Callable[[], int]) -> Crash:
+    """Runs the function in a forked process, and in this one where there are no such processes."""
+    if not hasattr(os, "fork"):
+        return Crash(function())
+    parent = os.getpid()
+    child = os.fork()
+    if child == 0:
+        status = 70
+        try:
+            end_with_parent(parent)
+            status = function()
+            sys.stdout.flush()
+            sys.stderr.flush()
+        finally:
+            os._exit(status)
+    _, state = os.waitpid(child, 0)
+    if os.WIFSIGNALED(state):
+        return Crash(1, signal_name(os.WTERMSIG(state)))
+    return Crash(os.WEXITSTATUS(state), "an unknown fault" if os.WEXITSTATUS(state) == 70 else "")
+
+
+def signal_name(number: int) -> str:
+    """Returns the name of a signal, as SIGSEGV."""
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return f"signal {number}"
+
+
+def end_with_parent(parent: int) -> None:
+    """Has this process killed when its parent ends, however that ends. Only Linux can do that."""
+    if not sys.platform.startswith("linux"):
+        return
+    set_parent_death_signal = 1
+    ctypes.CDLL(None).prctl(set_parent_death_signal, signal.SIGKILL)
+    if os.getppid() != parent:
+        os._exit(1)

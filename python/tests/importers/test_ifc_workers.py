@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Workers that crash and hang."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Iterator
+
+import pytest
+
+pytest.importorskip("ifcopenshell")
+
+from strake.importers.ifc.chunks import Answer, Chunk, Converted  # noqa: E402
+from strake.importers.ifc.workers import Ended, Workers  # noqa: E402
+
+CRASHES, HANGS, RAISES = 13, 17, 19
+
+
+def fake(_: object, chunk: Chunk) -> Iterator[Answer]:
+    for number in chunk.products:
+        if number == CRASHES:
+            os.kill(os.getpid(), signal.SIGSEGV)
+        if number == HANGS:
+            time.sleep(1000)
+        if number == RAISES:
+            raise RuntimeError("bad product")
+        yield Converted(number, b"k", (0, 0, 0), b"", None, chunk.kernel)
+
+
+@pytest.mark.parametrize("count", [1, 3])
+def test_crashes_and_hangs_are_told_with_what_is_missing(count: int) -> None:
+    with Workers(None, count, silent_s=1, convert=fake) as workers:
+        for first in range(0, 30, 5):
+            workers.add(Chunk(tuple(range(first, first + 5)), "k"))
+        events = list(workers.answers())
+    got = {event.product for event in events if isinstance(event, Converted)}
+    ended = {event.chunk.products[0]: event for event in events if isinstance(event, Ended)}
+    assert got == set(range(30)) - {13, 14, 17, 18, 19}
+    assert ended[10].missing == (13, 14) and ended[10].fault == "SIGSEGV"
+    assert ended[15].missing == (17, 18, 19) and "no answer for 1 s" in ended[15].fault
+    assert ended[0].missing == () and ended[0].fault == ""
+
+
+def test_an_exception_ends_the_chunk_and_not_the_worker() -> None:
+    with Workers(None, 1, convert=fake) as workers:
+        workers.add(Chunk((18, 19, 20), "k"))
+        workers.add(Chunk((21,), "k"))
+        events = [event for event in workers.answers() if event is not None]
+    assert [event.missing for event in events if isinstance(event, Ended)] == [(19, 20), ()]
+    assert "bad product" in str(events)
