@@ -57,9 +57,9 @@ class Schemas(unittest.TestCase):
         cls.keep.cleanup()
 
     @classmethod
-    def run_strake(cls, *arguments):
+    def run_strake(cls, *arguments, **more):
         done = subprocess.run([STRAKE, *map(str, arguments), '--quiet'], capture_output=True, text=True,
-                              timeout=200, cwd=cls.folder, check=False)
+                              timeout=200, cwd=cls.folder, check=False, **more)
         if done.returncode != 0:
             raise AssertionError(f'{arguments}: exit {done.returncode}: {done.stderr}')
         return done.stdout

@@ -187,6 +187,8 @@ USAGE = [
     ('evaluate --scale 100', '--scale', '4 at most'), ('evaluate --repeat 0', '--repeat', 'from 1 to 1000'),
     ('evaluate --repeat often', '--repeat', 'from 1 to 1000'), ('evaluate --limit soon', '--limit', 'a number above 0'),
     ('evaluate --threads 0', '--threads', 'from 1 to'), ('evaluate --threads some', '--threads', 'from 1 to'),
+    *((f'cache clear --older-than {value}', '--older-than', '30d') for value in ('30', 'soon', '-1d', '1e300d')),
+    ("cache clear --older-than ''", '--older-than', 'the value is empty'),
     ('evaluate --peers nowhere', 'nowhere', '--peers'), ('evaluate --peer-limit never', '--peer-limit', 'a number above 0'),
 ]
 
@@ -367,8 +369,9 @@ class WrongInputs(Scenario):
     def test_there_is_a_row_for_every_option(self):
         named = ' '.join(line for line, _, _ in USAGE + OUTPUT) + ' --rules --sheet'
         flags = {'--help', '--version', '--json', '--stats', '--strict', '--obstructions', '--insulation', '--curves', '--volumes',
-                 '--turned', '--fresh', '--attributes', '--title', '--output', '--compare'}
+                 '--turned', '--fresh', '--attributes', '--formats', '--title', '--output', '--compare'}
         for verb in (['clash'], ['clash', 'diff'], ['draw'], ['draw', 'diff'], ['info'], ['evaluate'], ['generate', 'ship'],
+                     ['cache', 'list'], ['cache', 'clear'],
                      *(['project', verb] for verb in ('new', 'add', 'update', 'remove', 'list', 'info', 'check', 'export'))):
             for option in self.options(verb) - flags:
                 with self.subTest(verb=verb, option=option):
