@@ -18,6 +18,9 @@ namespace {
 
 std::array<double, 3> numbers(const geometry::Vec3d& v) { return {v.x, v.y, v.z}; }
 
+/// A row takes less time than to ask for it.
+constexpr std::size_t kRowsAtOnce = 8192;
+
 ClashRow row_of(std::uint32_t test, const clash::Pair& pair) {
   return {.test = test,
           .a = model::index(pair.a),
@@ -47,7 +50,7 @@ Result<std::vector<ClashRow>> rows_of(const clash::Findings& findings,
   for (std::size_t t = 0; t < findings.tests.size(); ++t) {
     const std::vector<clash::Pair>& pairs = findings.tests[t].pairs;
     auto rows = parallel::transform(
-        context, {.name = "rows", .n = pairs.size()},
+        context, {.name = "rows", .n = pairs.size(), .grain = kRowsAtOnce},
         [&](std::size_t i) { return row_of(static_cast<std::uint32_t>(t), pairs[i]); });
     if (!rows) return rows.error();
     if (all.empty())

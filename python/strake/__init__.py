@@ -16,8 +16,8 @@ Every foreseeable failure is a `strake.Error`; Ctrl-C ends a call soon, as Keybo
 """
 
 from strake import _core
-from strake._clash import Clash, Clashes, Group, Kind, Relation, clash
-from strake._drawing import Drawing, Lines, draw
+from strake._clash import Clash, Clashes, Flag, Group, Kind, Relation, clash
+from strake._drawing import LINE_KINDS, LINE_STATES, Drawing, Lines, draw
 from strake._errors import (
     Cancelled,
     Error,
@@ -35,12 +35,15 @@ from strake._sheet import Sheet, SheetDrawing
 __version__: str = _core.version()
 
 __all__ = [
+    "LINE_KINDS",
+    "LINE_STATES",
     "Cancelled",
     "Clash",
     "Clashes",
     "Diagnostic",
     "Drawing",
     "Error",
+    "Flag",
     "Group",
     "InputError",
     "InternalError",

@@ -76,7 +76,7 @@ def symbol_faults(project, page, text):
 def name_faults(project, page, text):
     """A name of the code that the page gives in quotes stands somewhere in it."""
     code = '\n'.join(path.read_text(encoding='utf-8')
-                     for folder in ('src', 'include', 'cli', 'tests', 'cmake', 'scripts', 'bench')
+                     for folder in ('src', 'include', 'cli', 'tests', 'cmake', 'scripts', 'bench', 'python')
                      for path in sorted((project / folder).rglob('*')) if path.suffix in ('.hpp', '.cpp', '.cmake', '.py', '.txt'))
     words = set(re.findall(r'\w+', code))
     for name in in_quotes(text):
