@@ -12,8 +12,8 @@ import pytest
 
 pytest.importorskip("ifcopenshell")
 
-from strake.importers.ifc.chunks import Answer, Chunk, Converted  # noqa: E402
-from strake.importers.ifc.workers import Ended, Workers  # noqa: E402
+from strake.importers.ifc.chunks import Answer, Chunk, Converted
+from strake.importers.ifc.workers import Ended, Workers
 
 CRASHES, HANGS, RAISES = 13, 17, 19
 
