@@ -37,7 +37,7 @@ def test_a_wall_with_a_window_on_a_storey(tmp_path: Path, schema: str) -> None:
     attributes = glb.attributes(wall.GlobalId)
     assert attributes["class"] == "IfcWall" and attributes["Tag"] == "t"
     assert attributes["Pset_WallCommon"] == {"FireRating": "F60", "IsExternal": True}
-    assert [line["message"] for line in outcome.told("note")][0].endswith("1 openings, 1 spaces")
+    assert outcome.told("note")[0]["message"].endswith("1 openings, 1 spaces")
     assert outcome.told("skipped") == [] and outcome.told("warning") == []
     storeys = [node["extras"]["attributes"] for node in glb.nodes if node["name"] == "Level 2"]
     assert storeys == [{"Storey": "Level 2", "StoreyId": storey.GlobalId, "StoreyElevation": "3000 mm"}]

@@ -26,7 +26,8 @@ def refused(path: Path) -> str:
 def good_file(folder: Path) -> bytes:
     model = IfcModel()
     model.product("IfcColumn", "c\u00e4", model.body(model.extrusion((1, 1, 1))))
-    return model.write(folder / "good.ifc").read_bytes()
+    path: Path = model.write(folder / "good.ifc")
+    return path.read_bytes()
 
 
 @pytest.mark.parametrize(
