@@ -10,8 +10,8 @@ import pytest
 
 pytest.importorskip("ifcopenshell")
 
-from conversions import Outcome, convert  # noqa: E402
-from ifc_model import IfcModel  # noqa: E402
+from conversions import Outcome, convert
+from ifc_model import IfcModel
 
 
 def refused(path: Path) -> str:
@@ -26,7 +26,8 @@ def refused(path: Path) -> str:
 def good_file(folder: Path) -> bytes:
     model = IfcModel()
     model.product("IfcColumn", "c\u00e4", model.body(model.extrusion((1, 1, 1))))
-    return model.write(folder / "good.ifc").read_bytes()
+    path: Path = model.write(folder / "good.ifc")
+    return path.read_bytes()
 
 
 @pytest.mark.parametrize(
@@ -53,6 +54,12 @@ def test_a_file_that_ends_too_soon(tmp_path: Path) -> None:
     data = good_file(tmp_path)
     path.write_bytes(data[: len(data) * 2 // 3])
     assert "too soon" in refused(path)
+
+
+def test_numbers_that_are_none(tmp_path: Path) -> None:
+    path = tmp_path / "a.ifc"
+    path.write_bytes(good_file(tmp_path).replace(b"(0.,0.,1.)", b"(0.,0.,1E400)", 1))
+    assert "1E400" in refused(path)
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:

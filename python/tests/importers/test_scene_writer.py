@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from glb_reader import Glb
 
+from glb_reader import Glb
 from strake.importers import Part, SceneWriter, prepare_shape
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)

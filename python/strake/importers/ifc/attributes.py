@@ -7,9 +7,10 @@ from collections.abc import Iterable
 from typing import Any
 
 import ifcopenshell
+from ifcopenshell import ifcopenshell_wrapper
 
 from strake.importers.ifc.entity import Entity, Model, number_of
-from strake.importers.ifc.units import Units
+from strake.importers.ifc.units import MEASURES, Units
 from strake.importers.scene_writer import encoded
 
 _OWN = ("PredefinedType", "ObjectType", "Tag", "Description", "LongName")
@@ -23,7 +24,8 @@ _QUANTITIES = {
     "IfcQuantityCount": ("CountValue", None),
     "IfcQuantityNumber": ("NumberValue", None),
 }
-# Sets of these classes of lists have names of their own; joined by this, a pattern finds each.
+_OF_ALL_SETS = {"GlobalId", "OwnerHistory", "Name", "Description"}
+# Several names in one value: a pattern finds each.
 _BETWEEN = "; "
 
 
@@ -36,6 +38,8 @@ class AttributeReader:
         self._types: dict[int, dict[str, dict[str, Any]]] = {}
         self._shared: dict[tuple[int, ...], dict[str, Any]] = {}
         self._materials: dict[int, str] = {}
+        self._schema: Any = ifcopenshell_wrapper.schema_by_name(model.schema_identifier)
+        self._declared: dict[str, list[tuple[str, str]]] = {}
         self._layers = _layers_of_items(model)
 
     def of(self, product: Entity) -> dict[str, Any]:
@@ -143,15 +147,24 @@ class AttributeReader:
 
     def _predefined(self, definition: Entity) -> dict[str, Any]:
         """Returns the values of a set that the schema itself defines, as IfcDoorLiningProperties."""
-        known = {"id", "type", "GlobalId", "OwnerHistory", "Name", "Description", "ShapeAspectStyle"}
         result = {}
-        for index, (name, value) in enumerate(definition.get_info(recursive=False).items()):
-            if name in known or value is None or isinstance(value, (tuple, ifcopenshell.entity_instance)):
-                continue
-            declared = definition.wrapped_data.declaration().as_entity().attribute_by_index(index - 2).type_of_attribute()
-            length = "LengthMeasure" in str(declared)
-            result[name] = self._units.value(value, None, "LENGTHUNIT" if length else None)
+        for name, measure in self._simple_attributes(definition.is_a()):
+            value = getattr(definition, name, None)
+            if value is not None and not isinstance(value, (tuple, ifcopenshell.entity_instance)):
+                result[name] = self._units.value(value, None, MEASURES.get(measure))
         return result
+
+    def _simple_attributes(self, kind: str) -> list[tuple[str, str]]:
+        """Returns the attributes of a class that are its own affair, with the names of their types."""
+        known = self._declared.get(kind)
+        if known is None:
+            known = []
+            for attribute in self._schema.declaration_by_name(kind).as_entity().all_attributes():
+                named = attribute.type_of_attribute().as_named_type()
+                if attribute.name() not in _OF_ALL_SETS:
+                    known.append((attribute.name(), named.declared_type().name() if named else ""))
+            self._declared[kind] = known
+        return known
 
     def _material(self, product: Entity, kind: Entity | None) -> str:
         for owner in (product, kind):

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from strake.importers.ifc.chunks import Chunk, Converted, Remark
 from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.kernels import EXACT, FAST, geometry_settings, kernels_for
+from strake.importers.ifc.products import CircleFinder
 from strake.importers.ifc.workers import Ended, Workers
 from strake.importers.report import Report
 from strake.importers.shapes import PreparedShape
@@ -113,6 +114,10 @@ def chunks_of(tasks: Sequence[tuple[Entity, ...]]) -> list[Chunk]:
 def convert_products(model: Model, products: Sequence[Entity], threads: int, report: Report, folder: Path) -> Conversion:
     """Converts the products. None of them can harm another, or the import."""
     result = Conversion(ShapeStore(folder))
+    circles = CircleFinder()
+    faults = {product.id(): fault for product in products if (fault := circles.fault_of(product))}
+    result.failed.update(faults)
+    products = [product for product in products if product.id() not in faults]
     tasks = tasks_of(model, products) if products else []
     task_of: dict[int, tuple[str, ...]] = {}
     for task in tasks:
@@ -126,7 +131,7 @@ def convert_products(model: Model, products: Sequence[Entity], threads: int, rep
         for event in workers.answers():
             if isinstance(event, Converted):
                 _keep(event, result)
-                report.progress((len(result.placed) + len(result.failed)) / len(task_of))
+                report.progress(len(result.placed) / len(task_of))
             elif isinstance(event, Remark):
                 result.remarks.setdefault(event.product, []).append((event.kernel, event.message))
             elif isinstance(event, Ended):

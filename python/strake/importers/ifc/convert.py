@@ -6,6 +6,7 @@ from __future__ import annotations
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import ifcopenshell
 from ifcopenshell import ifcopenshell_wrapper
@@ -13,11 +14,13 @@ from ifcopenshell import ifcopenshell_wrapper
 from strake.importers.command import Job
 from strake.importers.ifc.attributes import AttributeReader
 from strake.importers.ifc.conversion import Conversion, convert_products
-from strake.importers.ifc.entity import Model
+from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.products import Ids, Products, choose_products, tell_of_left_out
 from strake.importers.ifc.source import open_model
 from strake.importers.ifc.spatial import SpatialGroups, map_conversion
 from strake.importers.ifc.units import Units
+from strake.importers.report import Report
+from strake.importers.scene_writer import Group
 
 # The longest text of a kernel that is told of a product.
 _MOST_MESSAGE = 200
@@ -58,7 +61,8 @@ def _write(job: Job, model: Model, units: Units, products: Products, conversion:
             shape = scene.known_shape(placed.key, placed.middle) or scene.add_shape(conversion.shapes.get(placed.key))
             if shape.middle != placed.middle:
                 shape = type(shape)(shape.mesh, placed.middle)
-            scene.object(object_id, product.Name or product.is_a(), shape, placed.matrix(), groups.above(product), attributes.of(product))
+            parent, stated = _read(groups, attributes, product, report, object_id)
+            scene.object(object_id, product.Name or product.is_a(), shape, placed.matrix(), parent, stated)
             if remarks := conversion.remarks_of(number):
                 message = f"{product.is_a()} '{product.Name or ''}': {'; '.join(remarks)[:_MOST_MESSAGE]}"
                 report.warning("ifc-remark", message, object_id)
@@ -67,3 +71,15 @@ def _write(job: Job, model: Model, units: Units, products: Products, conversion:
         message = f"the place on the map (east {east}, north {north}) is an attribute of the site: coordinates are those of the project"
         report.note("ifc-map-conversion", message)
     tell_of_left_out(products, len(conversion.bodyless), report)
+
+
+def _read(
+    groups: SpatialGroups, attributes: AttributeReader, product: Entity, report: Report, object_id: str
+) -> tuple[Group | None, dict[str, Any]]:
+    """Returns the group and the attributes of a product. A file may state anything: what is at fault costs only these."""
+    try:
+        return groups.above(product), attributes.of(product)
+    except Exception as fault:
+        message = f"the attributes of {product.is_a()} '{product.Name or ''}' cannot be read: {type(fault).__name__}: {fault}"
+        report.warning("ifc-attributes", message[:_MOST_MESSAGE], object_id)
+        return None, {"class": product.is_a()}

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from strake.importers.ifc.entity import Entity, Model, is_a, number_of
+from strake.importers.ifc.spatial import parent_of
 from strake.importers.report import Report
 
 # What is no matter: rooms, holes, what is only drawn, axes, limits between rooms, loads and the members that carry them
@@ -71,10 +73,36 @@ def tell_of_left_out(products: Products, bodyless: int, report: Report) -> None:
     if products.left_out:
         counted = ", ".join(f"{count} {word}" for word, count in sorted(products.left_out.items()))
         report.note("ifc-left-out", f"left out, since they are no matter: {counted}")
-    if products.without_body + bodyless:
-        report.note(
-            "ifc-no-body", f"{products.without_body + bodyless} products have no body of their own: assemblies, storeys and the like"
-        )
+    if products.without_body:
+        report.note("ifc-no-body", f"{products.without_body} products have no shape at all: assemblies, storeys and the like")
+    if bodyless:
+        report.note("ifc-no-shape-stated", f"{bodyless} products have a shape that is no body: axes, outlines, or of no context")
+
+
+class CircleFinder:
+    """Finds products that are placed relative to themselves, or are parts of themselves: kernels would never end."""
+
+    def __init__(self) -> None:
+        self._good: set[int] = set()
+
+    def fault_of(self, product: Entity) -> str:
+        """Returns what is wrong with a product; empty where nothing is."""
+        if not self._ends(getattr(product, "ObjectPlacement", None), lambda at: getattr(at, "PlacementRelTo", None)):
+            return "it is placed relative to itself"
+        if not self._ends(product, parent_of):
+            return "it is a part of itself"
+        return ""
+
+    def _ends(self, start: Entity | None, following: Callable[[Entity], Entity | None]) -> bool:
+        passed: set[int] = set()
+        at = start
+        while at is not None and at.id() not in self._good:
+            if at.id() in passed:
+                return False
+            passed.add(at.id())
+            at = following(at)
+        self._good |= passed
+        return True
 
 
 class Ids:

@@ -98,10 +98,18 @@ def _opened(path: Path, report: Report) -> Model:
     try:
         model = ifcopenshell.open(path, format=".ifc", logger=log)
     except (ifcopenshell.Error, ifcopenshell.SchemaError, OSError, RuntimeError, ValueError) as fault:
-        report.fail(f"IfcOpenShell cannot read it: {fault}", _EXPORT)
+        said = _first_fault(log) or str(fault)
+        report.fail(f"IfcOpenShell cannot read it: {said}", _EXPORT)
     if not model.by_type("IfcProject"):
         report.warning("ifc-no-project", "the file has no IfcProject: units are taken to be metres")
-    faults = [m for m in log.log_messages() if "ERROR" in repr(m)]
-    if faults:
-        report.warning("ifc-syntax", f"{len(faults)} faults of syntax, as: {repr(faults[0])[:300]}")
+    if said := _first_fault(log):
+        report.warning("ifc-syntax", f"faults of syntax, the first: {said}")
     return model
+
+
+def _first_fault(log: Any) -> str:
+    """Returns the first fault that IfcOpenShell found while it read, where it found any."""
+    for message in log.log_messages():
+        if message.severity_string == "ERROR":
+            return str(message.message).strip()[:300]
+    return ""

@@ -37,12 +37,12 @@ class SpatialGroups:
         """Returns the group that a product is in."""
         chain: list[Entity] = []
         seen = {product.id()}
-        at = _parent_of(product)
+        at = parent_of(product)
         while at is not None and at.id() not in seen and len(chain) < _MOST_LEVELS:
             seen.add(at.id())
             if at.is_a("IfcProduct"):
                 chain.append(at)
-            at = _parent_of(at)
+            at = parent_of(at)
         group: Group | None = None
         for entity in reversed(chain):
             known = self._groups.get(entity.id())
@@ -68,7 +68,8 @@ class SpatialGroups:
         return result
 
 
-def _parent_of(entity: Entity) -> Entity | None:
+def parent_of(entity: Entity) -> Entity | None:
+    """Returns what an entity is in or a part of."""
     for inverse, name in (
         ("Decomposes", "RelatingObject"),
         ("Nests", "RelatingObject"),
@@ -91,8 +92,8 @@ def _parent_of_host(entity: Entity) -> Entity | None:
     for relation in getattr(entity, "VoidsElements", None) or ():
         host = relation.RelatingBuildingElement
         if host is not None and not host.is_a("IfcFeatureElement"):
-            return _parent_of(host)
-    return None if entity.is_a("IfcFeatureElement") else _parent_of(entity)
+            return parent_of(host)
+    return None if entity.is_a("IfcFeatureElement") else parent_of(entity)
 
 
 def map_conversion(model: Model) -> dict[str, Any]:

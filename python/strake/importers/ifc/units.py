@@ -29,7 +29,8 @@ _CONVERTED = {
 # Units of values that are plain numbers: SI without a prefix. Lengths are never plain, since a selection takes plain
 # numbers for millimetres.
 _PLAIN = {"m2", "m3", "kg", "g", "s", "rad", "sr", "K", "degC", "A", "V", "W", "N", "Pa", "J", "Hz", "lx", "lm", "cd"}
-_MEASURES = {
+# The kind of unit that values of a measure have.
+MEASURES = {
     "IfcLengthMeasure": "LENGTHUNIT",
     "IfcPositiveLengthMeasure": "LENGTHUNIT",
     "IfcNonNegativeLengthMeasure": "LENGTHUNIT",
@@ -73,7 +74,7 @@ class Units:
         if value is None:
             return None
         if isinstance(value, ifcopenshell.entity_instance):
-            kind = kind or _MEASURES.get(value.is_a())
+            kind = kind or MEASURES.get(value.is_a())
             value = value.wrappedValue if hasattr(value, "wrappedValue") else str(value)
         if isinstance(value, (list, tuple)):
             return [self.value(item, own_unit, kind) for item in value]
