@@ -41,8 +41,7 @@ class ProjectCheck {
     tests();
     clashes();
     views();
-    if (const Status status = check_views(project_.database(), context_); !status)
-      add("views", status.error());
+    drawings();
     if (of_the_run_) return *std::move(of_the_run_);
     return std::move(faults_);
   }
@@ -139,6 +138,12 @@ class ProjectCheck {
                faults_.push_back(
                    {fmt::format("view {}", row.text(0)), "its options are no JSON object"});
              });
+  }
+
+  void drawings() {
+    const Result<std::vector<DamagedView>> damaged = check_views(project_.database(), context_);
+    if (!damaged) return add("views", damaged.error());
+    for (const DamagedView& view : *damaged) add(fmt::format("view {}", view.view), view.error);
   }
 
   void rows_of(const StoredTest& test, const std::string& where) {

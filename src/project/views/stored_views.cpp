@@ -248,22 +248,38 @@ Status rename_objects_of_views(Database& database, const NewIdentities& renamed)
   return {};
 }
 
-Status check_views(Database& database, const parallel::Context& context) {
+namespace {
+
+/// Reads the drawing that a row of check_views() stands at.
+Status check_drawing(const Database& database, const Statement& row,
+                     const parallel::Context& context) {
+  const auto drawing = decode(row, row.text(2), std::nullopt, context);
+  if (!drawing) return drawing.error();
+  if ((**drawing).boxes.size() == count_of(row, 3) &&
+      (**drawing).drawing.pieces.size() == count_of(row, 4))
+    return {};
+  return database.damaged("the drawing of the view '" + std::string(row.text(2)) +
+                          "' is of another size than its row says");
+}
+
+}  // namespace
+
+Result<std::vector<DamagedView>> check_views(Database& database, const parallel::Context& context) {
   auto statement = database.prepare(
       "SELECT d.lines, d.made_from, v.name, d.objects, d.pieces FROM drawing d "
       "JOIN view v ON v.id = d.view "
       "ORDER BY v.name");
   if (!statement) return statement.error();
+  std::vector<DamagedView> damaged;
   for (;;) {
     const Result<bool> there = statement->step();
     if (!there) return there.error();
-    if (!*there) return {};
-    const auto drawing = decode(*statement, statement->text(2), std::nullopt, context);
-    if (!drawing) return drawing.error();
-    if ((**drawing).boxes.size() != count_of(*statement, 3) ||
-        (**drawing).drawing.pieces.size() != count_of(*statement, 4))
-      return database.damaged("the drawing of the view '" + std::string(statement->text(2)) +
-                              "' is of another size than its row says");
+    if (!*there) return damaged;
+    const Status status = check_drawing(database, *statement, context);
+    if (status) continue;
+    // A run that was ended says nothing of the drawing.
+    if (status.error().code != ErrorCode::input) return status.error();
+    damaged.push_back({std::string(statement->text(2)), status.error()});
   }
 }
 

@@ -72,8 +72,15 @@ struct ViewToStore {
 /// What is damaged stays as it is: it serves nobody.
 [[nodiscard]] Status rename_objects_of_views(Database& database, const NewIdentities& renamed);
 
-/// Reads every drawing, and holds it to what its row says of its size. Errors: input for the first
-/// that is damaged, cancelled.
-[[nodiscard]] Status check_views(Database& database, const parallel::Context& context);
+/// A drawing that cannot be right.
+struct DamagedView {
+  std::string view;  ///< its name
+  Error error;
+};
+
+/// Reads every drawing, and holds it to what its row says of its size. Returns those that are
+/// damaged, by name. Errors: input where the table itself cannot be read, cancelled, memory.
+[[nodiscard]] Result<std::vector<DamagedView>> check_views(Database& database,
+                                                           const parallel::Context& context);
 
 }  // namespace strake::project
