@@ -254,6 +254,8 @@ class StoredRun {
       view.drawing = &solved_.drawing;
       view.made_from = &now_.snapshot;
       view.boxes = &now_.boxes;
+      view.model = loaded_.model.get();
+      view.far_objects = prepared_.layout.far_left_out;
       view.edges_solved = solved_.edges_solved;
       view.seconds = solved_.seconds;
     }

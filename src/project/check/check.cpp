@@ -147,6 +147,10 @@ class ProjectCheck {
   }
 
   void rows_of(const StoredTest& test, const std::string& where) {
+    if (const Result<std::optional<model::Model>> named =
+            read_test_objects(project_.database(), test);
+        !named)
+      add(where, named.error());
     Result<std::vector<std::string>> faults = check_rows(project_.database(), test);
     if (!faults) return add(where, faults.error());
     for (std::string& fault : *faults) faults_.push_back({where, std::move(fault)});
