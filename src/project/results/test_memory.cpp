@@ -120,6 +120,7 @@ Status TestMemory::take_match() {
     }
     Result<ClashRow> row = existing(id);
     if (!row) return row.error();
+    if (match.before) keep_open_parts(*row, before_->results.report.pairs[*match.before]);
     if (!match.now) {
       if (const Status status = miss(std::move(*row)); !status) return status;
       continue;
@@ -207,26 +208,25 @@ const clash::Report* TestMemory::earlier_report() const {
   return before_ == nullptr ? nullptr : &before_->results.report;
 }
 
-/// Returns how many parts of an object had no inside in the run before; nothing where it was not
-/// there.
-std::optional<std::int64_t> TestMemory::open_before(const SoughtObject& object) const {
-  const clash::Report* const earlier = earlier_report();
-  if (!object.id || earlier == nullptr) return std::nullopt;
-  const std::uint32_t before = match_.before_of[index(*object.id)];
-  if (before == kGone) return std::nullopt;
-  return earlier->sheets.empty() ? 0 : earlier->sheets[before];
+/// Keeps how open the two objects of a row were in the run before, which had this result of it.
+void TestMemory::keep_open_parts(const ClashRow& row, const Pair& before) {
+  const std::vector<std::uint8_t>& sheets = before_->results.report.sheets;
+  if (sheets.empty()) return;
+  const std::uint64_t first = before_->snapshot.identities[index(before.a)];
+  OpenParts open{sheets[index(before.a)], sheets[index(before.b)]};
+  // The order of the two may have been another one when the row was written.
+  if (first == clash::element_hash(row.b.file, row.b.id)) std::swap(open.a, open.b);
+  open_before_[row.id] = open;
 }
 
 /// What is known of the run that saw a clash last: the one before, or what was kept of an earlier
-/// one.
-Result<OpenParts> TestMemory::open_when_seen(const ClashRow& row, const SoughtObject& a,
-                                             const SoughtObject& b) {
+/// one; nothing where an earlier version of the program kept nothing.
+Result<OpenParts> TestMemory::open_when_seen(const ClashRow& row) {
   const Result<std::optional<OpenParts>> kept = history_.unseen(row.id);
   if (!kept) return kept.error();
   if (*kept) return **kept;
-  // Of what earlier versions of the program could not tell, nothing was kept.
-  if (!row.unknown.empty()) return OpenParts{};
-  return OpenParts{open_before(a), open_before(b)};
+  const auto at = open_before_.find(row.id);
+  return at == open_before_.end() ? OpenParts{} : at->second;
 }
 
 /// A row whose two objects are a contact that the run only counts. It is there, as it would be if
@@ -255,7 +255,7 @@ Status TestMemory::miss(ClashRow row) {
   if (!by_place)
     if (const clash::UnlistedContact* const contact = coverage_.counted(*a.id, *b.id))
       return see_counted(std::move(row), *contact);
-  const Result<OpenParts> open = open_when_seen(row, a, b);
+  const Result<OpenParts> open = open_when_seen(row);
   if (!open) return open.error();
   a.open = open->a;
   b.open = open->b;
@@ -279,11 +279,12 @@ Status TestMemory::keep_history(const ClashRow& before, const ClashRow& row, con
   if (told(row) != told(before))
     if (const Status status = history_.add_former(before, run_); !status) return status;
   if (has_result || row.gone_run) return history_.set_seen(row.id);
-  const SoughtObject a = sought(row.a), b = sought(row.b);
-  Result<OpenParts> open = open_when_seen(before, a, b);
+  Result<OpenParts> open = open_when_seen(before);
   if (!open) return open.error();
-  if (seen.sight != Sight::cannot_tell)
+  if (seen.sight != Sight::cannot_tell) {
+    const SoughtObject a = sought(row.a), b = sought(row.b);
     open = OpenParts{coverage_.open_parts(*a.id), coverage_.open_parts(*b.id)};
+  }
   const Result<std::optional<OpenParts>> kept = history_.unseen(row.id);
   if (!kept) return kept.error();
   return *kept == *open ? Status() : history_.set_unseen(row.id, *open);

@@ -72,9 +72,8 @@ class TestMemory {
   [[nodiscard]] bool is_positional(const clash::Pair& pair) const;
   [[nodiscard]] SoughtObject sought(const ClashSide& side) const;
   [[nodiscard]] const clash::Report* earlier_report() const;
-  [[nodiscard]] std::optional<std::int64_t> open_before(const SoughtObject& object) const;
-  [[nodiscard]] Result<OpenParts> open_when_seen(const ClashRow& row, const SoughtObject& a,
-                                                 const SoughtObject& b);
+  void keep_open_parts(const ClashRow& row, const clash::Pair& before);
+  [[nodiscard]] Result<OpenParts> open_when_seen(const ClashRow& row);
 
   Database& database_;
   ClashRows& table_;
@@ -92,6 +91,7 @@ class TestMemory {
   std::vector<std::size_t> positional_results_;  ///< whose ids are positions, to be found by place
   std::vector<WaitingRow> waiting_;              ///< and the rows that they may be
   std::set<std::int64_t> handled_;  ///< rows that this run has dealt with, or that wait
+  std::map<std::int64_t, OpenParts> open_before_;  ///< of rows whose results the run before had
   TestTrend trend_;
   std::map<std::size_t, ResultStatus> statuses_;
   std::vector<ClashRow> not_found_;
