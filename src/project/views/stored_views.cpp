@@ -230,8 +230,8 @@ Result<std::optional<StoredDrawing>> load_drawing(Database& database, std::strin
 namespace {
 
 /// Reads the objects of a drawing from the columns `names` and `far` of a row.
-Status read_objects(const Statement& row, int names, int far, const std::string& of_view,
-                    FormerDrawing& former) {
+Status read_former_objects(const Statement& row, int names, int far, const std::string& of_view,
+                           FormerDrawing& former) {
   Result<model::Model> model = decode_names(row.bytes(names), "the objects" + of_view);
   if (!model) return model.error();
   former.model = std::move(*model);
@@ -265,7 +265,7 @@ Result<FormerDrawing> former_drawing(Database& database, std::string_view name,
   if (!stored) return stored.error();
   FormerDrawing former;
   former.drawing = std::move((**stored).drawing);
-  if (const Status status = read_objects(*statement, 2, 3, of_view, former); !status)
+  if (const Status status = read_former_objects(*statement, 2, 3, of_view, former); !status)
     return status.error();
   if (former.model.objects.size() != former.drawing.account.fates.size())
     return database.damaged("the drawing" + of_view +
@@ -322,7 +322,8 @@ Status check_drawing(const Database& database, const Statement& row,
   if (!row.is_null(5)) {
     FormerDrawing former;
     const std::string of_view = " of the view '" + std::string(row.text(2)) + "'";
-    if (const Status status = read_objects(row, 5, 6, of_view, former); !status) return status;
+    if (const Status status = read_former_objects(row, 5, 6, of_view, former); !status)
+      return status;
     if (former.model.objects.size() != count_of(row, 3))
       return database.damaged("the objects" + of_view + " are not as many as its row says");
   }
