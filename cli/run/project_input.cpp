@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run/project_input.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
@@ -40,6 +42,40 @@ void add_project_options(CLI::App& command, ProjectOptions& options) {
   add_wait_option(command, options.wait);
 }
 
+void add_compared_options(CLI::App& command, ComparedOptions& options, const std::string& what,
+                          const std::string& alone) {
+  const auto add = [&](const char* name, std::string& file, const char* age, const char* type) {
+    command.add_option(name, file, fmt::format(fmt::runtime(what), age) + ", or a project")
+        ->type_name(type);
+  };
+  add("old", options.before, "older", "OLD");
+  add("new", options.after, "newer", "NEW");
+  command
+      .add_option("-p,--project", options.project,
+                  "Compare with what this project remembers (docs/project.md), as if it stood "
+                  "behind the files; alone: " +
+                      alone)
+      ->type_name("FILE")
+      ->group("Input");
+}
+
+Result<std::vector<std::string>> compared_files(const ComparedOptions& options,
+                                                const CLI::App& command) {
+  std::vector<std::string> files;
+  for (const std::string* const file : {&options.before, &options.after, &options.project})
+    if (!file->empty()) files.push_back(*file);
+  if (files.size() == 2 || (files.size() == 1 && project::is_project(files.front()))) return files;
+  if (files.size() > 2)
+    return Error{ErrorCode::usage, "there are two files to compare already", "-p",
+                 "leave it or one of them out"};
+  const CLI::Option* const lacking = command.get_option(files.empty() ? "old" : "new");
+  return Error{ErrorCode::usage,
+               lacking->get_type_name() + " is not given: " + lacking->get_description(),
+               {},
+               fmt::format("'strake {} {} --help' tells what there is",
+                           command.get_parent()->get_name(), command.get_name())};
+}
+
 Status check_project_options(const ProjectOptions& options, const InputOptions& input) {
   if (options.file.empty()) {
     if (options.wait.empty()) return {};
@@ -77,6 +113,10 @@ Result<OpenedProject> open_project(Session& session, const ProjectOptions& optio
       project::Project::open(options.file, {.access = access, .wait_s = *wait});
   if (!project) return project.error();
   return OpenedProject{options.file, std::move(*project)};
+}
+
+Result<OpenedProject> open_project(Session& session, const std::string& file) {
+  return open_project(session, ProjectOptions{file, {}}, project::Access::read);
 }
 
 Status check_spares_model_files(project::Project& project, const std::string& option,

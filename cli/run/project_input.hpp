@@ -30,6 +30,22 @@ void add_project_options(CLI::App& command, ProjectOptions& options);
 [[nodiscard]] Status check_project_options(const ProjectOptions& options,
                                            const InputOptions& input);
 
+/// What a comparison is given, as written: two files, of which each may be a project, or one
+/// project; -p is one more.
+struct ComparedOptions {
+  std::string before, after, project;
+};
+
+/// Adds OLD, NEW and -p; `what` is what OLD and NEW are if they are no projects, as "Result of the
+/// %s run, .json", and `alone` what is compared of a project alone.
+void add_compared_options(CLI::App& command, ComparedOptions& options, const std::string& what,
+                          const std::string& alone);
+
+/// Returns the files that are compared, the older first: two, or one that is a project. Errors:
+/// usage.
+[[nodiscard]] Result<std::vector<std::string>> compared_files(const ComparedOptions& options,
+                                                              const CLI::App& command);
+
 /// A project of the command line, open.
 struct OpenedProject {
   std::string file;  ///< as it was written
@@ -40,6 +56,8 @@ struct OpenedProject {
 /// project::Project::open().
 [[nodiscard]] Result<OpenedProject> open_project(Session& session, const ProjectOptions& options,
                                                  project::Access access);
+/// Opens a project to be read. Errors: those of project::Project::open().
+[[nodiscard]] Result<OpenedProject> open_project(Session& session, const std::string& file);
 
 /// Checks that no file that an option names is one that the project reads again: an update could
 /// not. Errors: usage; those of project::Project::files().

@@ -19,6 +19,7 @@
 #include "cli/run/file_settings.hpp"
 #include "cli/run/load.hpp"
 #include "cli/verbs/clash/clash_decisions.hpp"
+#include "cli/verbs/clash/clash_groups.hpp"
 #include "cli/verbs/clash/clash_hint.hpp"
 #include "cli/verbs/clash/clash_output.hpp"
 #include "cli/verbs/clash/clash_profile.hpp"
@@ -345,6 +346,15 @@ void tell(Session& session, const clash::Findings& findings, const model::Model&
   count_costs(session.stats(), findings, model);
 }
 
+/// Returns the rules that a run goes by, if there are any.
+std::optional<report::RulesSource> rules_source(const ClashOptions& given,
+                                                const ClashRequest& request) {
+  if (request.profile)
+    return report::RulesSource{request.profile->file(), request.profile->hash(), given.profile};
+  if (request.rules) return report::RulesSource{request.rules->file(), request.rules->hash()};
+  return std::nullopt;
+}
+
 /// Groups and writes what was found, after what is not to be written is taken out of it; `project`
 /// is null where files are tested.
 Status put_out(Session& session, const ClashOptions& given, const ClashRequest& request,
@@ -354,10 +364,8 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
   const Result<std::optional<clash::Grouping>> grouping =
       group(session, given.result, findings, *loaded.model, decided);
   if (!grouping) return grouping.error();
-  std::optional<report::RulesSource> source;
+  const std::optional<report::RulesSource> source = rules_source(given, request);
   const Diagnostics loading = loaded.diagnostics();
-  if (request.rules) source = {request.rules->file(), request.rules->hash()};
-  if (request.profile) source = {request.profile->file(), request.profile->hash(), given.profile};
   const report::ClashContents contents{findings,
                                        *loaded.model,
                                        *grouping ? &**grouping : nullptr,
@@ -411,7 +419,9 @@ Result<const report::DecidedResults*> decided_of(Session& session, const ClashOp
                                                  std::optional<report::DecidedResults>& from_file) {
   if (source.project) {
     const Status status =
-        source.project->remember(session, source.loaded, findings, request.deeper_mm);
+        source.project->remember(session, source.loaded, findings,
+                                 {request.deeper_mm, rules_source(given, request),
+                                  grouping_of(given.result, given.output.classes)});
     if (!status) return status.error();
     return source.project->decided();
   }
@@ -576,6 +586,7 @@ Examples:
   strake clash -p ship.strake --rules project.toml --fail-on hit -o today.json
   strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --status approved --comment 'as agreed'
   strake clash diff monday.json tuesday.json
+  strake clash diff ship.strake
   strake clash ship.glb --a 'PIP*' --b 'type = mesh and not PIP*' -o pipes.csv
   strake clash hvac.rvm steel.rvm piping.rvm --rules project.toml --list-exempted -o all.json
   strake clash hvac.rvm steel.rvm --touch-gap 0 --touch-overlap 0 --fail-on hit --json)");

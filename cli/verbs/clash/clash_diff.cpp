@@ -4,15 +4,21 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "cli/run/project_input.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
+#include "project/history/compare_runs.hpp"
+#include "project/history/last_document.hpp"
 #include "report/report_writers.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -21,7 +27,10 @@ namespace strake::cli {
 namespace {
 
 struct ClashDiffOptions {
-  std::string before, after, fail_on;
+  ComparedOptions compared;
+  std::optional<std::string> test;
+  std::vector<std::int64_t> runs;  ///< two, or none
+  std::string fail_on;
   std::vector<std::string> outputs, match_files;
 };
 
@@ -43,34 +52,90 @@ void print_maybe_new(Session& session, const report::ClashDiff& diff, const std:
                     fail_on, hits_only ? "hits" : "results", count));
 }
 
+/// Errors: usage for options that need a project, or a project alone.
+Status check(const ClashDiffOptions& given, const std::vector<std::string>& files) {
+  const bool any_project =
+      std::ranges::any_of(files, [](const std::string& file) { return project::is_project(file); });
+  if (given.test && !any_project)
+    return Error{ErrorCode::usage, "neither of the two is a project", "--test", "leave it out"};
+  if (!given.runs.empty() && files.size() > 1)
+    return Error{ErrorCode::usage, "only runs of one project have numbers", "--runs",
+                 "compare the project alone, or leave it out"};
+  if (!given.match_files.empty() && files.size() == 1)
+    return Error{ErrorCode::usage, "a project follows its files itself", "--match-files",
+                 "leave it out; 'strake project update' takes it"};
+  return check_outputs(given.outputs, formats_of(report::clash_diff_writers()), files);
+}
+
+/// A comparison, and what it refers to.
+struct Compared {
+  std::vector<report::ClashDocument> documents;
+  std::unique_ptr<project::RunComparison> of_runs;  ///< of one project
+  report::ClashDiff of_documents;
+
+  [[nodiscard]] const report::ClashDiff& diff() const {
+    return of_runs ? of_runs->diff : of_documents;
+  }
+};
+
+Result<report::ClashDocument> read(Session& session, const ClashDiffOptions& given,
+                                   const std::string& file) {
+  if (!project::is_project(file)) return report::read_clash_document(file);
+  Result<OpenedProject> opened = open_project(session, file);
+  if (!opened) return opened.error();
+  return project::last_document(opened->project.database(), given.test, {});
+}
+
 /// Reads both documents, at the same time where there is a team.
-Result<std::vector<report::ClashDocument>> read(Session& session, const ClashDiffOptions& given) {
+Result<std::vector<report::ClashDocument>> read(Session& session, const ClashDiffOptions& given,
+                                                const std::vector<std::string>& files) {
   const auto timer = session.step("read");
-  return parallel::transform(
-      session.context(), {.name = "read results", .n = 2}, [&](std::size_t i) {
-        return report::read_clash_document(i == 0 ? given.before : given.after);
-      });
+  return parallel::transform(session.context(), {.name = "read results", .n = 2},
+                             [&](std::size_t i) { return read(session, given, files[i]); });
 }
 
-Result<report::ClashDiff> compare(Session& session, const ClashDiffOptions& given,
-                                  const std::vector<report::ClashDocument>& documents) {
-  const auto timer = session.step("compare");
-  Result<report::FileMatches> files =
-      report::match_files(documents.front(), documents.back(), given.match_files);
-  if (!files) return files.error();
-  return report::compare(documents.front(), documents.back(), std::move(*files));
-}
-
-Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
-  if (const Status status = check_outputs(given.outputs, formats_of(report::clash_diff_writers()),
-                                          {given.before, given.after});
-      !status)
-    return status.error();
-  const Result<std::vector<report::ClashDocument>> documents = read(session, given);
+Result<Compared> compare_files(Session& session, const ClashDiffOptions& given,
+                               const std::vector<std::string>& files) {
+  Result<std::vector<report::ClashDocument>> documents = read(session, given, files);
   if (!documents) return documents.error();
-  const Result<report::ClashDiff> compared = compare(session, given, *documents);
+  Compared compared{std::move(*documents), nullptr, {}};
+  const report::ClashDocument &before = compared.documents.front(),
+                              &after = compared.documents.back();
+  const auto timer = session.step("compare");
+  Result<report::FileMatches> matches = report::match_files(before, after, given.match_files);
+  if (!matches) return matches.error();
+  compared.of_documents = report::compare(before, after, std::move(*matches));
+  return compared;
+}
+
+Result<Compared> compare_runs(Session& session, const ClashDiffOptions& given,
+                              const std::string& file) {
+  Result<OpenedProject> opened = open_project(session, file);
+  if (!opened) return opened.error();
+  project::ComparedRuns asked{given.test, {}};
+  if (!given.runs.empty()) asked.runs.emplace(given.runs.front(), given.runs.back());
+  const auto timer = session.step("compare");
+  Result<std::unique_ptr<project::RunComparison>> made =
+      project::compare_runs(opened->project.database(), asked);
+  if (!made) {
+    Error error = made.error();
+    if (error.where.empty()) error.where = opened->file;
+    return error;
+  }
+  session.console().note((*made)->before.name + " against " + (*made)->after.name);
+  return Compared{{}, std::move(*made), {}};
+}
+
+Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given,
+                          const CLI::App& command) {
+  const Result<std::vector<std::string>> files = compared_files(given.compared, command);
+  if (!files) return files.error();
+  if (const Status status = check(given, *files); !status) return status.error();
+  const Result<Compared> compared = files->size() == 1
+                                        ? compare_runs(session, given, files->front())
+                                        : compare_files(session, given, *files);
   if (!compared) return compared.error();
-  const report::ClashDiff& diff = *compared;
+  const report::ClashDiff& diff = compared->diff();
   const auto as_json = [&](Session::Sink sink) {
     report::write_clash_diff_json(diff, sink);
     return Status{};
@@ -99,12 +164,22 @@ Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
   const auto options = std::make_shared<ClashDiffOptions>();
   CLI::App* const command = clash.add_subcommand(
       "diff", "What changed between two results: new, still there, gone, and what is undecided");
-  command->add_option("old", options->before, "Result of the older run, .json")
-      ->type_name("OLD")
-      ->required();
-  command->add_option("new", options->after, "Result of the newer run, .json")
-      ->type_name("NEW")
-      ->required();
+  add_compared_options(*command, options->compared, "Result of the {} run, .json",
+                       "its last two runs");
+  // An empty name is that of the test of the command line.
+  command
+      ->add_option_function<std::string>(
+          "--test", [options](const std::string& name) { options->test = name; },
+          "The test of a project, of which its last run counts (default: all tests of its last "
+          "run); '' is the test of the command line")
+      ->type_name("NAME|''");
+  command
+      ->add_option("--runs", options->runs,
+                   "Compare these runs of a project, the older first; 'strake clash history' has "
+                   "their numbers (default: the last two)")
+      ->type_name("N")
+      ->expected(2)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_choice(
       *command, "--fail-on", options->fail_on, {"new-hit", "new", "worse", "cannot-tell"},
       "Exit code 1 where there is a new hit, any new result, a new or worse one, or one that "
@@ -125,11 +200,20 @@ A file that has another label than in the old run (a revision in its name, anoth
 ids of its objects, or by the places of results where it has none; which files were taken as renamed, split or
 merged is told first. Two that are equally like it are told and not guessed: --match-files says which it is.
 
+A project stands for its last run, beside a file or another project. Alone, two of its runs are compared by
+what each said of each clash: what was new in between is new, what was resolved is gone, and what the run
+could not tell is 'cannot tell', as the run had it.
+
 Examples:
   strake clash diff monday.json tuesday.json
+  strake clash diff ship.strake
+  strake clash diff -p ship.strake --runs 3 7
+  strake clash diff monday.json ship.strake --test hvac
+  strake clash diff a.strake b.strake
   strake clash diff monday.json tuesday.json -o changes.json --fail-on new-hit
   strake clash diff monday.json tuesday.json --match-files ship.glb=ship_revB.glb)");
-  return {command, [options](Session& session) { return run_diff(session, *options); }};
+  return {command,
+          [options, command](Session& session) { return run_diff(session, *options, *command); }};
 }
 
 }  // namespace strake::cli

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <map>
 
 #include "core/text_encoding.hpp"
 #include "report/json/json_writer.hpp"
@@ -111,7 +112,28 @@ std::string ClashLines::table() const {
   return out;
 }
 
-ClashLines lines_of(const std::vector<project::ListedClash>& clashes) {
+namespace {
+
+/// Adds the number and the key of the group of each clash, whose key is in the first column.
+void add_groups(ClashLines& lines, const std::vector<ProjectGroup>& groups) {
+  std::map<std::string_view, std::size_t> group_of;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const std::string& key : groups[g].clashes) group_of.emplace(key, g);
+  lines.shown.push_back(lines.columns.size());
+  lines.shown.push_back(lines.columns.size() + 1);
+  lines.columns.insert(lines.columns.end(), {"group", "group_key"});
+  for (std::vector<Cell>& cells : lines.rows) {
+    const auto at = group_of.find(std::get<std::string>(cells.front()));
+    const bool has_group = at != group_of.end();
+    cells.push_back(has_group ? count(at->second + 1) : Cell());
+    cells.push_back(has_group ? Cell(groups[at->second].key) : Cell());
+  }
+}
+
+}  // namespace
+
+ClashLines lines_of(const std::vector<project::ListedClash>& clashes,
+                    const std::vector<ProjectGroup>* groups) {
   ClashLines lines;
   lines.kind = "clashes";
   lines.columns = {"key",      "status",   "by",        "date",     "comment",  "class",
@@ -142,6 +164,7 @@ ClashLines lines_of(const std::vector<project::ListedClash>& clashes) {
     add(is_there ? Cell(last_run) : Cell(), row.gone_run ? Cell(*row.gone_run) : Cell(),
         text_or_nothing(row.unknown));
   }
+  if (groups != nullptr) add_groups(lines, *groups);
   return lines;
 }
 

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/verbs/clash/clash_groups.hpp"
 #include "project/results/clash_queries.hpp"
 
 namespace strake::cli {
@@ -27,7 +28,9 @@ class ClashLines {
   [[nodiscard]] std::string table() const;
 };
 
-[[nodiscard]] ClashLines lines_of(const std::vector<project::ListedClash>& clashes);
+/// With the groups, if there are any, each clash has the number and the key of its own.
+[[nodiscard]] ClashLines lines_of(const std::vector<project::ListedClash>& clashes,
+                                  const std::vector<ProjectGroup>* groups = nullptr);
 [[nodiscard]] ClashLines lines_of(const std::vector<project::TrendRow>& runs);
 [[nodiscard]] ClashLines lines_of(const std::vector<project::ClashEvent>& events);
 

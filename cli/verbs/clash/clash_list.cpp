@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cli/run/project_input.hpp"
+#include "cli/verbs/clash/clash_groups.hpp"
 #include "cli/verbs/clash/clash_lines.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
@@ -27,6 +28,8 @@ struct ClashListOptions {
   std::string status, key;
   std::optional<std::string> test;
   std::vector<std::string> outputs;
+  bool groups = false;
+  ClashGroupingInput grouping;
 };
 
 Result<OpenedProject> open(Session& session, const ClashListOptions& given) {
@@ -53,6 +56,7 @@ Result<ExitCode> put_out(Session& session, const ClashListOptions& given, const 
 }
 
 Result<ExitCode> run_list(Session& session, const ClashListOptions& given) {
+  if (const Status status = check(given.grouping); !status) return status.error();
   Result<OpenedProject> opened = open(session, given);
   if (!opened) return opened.error();
   project::ClashFilter filter;
@@ -62,7 +66,12 @@ Result<ExitCode> run_list(Session& session, const ClashListOptions& given) {
   const Result<std::vector<project::ListedClash>> clashes =
       project::list_clashes(opened->project.database(), filter);
   if (!clashes) return clashes.error();
-  return put_out(session, given, lines_of(*clashes));
+  if (!given.groups && given.grouping.first_given() == nullptr)
+    return put_out(session, given, lines_of(*clashes));
+  const Result<std::vector<ProjectGroup>> groups =
+      groups_of_last_run(session, *opened, given.grouping);
+  if (!groups) return groups.error();
+  return put_out(session, given, lines_of(*clashes, &*groups));
 }
 
 Result<ExitCode> run_history(Session& session, const ClashListOptions& given) {
@@ -101,11 +110,20 @@ Verb add_clash_list(CLI::App& clash, CommonOptions& common) {
           "Those of this test; '' is the test of the command line")
       ->type_name("NAME|''");
   add_list_options(*command, *options, common);
+  command
+      ->add_flag(
+          "--groups", options->groups,
+          "The group of each clash in the report of the last run too: its number, and its key "
+          "for 'strake clash set --group'")
+      ->group("Groups");
+  add_grouping_options(*command, options->grouping);
   command->footer(R"(
 The CSV is a file of decisions, as 'strake clash --decisions' takes it.
 
 Examples:
   strake clash list -p ship.strake --status new
+  strake clash list -p ship.strake --groups
+  strake clash list -p ship.strake --group-by assembly --status active
   strake clash list -p ship.strake -o decided.csv)");
   return {command, [options](Session& session) { return run_list(session, *options); }};
 }

@@ -216,7 +216,7 @@ Status ProjectClashes::verify(Session& session, const Loaded& loaded,
 }
 
 Status ProjectClashes::remember(Session& session, const Loaded& loaded,
-                                const clash::Findings& findings, double deeper_mm) {
+                                const clash::Findings& findings, RunRequest request) {
   const auto timer = session.step("remember");
   Result<project::Transaction> transaction =
       project::Transaction::begin(opened_.project.database());
@@ -236,8 +236,12 @@ Status ProjectClashes::remember(Session& session, const Loaded& loaded,
     tests.push_back({&findings.tests[t], &tested.snapshot, &tested.sets, &tested.policy,
                      tested.before ? &*tested.before : nullptr, tested.work});
   }
-  const project::RunFacts facts{started_, input_.by.empty() ? person() : input_.by,
-                                now_s() - started_s_, deeper_mm};
+  const project::RunFacts facts{started_,
+                                input_.by.empty() ? person() : input_.by,
+                                now_s() - started_s_,
+                                request.deeper_mm,
+                                std::move(request.rules),
+                                std::move(request.grouping)};
   Result<project::RememberedRun> run =
       project::remember(opened_.project.database(), *loaded.model, facts, tests, session.context());
   if (!run) return run.error();

@@ -28,6 +28,13 @@ struct ClashProjectInput {
   [[nodiscard]] bool is_given() const { return !project.file.empty(); }
 };
 
+/// What a run is asked that its tests do not say.
+struct RunRequest {
+  double deeper_mm = 1;                      ///< as project::RunFacts
+  std::optional<report::RulesSource> rules;  ///< the rules file, if there is one
+  project::RunGrouping grouping;
+};
+
 void add_clash_project_options(CLI::App& command, ClashProjectInput& options);
 
 /// Tests a project, telling what was tested again, and remembers what was found.
@@ -51,7 +58,7 @@ class ProjectClashes {
   /// Begins the transaction and writes the run into it. The findings are still as find() gave them.
   /// Errors: output where the model is another than load() read; those of project::remember().
   [[nodiscard]] Status remember(Session& session, const Loaded& loaded,
-                                const clash::Findings& findings, double deeper_mm);
+                                const clash::Findings& findings, RunRequest request);
   /// Returns what was decided about the findings; only after remember().
   [[nodiscard]] const report::DecidedResults* decided() const { return &run_->decided; }
   [[nodiscard]] Status commit(Session& session);

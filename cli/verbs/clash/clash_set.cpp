@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -17,13 +16,11 @@
 #include "cli/run/person.hpp"
 #include "cli/run/project_input.hpp"
 #include "cli/run/utc_time.hpp"
-#include "cli/verbs/clash/clash_output.hpp"
-#include "cli/verbs/clash/clash_result.hpp"
+#include "cli/verbs/clash/clash_groups.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/number.hpp"
 #include "core/text_encoding.hpp"
 #include "project/results/clash_queries.hpp"
-#include "project/results/stored_tests.hpp"
 
 namespace strake::cli {
 
@@ -32,18 +29,10 @@ namespace {
 struct ClashSetOptions {
   ProjectOptions project;
   std::vector<std::string> keys, select;
-  std::string group, classes, status, by;
+  std::string group, status, by;
   std::optional<std::string> comment, assignee;
-  ClashResultInput grouping;
+  ClashGroupingInput grouping;
 };
-
-/// Returns what groups are by, with the default.
-ClashResultInput grouping_of(const ClashSetOptions& given) {
-  ClashResultInput grouping = given.grouping;
-  if (!given.group.empty() && grouping.group_by.empty())
-    grouping.group_by = name(clash::GroupBy::element);
-  return grouping;
-}
 
 Status check(const ClashSetOptions& given) {
   if (given.project.file.empty())
@@ -58,15 +47,9 @@ Status check(const ClashSetOptions& given) {
                  "it is not clear which clashes are meant",
                  {},
                  "give keys, or --select, or --group"};
-  const ClashResultInput& grouping = given.grouping;
-  for (const auto& [option, is_given] :
-       {std::pair("--group-by", !grouping.group_by.empty()),
-        std::pair("--group-distance", !grouping.group_distance.empty()),
-        std::pair("--group-contacts", grouping.group_contacts),
-        std::pair("--class", !given.classes.empty()), std::pair("--sort", !grouping.sort.empty())})
-    if (is_given && given.group.empty())
-      return Error{ErrorCode::usage, "no group is meant", option, "add --group"};
-  return check(grouping_of(given));
+  if (const char* const option = given.grouping.first_given(); option && given.group.empty())
+    return Error{ErrorCode::usage, "no group is meant", option, "add --group"};
+  return check(given.grouping);
 }
 
 std::optional<report::DecisionStatus> status_of(const std::string& word) {
@@ -103,84 +86,33 @@ Result<std::vector<std::string>> keys_by_selection(Session& session, OpenedProje
   return keys;
 }
 
-/// The results of the last run of these classes, without what is approved: as the run groups them.
-struct OpenResults {
-  clash::Findings findings;
-  std::vector<std::vector<std::string>> keys;  ///< of each test and result; empty: none
-};
-
-Result<OpenResults> open_results(Session& session, OpenedProject& opened,
-                                 const report::WrittenClasses& classes) {
-  project::Database& database = opened.project.database();
-  const Result<std::vector<project::ListedClash>> clashes = project::list_clashes(database, {});
-  if (!clashes) return clashes.error();
-  const Result<std::vector<std::string>> tests = project::last_tests(database);
-  if (!tests) return tests.error();
-  std::map<std::int64_t, const project::ListedClash*> by_row;
-  for (const project::ListedClash& clash : *clashes) by_row.emplace(clash.row.id, &clash);
-  OpenResults open;
-  for (const std::string& name : *tests) {
-    Result<std::optional<project::StoredTest>> test =
-        project::read_test(database, name, session.context());
-    if (!test) return test.error();
-    if (!*test) continue;
-    clash::Report report = std::move((**test).results.report);
-    std::vector<clash::Pair> pairs = std::move(report.pairs);
-    report.pairs.clear();
-    std::vector<std::string>& keys = open.keys.emplace_back();
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const auto row = by_row.find((**test).results.rows[i]);
-      const project::ListedClash* const clash = row == by_row.end() ? nullptr : row->second;
-      if (clash != nullptr && clash->status == report::DecisionStatus::approved) continue;
-      if (!classes.has(pairs[i].cls) && !classes.has(pairs[i].severest)) continue;
-      report.pairs.push_back(pairs[i]);
-      keys.push_back(clash == nullptr ? std::string() : clash->row.key);
-    }
-    open.findings.tests.push_back(std::move(report));
-  }
-  return open;
-}
-
-/// Finds a group by its number in the order of the run, from 1 on, or by its id.
-const clash::Group* find_group(const clash::Grouping& grouping, const std::string& wanted) {
-  const auto by_id = std::ranges::find(grouping.groups, wanted, &clash::Group::id);
-  if (by_id != grouping.groups.end()) return &*by_id;
+/// Finds a group by its key, by its id or by its number in the order of the run, from 1 on.
+const ProjectGroup* find_group(const std::vector<ProjectGroup>& groups, const std::string& wanted) {
+  for (const auto text : {&ProjectGroup::key, &ProjectGroup::id})
+    if (const auto at = std::ranges::find(groups, wanted, text); at != groups.end()) return &*at;
   const std::optional<double> number = parse_number(wanted);
-  for (std::size_t g = 0; g < grouping.groups.size(); ++g)
-    if (number && *number == static_cast<double>(g + 1)) return &grouping.groups[g];
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (number && *number == static_cast<double>(g + 1)) return &groups[g];
   return nullptr;
 }
 
 Result<std::vector<std::string>> keys_of_group(Session& session, OpenedProject& opened,
                                                const ClashSetOptions& given) {
-  ClashOutputInput shown;
-  shown.classes = given.classes;
-  const Result<ClashOutput> output = clash_output(shown, {});
-  if (!output) return output.error();
-  const Result<OpenResults> open = open_results(session, opened, output->classes);
-  if (!open) return open.error();
-  const Result<model::Model> model = project_model(session, opened.project);
-  if (!model) return model.error();
-  for (const clash::Report& report : open->findings.tests)
-    if (report.in_a.size() != model->objects.size())
-      return Error{ErrorCode::usage, "the model changed since its clashes were grouped", "--group",
-                   "run 'strake clash -p " + opened.file + "' first"};
-  const Result<std::optional<clash::Grouping>> grouping =
-      group(session, grouping_of(given), open->findings, *model, nullptr);
-  if (!grouping) return grouping.error();
-  const clash::Group* const wanted = find_group(**grouping, given.group);
+  const Result<std::vector<ProjectGroup>> groups =
+      groups_of_last_run(session, opened, given.grouping);
+  if (!groups) return groups.error();
+  const ProjectGroup* const wanted = find_group(*groups, given.group);
   if (wanted == nullptr)
     return Error{ErrorCode::usage,
-                 fmt::format("there is no group {}; there are {}", in_quotes(given.group),
-                             (**grouping).groups.size()),
+                 fmt::format("there is no group {} in the last run; there are {}",
+                             in_quotes(given.group), groups->size()),
                  "--group",
-                 "write the number or the id of a group, and the --group-by, --group-distance, "
-                 "--group-contacts, --class and --sort of the run that showed it"};
-  std::vector<std::string> keys;
-  for (const clash::ResultRef& result : wanted->results)
-    if (const std::string& key = open->keys[result.test][result.pair]; !key.empty())
-      keys.push_back(key);
-  return keys;
+                 "'strake clash list --groups' shows them; where others were meant, write the "
+                 "--group-by, --group-distance, --group-contacts, --class and --sort that showed "
+                 "them"};
+  session.console().note(fmt::format("group {}: {}, key {}", wanted - groups->data() + 1,
+                                     in_quotes(wanted->name), wanted->key));
+  return wanted->clashes;
 }
 
 Result<std::vector<std::string>> keys_of(Session& session, OpenedProject& opened,
@@ -228,21 +160,10 @@ Verb add_clash_set(CLI::App& clash, CommonOptions& common) {
       ->type_name("SELECTION");
   command
       ->add_option("--group", options->group,
-                   "The clashes of this group of the last run: its number, or its id")
-      ->type_name("N");
-  add_choice(*command, "--group-by", options->grouping.group_by,
-             {"element", "proximity", "test", "files", "assembly"},
-             "What the groups are by (default element)");
-  command
-      ->add_option("--group-distance", options->grouping.group_distance,
-                   "As of the run that showed the groups")
-      ->type_name("LENGTH");
-  command->add_flag("--group-contacts", options->grouping.group_contacts,
-                    "As of the run that showed the groups");
-  command->add_option("--class", options->classes, "As of the run that showed the groups")
-      ->type_name("CLASS,...");
-  add_choice(*command, "--sort", options->grouping.sort, {"depth", "volume", "size"},
-             "As of the run that showed the groups (default depth)");
+                   "The clashes of this group of the last run: its key ('strake clash list "
+                   "--groups'), its id, or its number in the report of that run")
+      ->type_name("GROUP");
+  add_grouping_options(*command, options->grouping);
   add_choice(*command, "--status", options->status,
              {"new", "active", "reviewed", "approved", "resolved"},
              "What is decided (docs/statuses.md)");
@@ -263,14 +184,15 @@ Verb add_clash_set(CLI::App& clash, CommonOptions& common) {
 A new run keeps what was decided. An approved clash comes back where it got deeper, of a severer class or has
 more places (--deeper of 'strake clash'); what is gone becomes resolved, and what is found again new.
 
-The number of a group is that of a run with the same --group-by, --group-distance, --group-contacts, --class
-and --sort, as long as nothing more is approved: an approved clash is in no group. Ids of groups stay.
+Groups are those that the last run reported, whatever was decided since, and numbers are those of its report. The
+key of a group is made of its clashes: it never means others, in a later run neither.
 
 Examples:
   strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --status approved --comment 'as agreed'
   strake clash set -p ship.strake --select 'path = "/HVAC/*"' --assignee Ann
   strake clash set -p ship.strake --group 3 --status reviewed --by Bob
   strake clash set -p ship.strake --group 3 --group-by assembly --class hit --status approved
+  strake clash set -p ship.strake --group 4dy8m2x6p0b3hq7t1v9wz5kcne --status approved
   strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --assignee '' --comment '')");
   return {command, [options](Session& session) { return run_set(session, *options); }};
 }

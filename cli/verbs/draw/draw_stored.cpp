@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "project/snapshot/snapshot.hpp"
 #include "project/views/drawing_codec.hpp"
 #include "project/views/stored_views.hpp"
+#include "strake/drawing/write.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/hlr/incremental.hpp"
 
@@ -254,6 +256,8 @@ class StoredRun {
       view.drawing = &solved_.drawing;
       view.made_from = &now_.snapshot;
       view.boxes = &now_.boxes;
+      view.model = loaded_.model.get();
+      view.far_objects = prepared_.layout.far_left_out;
       view.edges_solved = solved_.edges_solved;
       view.seconds = solved_.seconds;
     }
@@ -313,7 +317,69 @@ class StoredRun {
   bool differs_ = false;  ///< from the drawing in full
 };
 
+/// Returns a drawing as a comparison reads it; `name` is what it calls it.
+Result<report::ViewDocument> document_of(Session& session, const drawing::NeutralDrawing& drawing,
+                                         const model::Model& model, const std::string& name) {
+  const auto timer = session.step("document");
+  std::stringstream rows;
+  const Status written = drawing::write_view_rows(
+      drawing, model, [&](std::string_view piece) { rows << piece; }, session.context());
+  if (!written) return written.error();
+  return report::parse_view_document(rows, name);
+}
+
+/// Returns a view of a project as options: it is drawn again as it was saved.
+DrawOptions as_stored(const OpenedProject& opened, const std::string& view) {
+  DrawOptions given;
+  given.project.file = opened.file;
+  given.stored = view;
+  return given;
+}
+
 }  // namespace
+
+Result<report::ViewDocument> stored_document(Session& session, OpenedProject& opened,
+                                             const std::string& view) {
+  const Result<ViewOfProject> asked = view_to_draw(as_stored(opened, view), opened);
+  if (!asked) return asked.error();
+  Result<project::FormerDrawing> former = [&] {
+    const auto timer = session.step("stored lines");
+    return project::former_drawing(opened.project.database(), view, session.context());
+  }();
+  if (!former) {
+    Error error = former.error();
+    if (error.where.empty()) error.where = opened.file;
+    return error;
+  }
+  const Result<DrawRequest> request = request_of(asked->solved, session, true);
+  if (!request) return request.error();
+  drawing::LayoutOptions layout = request->layout;
+  layout.far_left_out = std::move(former->far_objects);
+  for (const model::Selection& selection : request->uncut)
+    layout.uncut_selections.push_back(selection.text());
+  const Result<drawing::NeutralDrawing> drawing =
+      drawing::lay_out(former->drawing, former->model, layout, session.context());
+  if (!drawing) return drawing.error();
+  return document_of(session, *drawing, former->model,
+                     opened.file + ", view '" + view + "' as stored");
+}
+
+Result<report::ViewDocument> document_of_now(Session& session, OpenedProject& opened,
+                                             const std::string& view) {
+  const DrawOptions given = as_stored(opened, view);
+  const Result<ViewOfProject> asked = view_to_draw(given, opened);
+  if (!asked) return asked.error();
+  const Result<DrawRequest> request = request_of(asked->solved, session, true);
+  if (!request) return request.error();
+  const Result<Loaded> loaded = load_project(session, opened, request->scene);
+  if (!loaded) return loaded.error();
+  StoredRun run(session, given, *asked, *request, *loaded);
+  if (const Status status = run.find_lines(opened); !status) return status.error();
+  const Result<drawing::NeutralDrawing> drawing = run.lay_out();
+  if (!drawing) return drawing.error();
+  return document_of(session, *drawing, *loaded->model,
+                     opened.file + ", view '" + view + "' of the model of now");
+}
 
 Result<ExitCode> draw_stored(Session& session, const DrawOptions& given) {
   Result<OpenedProject> opened = open_project(session, given.project, project::Access::read);

@@ -63,6 +63,11 @@ struct ClashDiff {
   [[nodiscard]] bool has_worse() const;
   /// Returns how many of `cannot_tell` would be new if they were not there before.
   [[nodiscard]] std::size_t maybe_new(bool hits_only) const;
+
+  /// Adds a clash of both runs to `changed` or to `same`; `before` and `after` are there.
+  void add_still_there(DiffEntry entry);
+  /// Puts all lists into their order.
+  void sort();
 };
 
 /// Tells which file of one run is which of the other, by the ids that the results name, and by the

@@ -41,8 +41,7 @@ class ProjectCheck {
     tests();
     clashes();
     views();
-    if (const Status status = check_views(project_.database(), context_); !status)
-      add("views", status.error());
+    drawings();
     if (of_the_run_) return *std::move(of_the_run_);
     return std::move(faults_);
   }
@@ -141,7 +140,17 @@ class ProjectCheck {
              });
   }
 
+  void drawings() {
+    const Result<std::vector<DamagedView>> damaged = check_views(project_.database(), context_);
+    if (!damaged) return add("views", damaged.error());
+    for (const DamagedView& view : *damaged) add(fmt::format("view {}", view.view), view.error);
+  }
+
   void rows_of(const StoredTest& test, const std::string& where) {
+    if (const Result<std::optional<model::Model>> named =
+            read_test_objects(project_.database(), test);
+        !named)
+      add(where, named.error());
     Result<std::vector<std::string>> faults = check_rows(project_.database(), test);
     if (!faults) return add(where, faults.error());
     for (std::string& fault : *faults) faults_.push_back({where, std::move(fault)});

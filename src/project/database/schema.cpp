@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 #include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "project/database/history_tables.hpp"
 #include "project/database/model_tables.hpp"
 #include "project/database/result_tables.hpp"
 #include "project/database/revision_tables.hpp"
@@ -51,10 +53,14 @@ Result<std::unique_ptr<Database>> empty_tables() {
 }  // namespace
 
 std::string all_tables() {
-  return fmt::format("{}\n{}\n{}\n{}", kModelTables, kRevisionTables, kResultTables, kViewTables);
+  return fmt::format("{}\n{}\n{}\n{}\n{}", kModelTables, kRevisionTables, kResultTables,
+                     kViewTables, kHistoryTables);
 }
 
-std::span<const MigrationStep> migration_steps() { return {}; }
+std::span<const MigrationStep> migration_steps() {
+  static constexpr std::array<MigrationStep, 1> kSteps{{{1, kHistoryTables}}};
+  return kSteps;
+}
 
 Result<std::int64_t> schema_version(Database& database) {
   Result<Statement> row = database.prepare("PRAGMA user_version");

@@ -129,6 +129,24 @@ Result<std::vector<ListedClash>> list_clashes(Database& database, const ClashFil
   }
 }
 
+Result<std::map<std::int64_t, report::DecisionStatus>> statuses_at(Database& database,
+                                                                   std::int64_t event) {
+  Result<Statement> select =
+      database.prepare("SELECT clash, before FROM event WHERE id > ?1 AND run IS NULL ORDER BY id");
+  if (!select) return select.error();
+  select->bind(1, event);
+  std::map<std::int64_t, DecisionStatus> statuses;
+  for (;;) {
+    const Result<bool> there = select->step();
+    if (!there) return there.error();
+    if (!*there) return statuses;
+    const auto before = status_of(select->text(1));
+    if (!before) return database.damaged("an event has a status that is none");
+    // The first event that came later is about what was until then.
+    statuses.try_emplace(select->integer(0), *before);
+  }
+}
+
 Result<std::uint64_t> decide(Database& database, std::span<const std::string> keys,
                              const ClashDecision& decision) {
   const Result<std::map<std::int64_t, TestName>> tests = tests_of(database);

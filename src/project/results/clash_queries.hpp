@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +31,10 @@ struct ClashFilter {
 /// was never run.
 [[nodiscard]] Result<std::vector<ListedClash>> list_clashes(Database& database,
                                                             const ClashFilter& filter);
+
+/// Returns the statuses that clashes had after an event, of those of which people changed it since.
+[[nodiscard]] Result<std::map<std::int64_t, report::DecisionStatus>> statuses_at(
+    Database& database, std::int64_t event);
 
 /// What somebody decides.
 struct ClashDecision {

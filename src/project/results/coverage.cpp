@@ -12,9 +12,6 @@
 namespace strake::project {
 namespace {
 
-constexpr std::string_view kMoreSheets =
-    " has surfaces that enclose nothing beyond those of the earlier run";
-
 std::string named(const SoughtObject& object) { return "'" + std::string(object.name) + "'"; }
 
 bool exempts(const clash::Exemption& exemption, std::uint32_t a, std::uint32_t b) {
@@ -63,11 +60,13 @@ bool has_lines(const model::Model& model, model::ObjectId id) {
   return false;
 }
 
-/// Whether a list by (a, b) has the pair of two objects.
+/// Returns the pair of two objects in a list by (a, b); null where it is not there.
 template <class Listed>
-bool has_pair(const std::vector<Listed>& list, model::ObjectId a, model::ObjectId b) {
+const Listed* find_pair(const std::vector<Listed>& list, model::ObjectId a, model::ObjectId b) {
   const auto objects = [](const Listed& l) { return std::pair(l.a, l.b); };
-  return std::ranges::binary_search(list, std::pair(std::min(a, b), std::max(a, b)), {}, objects);
+  const std::pair sought(std::min(a, b), std::max(a, b));
+  const auto at = std::ranges::lower_bound(list, sought, {}, objects);
+  return at != list.end() && objects(*at) == sought ? &*at : nullptr;
 }
 
 }  // namespace
@@ -85,7 +84,7 @@ std::string Coverage::reason(const SoughtObject& a, const SoughtObject& b,
     if (!object->id) return named(*object) + " is not in the model";
   if (std::string why = of_sets(a, b); !why.empty()) return why;
   for (const SoughtObject* const object : {&a, &b})
-    if (std::string why = of_object(*object, last); !why.empty()) return why;
+    if (std::string why = of_object(*object); !why.empty()) return why;
   if (const auto at = lacks_.find({std::min(*a.id, *b.id), std::max(*a.id, *b.id)});
       at != lacks_.end())
     return "the pair could not be compared (" + std::string(at->second) + ")";
@@ -106,20 +105,26 @@ std::string Coverage::of_sets(const SoughtObject& a, const SoughtObject& b) cons
   return {};
 }
 
-std::string Coverage::of_object(const SoughtObject& object, const LastSeen& last) const {
+const clash::UnlistedContact* Coverage::counted(model::ObjectId a, model::ObjectId b) const {
+  return report_.kept ? find_pair(report_.kept->unlisted, a, b) : nullptr;
+}
+
+std::int64_t Coverage::open_parts(model::ObjectId id) const {
+  return report_.sheets.empty() ? 0 : report_.sheets[index(id)];
+}
+
+std::string Coverage::of_object(const SoughtObject& object) const {
   const model::Object& now = model_.object(*object.id);
   if (const auto at = lacks_.find({*object.id, std::nullopt}); at != lacks_.end())
     return named(object) + " could not be compared whole (" + std::string(at->second) + ")";
   if (now.incomplete) return named(object) + " could not be read whole";
   const model::SourceFile& file = model_.files[now.file];
   if (file.ends_early) return file.label + " ends early";
-  if (report_.sheets.empty()) return {};
-  const std::uint8_t sheets = report_.sheets[index(*object.id)];
-  std::string more = named(object) + std::string(kMoreSheets);
-  // What a run could not tell the next one cannot either, for as long as the object is open.
-  if (sheets > 0 && last.unknown == more) return more;
-  const bool is_known = last.report != nullptr && object.before && !last.report->sheets.empty();
-  return is_known && sheets > last.report->sheets[index(*object.before)] ? more : std::string();
+  // What is in an open part is not found. Whether it was open when the clash was seen last is what
+  // counts, whatever runs found of the object since.
+  const std::int64_t open = open_parts(*object.id);
+  if (open == 0 || (object.open && open <= *object.open)) return {};
+  return named(object) + " has surfaces that enclose nothing beyond those of the earlier run";
 }
 
 std::string Coverage::of_exemptions(model::ObjectId a, model::ObjectId b) const {
@@ -139,9 +144,8 @@ std::string Coverage::of_exemptions(model::ObjectId a, model::ObjectId b) const 
 /// Whatever the clash was, it may be a contact by now.
 std::string Coverage::of_report(model::ObjectId a, model::ObjectId b) const {
   if (report_.kept) {
-    if (has_pair(report_.kept->unlisted, a, b))
-      return "it is among the contacts, which are only counted";
-    if (has_pair(report_.kept->unreported, a, b))
+    if (counted(a, b) != nullptr) return "it is among the contacts, which are only counted";
+    if (find_pair(report_.kept->unreported, a, b) != nullptr)
       return "it is among the results that the test does not report";
     return {};
   }

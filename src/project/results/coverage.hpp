@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "project/results/life_cycle.hpp"
 #include "strake/clash/clash.hpp"
+#include "strake/clash/kept.hpp"
 #include "strake/clash/policy.hpp"
 #include "strake/model/model.hpp"
 
@@ -17,8 +19,9 @@ namespace strake::project {
 /// One of the two objects of a clash that a run did not find.
 struct SoughtObject {
   std::string_view name;
-  std::optional<model::ObjectId> id;      ///< absent: it is not in the model
-  std::optional<model::ObjectId> before;  ///< its number in the earlier run
+  std::optional<model::ObjectId> id;  ///< absent: it is not in the model
+  /// How many of its parts had no inside when the clash was seen last; absent: it is not known.
+  std::optional<std::int64_t> open;
 };
 
 /// What is known of a clash from the runs before.
@@ -36,13 +39,18 @@ class Coverage {
   Coverage(const model::Model& model, const clash::Sets& sets, const clash::Policy& policy,
            const clash::Report& report);
 
+  /// Returns the contact that two objects are where the run only counts it; null where they are
+  /// none, or the run does not say.
+  [[nodiscard]] const clash::UnlistedContact* counted(model::ObjectId a, model::ObjectId b) const;
+  /// Returns how many parts of an object have no inside in this run.
+  [[nodiscard]] std::int64_t open_parts(model::ObjectId id) const;
   /// Returns the reason; empty where the two were compared.
   [[nodiscard]] std::string reason(const SoughtObject& a, const SoughtObject& b,
                                    const LastSeen& last) const;
 
  private:
   [[nodiscard]] std::string of_sets(const SoughtObject& a, const SoughtObject& b) const;
-  [[nodiscard]] std::string of_object(const SoughtObject& object, const LastSeen& last) const;
+  [[nodiscard]] std::string of_object(const SoughtObject& object) const;
   [[nodiscard]] std::string of_exemptions(model::ObjectId a, model::ObjectId b) const;
   [[nodiscard]] std::string of_report(model::ObjectId a, model::ObjectId b) const;
   [[nodiscard]] std::string of_settings(model::ObjectId a, model::ObjectId b,

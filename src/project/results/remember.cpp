@@ -159,10 +159,11 @@ Status add_trend(Database& database, std::int64_t run, std::int64_t test, const 
 /// Remembers the tests of one run.
 class RunMemory {
  public:
-  RunMemory(Database& database, ClashRows rows, const model::Model& model, const RunFacts& facts,
-            RememberedRun& run)
+  RunMemory(Database& database, ClashRows rows, ClashHistory history, const model::Model& model,
+            const RunFacts& facts, RememberedRun& run)
       : database_(database),
         rows_(std::move(rows)),
+        history_(std::move(history)),
         model_(model),
         facts_(facts),
         run_(run),
@@ -190,7 +191,7 @@ class RunMemory {
  private:
   Status add(const TestedTest& test, TestRow row, const StoredTest* before,
              const parallel::Context& context) {
-    TestMemory memory(database_, rows_, model_, facts_, run_.number, test, row, before);
+    TestMemory memory(database_, rows_, history_, model_, facts_, run_.number, test, row, before);
     if (const Status status = memory.run(context); !status) return status;
     const std::array<std::uint64_t, 5> counted = run_.decided.counts;
     decided_.add_test(*test.report, memory);
@@ -204,6 +205,14 @@ class RunMemory {
                               memory.is_unchanged()};
     if (const Status status = write_test(database_, written, before, context); !status)
       return status;
+    if (const Status status = write_test_objects(database_, row.id, model_, memory.is_unchanged());
+        !status)
+      return status;
+    if (const Status status =
+            write_run_result(database_, run_.number,
+                             {row.id, test.report->name, written.settings, test.report->hash});
+        !status)
+      return status;
     TestTrend trend = memory.trend();
     const Result<std::uint64_t> resolved = count_resolved(database_, row.id);
     if (!resolved) return resolved.error();
@@ -214,6 +223,7 @@ class RunMemory {
 
   Database& database_;
   ClashRows rows_;
+  ClashHistory history_;
   const model::Model& model_;
   const RunFacts& facts_;
   RememberedRun& run_;
@@ -239,14 +249,19 @@ Result<RememberedRun> remember(Database& database, const model::Model& model, co
                                const parallel::Context& context) {
   Result<ClashRows> rows = ClashRows::of(database);
   if (!rows) return rows.error();
+  Result<ClashHistory> history = ClashHistory::of(database);
+  if (!history) return history.error();
   RememberedRun run;
   const Result<std::int64_t> number = add_run(database, facts);
   if (!number) return number.error();
   run.number = *number;
-  RunMemory memory(database, std::move(*rows), model, facts, run);
+  RunMemory memory(database, std::move(*rows), std::move(*history), model, facts, run);
   for (const TestedTest& test : tests)
     if (const Status status = memory.add(test, context); !status) return status.error();
   memory.finish();
+  if (const Status status = write_run_record(database, run.number, {facts.rules, facts.grouping});
+      !status)
+    return status.error();
   return run;
 }
 

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "project/database/database.hpp"
+#include "project/results/run_records.hpp"
 #include "project/results/stored_tests.hpp"
 #include "project/snapshot/snapshot.hpp"
 #include "strake/clash/clash.hpp"
@@ -16,6 +18,7 @@
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
+#include "strake/report/clash.hpp"
 #include "strake/report/decisions.hpp"
 
 /// Runs of clash tests taken into a project: results, clashes, and what becomes of them.
@@ -57,6 +60,8 @@ struct RunFacts {
   std::string who;
   double seconds = 0;
   double deeper_mm = 1;  ///< an approved clash that is deeper by more comes back
+  std::optional<report::RulesSource> rules = {};  ///< the rules file, if there was one
+  RunGrouping grouping = {};
 };
 
 /// A run that is remembered.

@@ -7,6 +7,7 @@
 
 #include "core/text_encoding.hpp"
 #include "project/codec/blob.hpp"
+#include "project/snapshot/object_names.hpp"
 #include "project/stored_report/kept_codec.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/parallel/transform.hpp"
@@ -215,6 +216,38 @@ Status write_test(Database& database, const TestToWrite& test, const StoredTest*
   const Result<std::vector<Hash128>> parts = write_parts(database, test, before, context);
   if (!parts) return parts.error();
   return write_report(database, test, *parts);
+}
+
+Result<std::optional<model::Model>> read_test_objects(Database& database, const StoredTest& test) {
+  Result<Statement> select = database.prepare("SELECT names FROM test_objects WHERE test = ?1");
+  if (!select) return select.error();
+  const Result<bool> there = select->bind(1, test.id).step();
+  if (!there) return there.error();
+  if (!*there) return std::optional<model::Model>();
+  Result<model::Model> model =
+      decode_names(select->bytes(0), called(database, test.name) + ", its objects");
+  if (!model) return model.error();
+  if (model->objects.size() != test.snapshot.identities.size())
+    return database.damaged(result_of(test.name) +
+                            " is of another number of objects than are named");
+  return std::optional(std::move(*model));
+}
+
+Status write_test_objects(Database& database, std::int64_t test, const model::Model& model,
+                          bool is_unchanged) {
+  Result<Statement> select = database.prepare("SELECT names FROM test_objects WHERE test = ?1");
+  if (!select) return select.error();
+  const Result<bool> there = select->bind(1, test).step();
+  if (!there) return there.error();
+  if (*there && is_unchanged) return {};
+  const Result<Bytes> names = encode_names(model);
+  if (!names) return names.error();
+  if (*there && BlobReader::raw_hash(select->bytes(0)) == BlobReader::raw_hash(*names)) return {};
+  select->reset();
+  Result<Statement> put =
+      database.prepare("INSERT OR REPLACE INTO test_objects (test, names) VALUES (?1, ?2)");
+  if (!put) return put.error();
+  return put->bind(1, test).bind(2, std::span<const std::byte>(*names)).run();
 }
 
 }  // namespace strake::project

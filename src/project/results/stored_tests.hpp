@@ -10,6 +10,7 @@
 #include "project/snapshot/snapshot.hpp"
 #include "project/stored_report/report_codec.hpp"
 #include "strake/core/result.hpp"
+#include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
 
 namespace strake::project {
@@ -49,6 +50,16 @@ struct StoredSnapshot {
 [[nodiscard]] Result<std::optional<StoredTest>> read_test(Database& database,
                                                           const std::string& name,
                                                           const parallel::Context& context);
+
+/// Returns the objects of the model that a test ran over last, as decode_names() has them; nothing
+/// where no version of the program that keeps them ran it. Errors: input for a damaged project.
+[[nodiscard]] Result<std::optional<model::Model>> read_test_objects(Database& database,
+                                                                    const StoredTest& test);
+
+/// Writes the objects of the model that a test ran over, where other ones are stored. With
+/// `is_unchanged` these are known to be the same if there are any.
+[[nodiscard]] Status write_test_objects(Database& database, std::int64_t test,
+                                        const model::Model& model, bool is_unchanged);
 
 /// What is to be written of a test.
 struct TestToWrite {

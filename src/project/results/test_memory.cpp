@@ -57,11 +57,12 @@ bool was_there(const ClashRow& row) { return !row.gone_run; }
 
 }  // namespace
 
-TestMemory::TestMemory(Database& database, ClashRows& rows, const model::Model& model,
-                       const RunFacts& facts, std::int64_t run, const TestedTest& test, TestRow row,
-                       const StoredTest* before)
+TestMemory::TestMemory(Database& database, ClashRows& rows, ClashHistory& history,
+                       const model::Model& model, const RunFacts& facts, std::int64_t run,
+                       const TestedTest& test, TestRow row, const StoredTest* before)
     : database_(database),
       table_(rows),
+      history_(history),
       model_(model),
       facts_(facts),
       run_(run),
@@ -119,6 +120,7 @@ Status TestMemory::take_match() {
     }
     Result<ClashRow> row = existing(id);
     if (!row) return row.error();
+    if (match.before) keep_open_parts(*row, before_->results.report.pairs[*match.before]);
     if (!match.now) {
       if (const Status status = miss(std::move(*row)); !status) return status;
       continue;
@@ -200,30 +202,92 @@ SoughtObject TestMemory::sought(const ClashSide& side) const {
   return {side.name.empty() ? side.id : side.name, find_object(model_, side), std::nullopt};
 }
 
+/// The report of the run before; null: it is not known.
+const clash::Report* TestMemory::earlier_report() const {
+  if (is_unchanged_) return &report_;
+  return before_ == nullptr ? nullptr : &before_->results.report;
+}
+
+/// Keeps how open the two objects of a row were in the run before, which had this result of it.
+void TestMemory::keep_open_parts(const ClashRow& row, const Pair& before) {
+  const std::vector<std::uint8_t>& sheets = before_->results.report.sheets;
+  if (sheets.empty()) return;
+  const std::uint64_t first = before_->snapshot.identities[index(before.a)];
+  OpenParts open{sheets[index(before.a)], sheets[index(before.b)]};
+  // The order of the two may have been another one when the row was written.
+  if (first == clash::element_hash(row.b.file, row.b.id)) std::swap(open.a, open.b);
+  open_before_[row.id] = open;
+}
+
+/// What is known of the run that saw a clash last: the one before, or what was kept of an earlier
+/// one; nothing where an earlier version of the program kept nothing.
+Result<OpenParts> TestMemory::open_when_seen(const ClashRow& row) {
+  const Result<std::optional<OpenParts>> kept = history_.unseen(row.id);
+  if (!kept) return kept.error();
+  if (*kept) return **kept;
+  const auto at = open_before_.find(row.id);
+  return at == open_before_.end() ? OpenParts{} : at->second;
+}
+
+/// A row whose two objects are a contact that the run only counts. It is there, as it would be if
+/// the contact were listed; its place and its depth are not known.
+Status TestMemory::see_counted(ClashRow row, const clash::UnlistedContact& contact) {
+  const ClashRow before = row;
+  if (row.now.cls != clash::Class::contact) {
+    row.now = {clash::Class::contact, 0, 0};
+    row.relation = clash::Relation::abut_outside;
+  }
+  Seen seen{.now = row.now, .why = {}};
+  if (contact.allowed >= 0) {
+    seen.sight = Sight::allowed;
+    seen.why = report_.allowed[static_cast<std::size_t>(contact.allowed)].rule;
+  }
+  return apply(before, row, seen, std::nullopt);
+}
+
 /// A row whose result is not there.
 Status TestMemory::miss(ClashRow row) {
-  const auto before_of = [&](const SoughtObject& object) -> std::optional<model::ObjectId> {
-    if (!object.id || before_ == nullptr) return std::nullopt;
-    const std::uint32_t o = match_.before_of[index(*object.id)];
-    return o == kGone ? std::nullopt : std::optional(model::ObjectId{o});
-  };
   SoughtObject a = sought(row.a), b = sought(row.b);
-  a.before = before_of(a);
-  b.before = before_of(b);
-  const clash::Report* const earlier = is_unchanged_        ? &report_
-                                       : before_ == nullptr ? nullptr
-                                                            : &before_->results.report;
-  std::string why = coverage_.reason(a, b, {row.now, row.unknown, earlier});
   const auto is_place = [&](const SoughtObject& object) {
     return !object.id || model_.object(*object.id).positional_id;
   };
-  if (is_place(a) || is_place(b)) {
+  const bool by_place = is_place(a) || is_place(b);
+  if (!by_place)
+    if (const clash::UnlistedContact* const contact = coverage_.counted(*a.id, *b.id))
+      return see_counted(std::move(row), *contact);
+  const Result<OpenParts> open = open_when_seen(row);
+  if (!open) return open.error();
+  a.open = open->a;
+  b.open = open->b;
+  std::string why = coverage_.reason(a, b, {row.now, row.unknown, earlier_report()});
+  if (by_place) {
     wait(std::move(row), why.empty() ? kOnlyPosition : std::move(why));
     return {};
   }
   const Seen seen{why.empty() ? Sight::gone : Sight::cannot_tell, row.now, why};
   const ClashRow before = row;
   return apply(before, row, seen, std::nullopt);
+}
+
+/// Keeps what runs before said of a row, and of one without a result what the run that saw it last
+/// knew of its objects.
+Status TestMemory::keep_history(const ClashRow& before, const ClashRow& row, const Seen& seen,
+                                bool has_result) {
+  const auto told = [](const ClashRow& r) {
+    return std::tuple(r.now.cls, r.now.d_mm, r.now.regions, r.gone_run.has_value(), r.unknown);
+  };
+  if (told(row) != told(before))
+    if (const Status status = history_.add_former(before, run_); !status) return status;
+  if (has_result || row.gone_run) return history_.set_seen(row.id);
+  Result<OpenParts> open = open_when_seen(before);
+  if (!open) return open.error();
+  if (seen.sight != Sight::cannot_tell) {
+    const SoughtObject a = sought(row.a), b = sought(row.b);
+    open = OpenParts{coverage_.open_parts(*a.id), coverage_.open_parts(*b.id)};
+  }
+  const Result<std::optional<OpenParts>> kept = history_.unseen(row.id);
+  if (!kept) return kept.error();
+  return *kept == *open ? Status() : history_.set_unseen(row.id, *open);
 }
 
 /// Writes what this run makes of a row, if that is anything else.
@@ -262,6 +326,8 @@ Status TestMemory::apply(const ClashRow& before, ClashRow& row, const Seen& seen
     if (const Status status = table_.update(row); !status) return status;
     ++trend_.written;
   }
+  if (const Status status = keep_history(before, row, seen, pair.has_value()); !status)
+    return status;
   if (!pair) return {};
   ResultStatus& status = statuses_[*pair];
   status.is_new = row.new_run == run_;
@@ -274,7 +340,9 @@ Result<std::vector<ClashRow>> TestMemory::watched() {
   Result<Statement> select = database_.prepare(
       "SELECT " + std::string(kClashColumns) +
       " FROM clash WHERE test = ?1 AND gone_run IS NULL AND (decision IS NOT NULL OR unknown IS "
-      "NOT NULL OR comment IS NOT NULL OR assignee IS NOT NULL) ORDER BY id");
+      "NOT NULL OR comment IS NOT NULL OR assignee IS NOT NULL) UNION SELECT " +
+      std::string(kClashColumns) +
+      " FROM clash WHERE test = ?1 AND id IN (SELECT clash FROM unseen) ORDER BY id");
   if (!select) return select.error();
   select->bind(1, row_.id);
   std::vector<ClashRow> rows;
@@ -288,7 +356,7 @@ Result<std::vector<ClashRow>> TestMemory::watched() {
   }
 }
 
-/// Rows that somebody wrote into, or of which the run before could not tell: they are asked about
+/// Rows that somebody wrote into, or that the run before lists no result of: they are asked about
 /// although their results are as they were.
 Status TestMemory::take_watched() {
   Result<std::vector<ClashRow>> rows = watched();

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "project/results/clash_history.hpp"
 #include "project/results/clash_rows.hpp"
 #include "project/results/coverage.hpp"
 #include "project/results/match_reports.hpp"
@@ -33,8 +34,9 @@ struct WaitingRow {
 class TestMemory {
  public:
   /// What it is given must outlive it; `before` is null where the test was never run.
-  TestMemory(Database& database, ClashRows& rows, const model::Model& model, const RunFacts& facts,
-             std::int64_t run, const TestedTest& test, TestRow row, const StoredTest* before);
+  TestMemory(Database& database, ClashRows& rows, ClashHistory& history, const model::Model& model,
+             const RunFacts& facts, std::int64_t run, const TestedTest& test, TestRow row,
+             const StoredTest* before);
 
   [[nodiscard]] Status run(const parallel::Context& context);
 
@@ -55,9 +57,12 @@ class TestMemory {
   [[nodiscard]] Status appear(std::size_t pair);
   [[nodiscard]] Status add(std::size_t pair);
   [[nodiscard]] Status see(ClashRow row, std::size_t pair);
+  [[nodiscard]] Status see_counted(ClashRow row, const clash::UnlistedContact& contact);
   [[nodiscard]] Status miss(ClashRow row);
   [[nodiscard]] Status apply(const ClashRow& before, ClashRow& row, const Seen& seen,
                              std::optional<std::size_t> pair);
+  [[nodiscard]] Status keep_history(const ClashRow& before, const ClashRow& row, const Seen& seen,
+                                    bool has_result);
   [[nodiscard]] Status park(ClashRow& row);
   [[nodiscard]] Result<std::vector<ClashRow>> watched();
   [[nodiscard]] Result<ClashRow> existing(std::int64_t id);
@@ -66,9 +71,13 @@ class TestMemory {
   [[nodiscard]] std::string key_of(const clash::Pair& pair) const;
   [[nodiscard]] bool is_positional(const clash::Pair& pair) const;
   [[nodiscard]] SoughtObject sought(const ClashSide& side) const;
+  [[nodiscard]] const clash::Report* earlier_report() const;
+  void keep_open_parts(const ClashRow& row, const clash::Pair& before);
+  [[nodiscard]] Result<OpenParts> open_when_seen(const ClashRow& row);
 
   Database& database_;
   ClashRows& table_;
+  ClashHistory& history_;
   const model::Model& model_;
   const RunFacts& facts_;
   std::int64_t run_;
@@ -82,6 +91,7 @@ class TestMemory {
   std::vector<std::size_t> positional_results_;  ///< whose ids are positions, to be found by place
   std::vector<WaitingRow> waiting_;              ///< and the rows that they may be
   std::set<std::int64_t> handled_;  ///< rows that this run has dealt with, or that wait
+  std::map<std::int64_t, OpenParts> open_before_;  ///< of rows whose results the run before had
   TestTrend trend_;
   std::map<std::size_t, ResultStatus> statuses_;
   std::vector<ClashRow> not_found_;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "project/update/rename_files.hpp"
 
+#include <fmt/format.h>
+
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -10,6 +14,7 @@
 #include "clash/results/clash_key.hpp"
 #include "core/text_encoding.hpp"
 #include "project/results/stored_tests.hpp"
+#include "project/snapshot/object_names.hpp"
 #include "project/snapshot/snapshot.hpp"
 #include "project/views/stored_views.hpp"
 
@@ -87,6 +92,35 @@ Status rename_clashes(Database& database, const Labels& labels) {
   return {};
 }
 
+/// Gives the labels of today to the files that a table keeps with the names of their objects.
+/// What is damaged stays as it is: it serves nobody.
+Status rename_named(Database& database, const Labels& labels, std::string_view table,
+                    std::string_view key) {
+  Result<Statement> select = database.prepare(fmt::format("SELECT {}, names FROM {}", key, table));
+  if (!select) return select.error();
+  std::vector<std::pair<std::int64_t, model::Model>> all;
+  for (;;) {
+    const Result<bool> there = select->step();
+    if (!there) return there.error();
+    if (!*there) break;
+    Result<model::Model> model = decode_names(select->bytes(1), "names of objects");
+    if (model) all.emplace_back(select->integer(0), std::move(*model));
+  }
+  Result<Statement> update =
+      database.prepare(fmt::format("UPDATE {} SET names = ?2 WHERE {} = ?1", table, key));
+  if (!update) return update.error();
+  for (auto& [row, model] : all) {
+    for (model::SourceFile& file : model.files)
+      if (const auto at = labels.find(valid_utf8(file.label)); at != labels.end())
+        file.label = at->second;
+    const Result<std::vector<std::byte>> names = encode_names(model);
+    if (!names) return names.error();
+    update->bind(1, row).bind(2, std::span<const std::byte>(*names));
+    if (const Status status = update->run(); !status) return status;
+  }
+  return {};
+}
+
 /// Returns what the identities of the objects of renamed files become.
 NewIdentities new_identities(const model::Model& before, const Labels& labels) {
   std::vector<const std::string*> of_file;
@@ -122,6 +156,10 @@ Status rename_files(Database& database, const model::Model& before,
     if (const Status status = write_snapshot(database, (**stored).id, (**stored).snapshot); !status)
       return status;
   }
+  if (const Status status = rename_named(database, labels, "test_objects", "test"); !status)
+    return status;
+  if (const Status status = rename_named(database, labels, "drawing_objects", "view"); !status)
+    return status;
   return rename_objects_of_views(database, identities);
 }
 

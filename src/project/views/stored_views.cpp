@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "project/codec/blob.hpp"
+#include "project/snapshot/object_names.hpp"
 #include "project/views/drawing_codec.hpp"
 #include "project/views/number_columns.hpp"
 #include "project/views/view_codec.hpp"
@@ -122,7 +123,7 @@ Result<std::optional<StoredDrawing>> decode(const Statement& row, std::string_vi
 
 /// A drawing as the bytes of its row.
 struct EncodedDrawing {
-  std::vector<std::byte> lines, made_from;
+  std::vector<std::byte> lines, made_from, names, far_objects;
 };
 
 Result<EncodedDrawing> encode(const ViewToStore& view) {
@@ -132,7 +133,14 @@ Result<EncodedDrawing> encode(const ViewToStore& view) {
   if (!bytes) return bytes.error();
   auto state = encode_state(*view.made_from, *view.boxes);
   if (!state) return state.error();
-  return EncodedDrawing{std::move(*bytes), std::move(*state)};
+  auto names = encode_names(*view.model);
+  if (!names) return names.error();
+  BlobWriter far;
+  far.column(view.far_objects);
+  auto far_objects = far.finish();
+  if (!far_objects) return far_objects.error();
+  return EncodedDrawing{std::move(*bytes), std::move(*state), std::move(*names),
+                        std::move(*far_objects)};
 }
 
 constexpr std::string_view kSaveSettings =
@@ -146,6 +154,10 @@ constexpr std::string_view kSaveDrawing =
     "seconds, lines, made_from) SELECT id, ?2, strftime('%Y-%m-%dT%H:%M:%SZ', 'now'), ?3, ?4, ?5, "
     "?6, ?7, ?8, ?9 FROM view WHERE name = ?1";
 
+constexpr std::string_view kSaveObjects =
+    "INSERT OR REPLACE INTO drawing_objects (view, names, far) SELECT id, ?2, ?3 FROM view "
+    "WHERE name = ?1";
+
 Status save_settings(Database& database, const ViewToStore& view) {
   auto statement = database.prepare(kSaveSettings);
   if (!statement) return statement.error();
@@ -156,7 +168,7 @@ Status save_drawing(Database& database, const ViewToStore& view, const EncodedDr
   auto statement = database.prepare(kSaveDrawing);
   if (!statement) return statement.error();
   const auto whole = [](std::uint64_t value) { return static_cast<std::int64_t>(value); };
-  return statement->bind(1, view.name)
+  statement->bind(1, view.name)
       .bind(2, version())
       .bind(3, whole(view.drawing->account.fates.size()))
       .bind(4, whole(view.drawing->pieces.size()))
@@ -164,7 +176,13 @@ Status save_drawing(Database& database, const ViewToStore& view, const EncodedDr
       .bind(6, whole(view.edges_solved))
       .bind(7, view.seconds)
       .bind(8, std::span<const std::byte>(encoded.lines))
-      .bind(9, std::span<const std::byte>(encoded.made_from))
+      .bind(9, std::span<const std::byte>(encoded.made_from));
+  if (const Status status = statement->run(); !status) return status;
+  auto objects = database.prepare(kSaveObjects);
+  if (!objects) return objects.error();
+  return objects->bind(1, view.name)
+      .bind(2, std::span<const std::byte>(encoded.names))
+      .bind(3, std::span<const std::byte>(encoded.far_objects))
       .run();
 }
 
@@ -201,12 +219,58 @@ Result<std::optional<StoredDrawing>> load_drawing(Database& database, std::strin
                                                   const parallel::Context& context) {
   auto statement = database.prepare(
       "SELECT d.lines, d.made_from FROM drawing d JOIN view v ON v.id = d.view "
-      "WHERE v.name = ?1 AND d.program = ?2");
+      "JOIN drawing_objects o ON o.view = d.view WHERE v.name = ?1 AND d.program = ?2");
   if (!statement) return statement.error();
   const Result<bool> there = statement->bind(1, name).bind(2, version()).step();
   if (!there) return there.error();
   if (!*there) return std::optional<StoredDrawing>();
   return decode(*statement, name, whole, context);
+}
+
+namespace {
+
+/// Reads the objects of a drawing from the columns `names` and `far` of a row.
+Status read_former_objects(const Statement& row, int names, int far, const std::string& of_view,
+                           FormerDrawing& former) {
+  Result<model::Model> model = decode_names(row.bytes(names), "the objects" + of_view);
+  if (!model) return model.error();
+  former.model = std::move(*model);
+  Result<BlobReader> in = BlobReader::open(row.bytes(far), "the far objects" + of_view);
+  if (!in) return in.error();
+  former.far_objects = in->column<model::ObjectId>();
+  for (const model::ObjectId id : former.far_objects)
+    if (model::index(id) >= former.model.objects.size()) in->refuse("there is no such object");
+  return in->finish();
+}
+
+}  // namespace
+
+Result<FormerDrawing> former_drawing(Database& database, std::string_view name,
+                                     const parallel::Context& context) {
+  const Result<StoredView> view = find_view(database, name);
+  if (!view) return view.error();
+  auto statement = database.prepare(
+      "SELECT d.lines, d.made_from, o.names, o.far FROM drawing d JOIN drawing_objects o ON "
+      "o.view = d.view JOIN view v ON v.id = d.view WHERE v.name = ?1");
+  if (!statement) return statement.error();
+  const Result<bool> there = statement->bind(1, name).step();
+  if (!there) return there.error();
+  const std::string of_view = " of the view '" + std::string(name) + "'";
+  if (!*there)
+    return Error{ErrorCode::usage,
+                 "there is no drawing" + of_view + " with the names of its objects",
+                 {},
+                 "'strake draw -p FILE --stored NAME' stores one"};
+  Result<std::optional<StoredDrawing>> stored = decode(*statement, name, std::nullopt, context);
+  if (!stored) return stored.error();
+  FormerDrawing former;
+  former.drawing = std::move((**stored).drawing);
+  if (const Status status = read_former_objects(*statement, 2, 3, of_view, former); !status)
+    return status.error();
+  if (former.model.objects.size() != former.drawing.account.fates.size())
+    return database.damaged("the drawing" + of_view +
+                            " is of another number of objects than are named");
+  return former;
 }
 
 Status store_view(Database& database, const ViewToStore& view) {
@@ -248,22 +312,46 @@ Status rename_objects_of_views(Database& database, const NewIdentities& renamed)
   return {};
 }
 
-Status check_views(Database& database, const parallel::Context& context) {
+namespace {
+
+/// Reads the drawing that a row of check_views() stands at.
+Status check_drawing(const Database& database, const Statement& row,
+                     const parallel::Context& context) {
+  const auto drawing = decode(row, row.text(2), std::nullopt, context);
+  if (!drawing) return drawing.error();
+  if (!row.is_null(5)) {
+    FormerDrawing former;
+    const std::string of_view = " of the view '" + std::string(row.text(2)) + "'";
+    if (const Status status = read_former_objects(row, 5, 6, of_view, former); !status)
+      return status;
+    if (former.model.objects.size() != count_of(row, 3))
+      return database.damaged("the objects" + of_view + " are not as many as its row says");
+  }
+  if ((**drawing).boxes.size() == count_of(row, 3) &&
+      (**drawing).drawing.pieces.size() == count_of(row, 4))
+    return {};
+  return database.damaged("the drawing of the view '" + std::string(row.text(2)) +
+                          "' is of another size than its row says");
+}
+
+}  // namespace
+
+Result<std::vector<DamagedView>> check_views(Database& database, const parallel::Context& context) {
   auto statement = database.prepare(
-      "SELECT d.lines, d.made_from, v.name, d.objects, d.pieces FROM drawing d "
-      "JOIN view v ON v.id = d.view "
+      "SELECT d.lines, d.made_from, v.name, d.objects, d.pieces, o.names, o.far FROM drawing d "
+      "JOIN view v ON v.id = d.view LEFT JOIN drawing_objects o ON o.view = d.view "
       "ORDER BY v.name");
   if (!statement) return statement.error();
+  std::vector<DamagedView> damaged;
   for (;;) {
     const Result<bool> there = statement->step();
     if (!there) return there.error();
-    if (!*there) return {};
-    const auto drawing = decode(*statement, statement->text(2), std::nullopt, context);
-    if (!drawing) return drawing.error();
-    if ((**drawing).boxes.size() != count_of(*statement, 3) ||
-        (**drawing).drawing.pieces.size() != count_of(*statement, 4))
-      return database.damaged("the drawing of the view '" + std::string(statement->text(2)) +
-                              "' is of another size than its row says");
+    if (!*there) return damaged;
+    const Status status = check_drawing(database, *statement, context);
+    if (status) continue;
+    // A run that was ended says nothing of the drawing.
+    if (status.error().code != ErrorCode::input) return status.error();
+    damaged.push_back({std::string(statement->text(2)), status.error()});
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
+#include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
 
 /// Views of a project: what was asked for, and the drawing that was last solved for it.
@@ -54,13 +56,28 @@ struct StoredDrawing {
                                                                 const Hash128& whole,
                                                                 const parallel::Context& context);
 
+/// A drawing as it was stored last, whatever its view is now.
+struct FormerDrawing {
+  hlr::Drawing drawing;
+  model::Model model;                        ///< its objects and files, as decode_names() has them
+  std::vector<model::ObjectId> far_objects;  ///< left out because they lie far from all others
+};
+
+/// Returns the drawing of a view that is stored. Errors: usage where there is none of that name or
+/// none was stored by a version of the program that keeps the names of its objects; input where it
+/// is damaged; cancelled.
+[[nodiscard]] Result<FormerDrawing> former_drawing(Database& database, std::string_view name,
+                                                   const parallel::Context& context);
+
 /// What is to be remembered of a run.
 struct ViewToStore {
   std::string_view name;
   std::optional<std::string_view> settings;  ///< none: as they are
-  const hlr::Drawing* drawing = nullptr;     ///< null: as it is
+  const hlr::Drawing* drawing = nullptr;  ///< null: as it is; otherwise all that follows is there
   const Snapshot* made_from = nullptr;
   const std::vector<geometry::Box3l>* boxes = nullptr;
+  const model::Model* model = nullptr;
+  std::span<const model::ObjectId> far_objects = {};
   std::uint64_t edges_solved = 0;
   double seconds = 0;
 };
@@ -72,8 +89,15 @@ struct ViewToStore {
 /// What is damaged stays as it is: it serves nobody.
 [[nodiscard]] Status rename_objects_of_views(Database& database, const NewIdentities& renamed);
 
-/// Reads every drawing, and holds it to what its row says of its size. Errors: input for the first
-/// that is damaged, cancelled.
-[[nodiscard]] Status check_views(Database& database, const parallel::Context& context);
+/// A drawing that cannot be right.
+struct DamagedView {
+  std::string view;  ///< its name
+  Error error;
+};
+
+/// Reads every drawing, and holds it to what its row says of its size. Returns those that are
+/// damaged, by name. Errors: input where the table itself cannot be read, cancelled, memory.
+[[nodiscard]] Result<std::vector<DamagedView>> check_views(Database& database,
+                                                           const parallel::Context& context);
 
 }  // namespace strake::project

@@ -27,13 +27,12 @@ int attention(const DocumentResult& r) {
   return r.rule == 0 ? rank : rank + 3;
 }
 
-void sort_entries(std::vector<DiffEntry>& entries) {
-  std::ranges::sort(entries, [](const DiffEntry& x, const DiffEntry& y) {
-    const DocumentResult &p = x.either(), &q = y.either();
-    const bool x_is = x.after != nullptr, y_is = y.after != nullptr;
-    return std::tuple(attention(p), p.d_mm, p.key, x_is) <
-           std::tuple(attention(q), q.d_mm, q.key, y_is);
-  });
+/// Returns whether one entry of a list comes before another.
+bool comes_first(const DiffEntry& x, const DiffEntry& y) {
+  const DocumentResult &p = x.either(), &q = y.either();
+  const bool x_is = x.after != nullptr, y_is = y.after != nullptr;
+  return std::tuple(attention(p), p.d_mm, p.key, x_is) <
+         std::tuple(attention(q), q.d_mm, q.key, y_is);
 }
 
 std::string named(const DocumentObject& o) {
@@ -268,6 +267,19 @@ std::vector<KeyedResult> keyed_for_new_run(const ClashDocument& before, const Fi
 
 }  // namespace
 
+void ClashDiff::add_still_there(DiffEntry entry) {
+  const DocumentResult &x = *entry.before, &y = *entry.after;
+  const bool is_same = x.cls == y.cls && std::fabs(x.d_mm - y.d_mm) <= kSameMm &&
+                       compare_region_counts(x, y) == 0 && x.allowed_regions == y.allowed_regions &&
+                       before->allowed(x) == after->allowed(y);
+  (is_same ? same : changed).push_back(std::move(entry));
+}
+
+void ClashDiff::sort() {
+  for (std::vector<DiffEntry>* const list : {&added, &changed, &same, &gone, &cannot_tell})
+    std::ranges::sort(*list, comes_first);
+}
+
 ClashDiff compare(const ClashDocument& before, const ClashDocument& after, FileMatches matches) {
   ClashDiff diff;
   diff.before = &before;
@@ -277,14 +289,7 @@ ClashDiff compare(const ClashDocument& before, const ClashDocument& after, FileM
   const RunCoverage coverage_before(before, files, Run::before);
   const RunCoverage coverage_after(after, files, Run::after);
   compare_settings(coverage_before, coverage_after, diff);
-  const auto still_the_same = [&](const DocumentResult& x, const DocumentResult& y) {
-    return x.cls == y.cls && std::fabs(x.d_mm - y.d_mm) <= kSameMm &&
-           compare_region_counts(x, y) == 0 && x.allowed_regions == y.allowed_regions &&
-           before.allowed(x) == after.allowed(y);
-  };
-  const auto still_there = [&](DiffEntry&& e) {
-    (still_the_same(*e.before, *e.after) ? diff.same : diff.changed).push_back(std::move(e));
-  };
+  const auto still_there = [&](DiffEntry&& e) { diff.add_still_there(std::move(e)); };
   const PositionalResults placed_before(before, after, files, Run::before);
   const PositionalResults placed_after(after, before, files, Run::after);
   diff.same.reserve(std::min(before.results.size(), after.results.size()));
@@ -315,9 +320,7 @@ ClashDiff compare(const ClashDocument& before, const ClashDocument& after, FileM
     else
       diff.cannot_tell.push_back(std::move(e));
   }
-  for (std::vector<DiffEntry>* list :
-       {&diff.added, &diff.changed, &diff.same, &diff.gone, &diff.cannot_tell})
-    sort_entries(*list);
+  diff.sort();
   return diff;
 }
 

@@ -458,6 +458,17 @@ class Damage(ProjectScenario):
                 self.assertEqual(done.returncode, 1, done.stderr)
                 self.assertIn(told, done.stdout)
 
+    def test_every_damaged_view_is_told(self):
+        for name in ('deck', 'hull', 'pumps'):
+            self.text('draw', '-p', 'p.strake', '--save', name, '--view', 'top', '-o', 'x.svg')
+        with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:
+            other.execute("UPDATE drawing SET lines = x'00' WHERE view IN (SELECT id FROM view WHERE name IN ('deck', 'pumps'))")
+            other.commit()
+        done = self.run_strake('project', 'check', 'p.strake')
+        self.assertEqual(done.returncode, 1, done.stderr)
+        for name, is_damaged in (('deck', True), ('hull', False), ('pumps', True)):
+            self.assertEqual(f'view {name}' in done.stdout, is_damaged, done.stdout)
+
     def test_no_projects(self):
         self.write('text.strake', 'SQLite format 4\n')
         os.mkfifo(self.folder / 'pipe.strake')

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "project/database/history_tables.hpp"
 #include "project/database/result_tables.hpp"
 #include "project/database/view_tables.hpp"
 #include "project/results/clash_queries.hpp"
@@ -37,6 +38,7 @@ class Remembered : public ::testing::Test {
     database_ = std::move(Database::in_memory()).value();
     ASSERT_TRUE(database_->execute(kResultTables));
     ASSERT_TRUE(database_->execute(kViewTables));
+    ASSERT_TRUE(database_->execute(kHistoryTables));
   }
 
   /// Tests the model in full and remembers the run.
@@ -281,20 +283,99 @@ TEST_F(Remembered, a_mesh_that_became_open_stays_unknown_until_it_is_closed) {
   EXPECT_EQ(clashes()[0].row.unknown, "");
 }
 
-TEST_F(Remembered, a_violation_that_closes_to_a_counted_contact_is_not_resolved) {
+/// The night on which it was away says nothing of what it was when the clash was seen.
+TEST_F(Remembered, a_mesh_that_was_away_and_comes_back_open_is_unknown) {
+  const auto night = [](bool there, bool open) {
+    ClashModel m;
+    if (there) m.box("hull", {0, 0, 0}, {1000, 1000, 1000});
+    m.box("inner", {400, 400, 400}, {600, 600, 600});
+    if (open) std::get<geometry::TriangleMesh>(m.model.shapes[0]).triangles.resize(2);
+    return m;
+  };
+  run(night(true, false));
+  run(night(false, false));
+  EXPECT_EQ(clashes()[0].row.unknown, "'hull' is not in the model");
+  for (int n = 0; n < 2; ++n) {
+    run(night(true, true));
+    EXPECT_NE(clashes()[0].row.unknown.find("'hull' has surfaces that enclose nothing"),
+              std::string::npos)
+        << n;
+    EXPECT_EQ(statuses(), Statuses{"active"});
+  }
+  run(night(false, false));
+  ClashModel apart = night(true, false);
+  apart.model.bodies[1].placement.translation = {5000, 0, 0};
+  run(apart);
+  EXPECT_EQ(statuses(), Statuses{"resolved"}) << "it is a solid again, and was compared";
+}
+
+/// What is known of an open mesh does not get lost either: as open as it was, it resolves.
+TEST_F(Remembered, a_mesh_that_was_open_all_along_is_compared_when_it_comes_back) {
+  const auto night = [](bool there, double at) {
+    ClashModel m;
+    if (there) m.box("hull", {0, 0, 0}, {1000, 1000, 1000});
+    if (there) std::get<geometry::TriangleMesh>(m.model.shapes[0]).triangles.resize(2);
+    m.box("post", {400, 400, at - 100}, {600, 600, at + 100});
+    return m;
+  };
+  run(night(true, 0));
+  ASSERT_EQ(clashes().size(), 1U) << "it passes through the open face";
+  run(night(false, 0));
+  run(night(true, 5000));
+  EXPECT_EQ(statuses(), Statuses{"resolved"}) << clashes()[0].row.unknown;
+}
+
+clash::Options counting_contacts() {
   clash::Options options;
   options.tolerances.clearance_mm = 25;
   options.engine.contacts = clash::Contacts::count;
   options.engine.keep_for_changes = true;
+  return options;
+}
+
+/// Three boxes, of which the first two touch and the third is far away.
+ClashModel closed_row() {
+  ClashModel m;
+  m.box("c0", {0, 0, 0}, {100, 100, 100}).box("c1", {100, 0, 0}, {200, 100, 100});
+  m.box("c2", {900, 0, 0}, {1000, 100, 100});
+  return m;
+}
+
+TEST_F(Remembered, a_violation_that_closes_to_a_counted_contact_is_that_contact) {
+  const clash::Options options = counting_contacts();
   run(row(3, -20), options);
   ASSERT_EQ(statuses(), (Statuses{"new", "new"}));
   decide(0, DecisionStatus::approved);
-  ClashModel closed;  // The first two touch, and the third is far away.
-  closed.box("c0", {0, 0, 0}, {100, 100, 100}).box("c1", {100, 0, 0}, {200, 100, 100});
-  closed.box("c2", {900, 0, 0}, {1000, 100, 100});
-  run(closed, options);
-  EXPECT_EQ(clashes()[0].row.unknown, "it is among the contacts, which are only counted");
-  EXPECT_EQ(statuses(), (Statuses{"approved", "resolved"})) << "of the other it is known";
+  for (int night = 0; night < 3; ++night) {
+    run(closed_row(), options);
+    EXPECT_EQ(clashes()[0].row.unknown, "") << "it was compared";
+    EXPECT_EQ(clashes()[0].row.now.cls, clash::Class::contact);
+    EXPECT_EQ(statuses(), (Statuses{"active", "resolved"})) << "a contact is severer";
+  }
+  const std::vector<ClashEvent> events = read_events(*database_, clashes()[0].row.key).value();
+  ASSERT_EQ(events.size(), 2U) << "the approval, and one that it came back";
+  EXPECT_EQ(events[1].comment, "approved as CLEARANCE_VIOLATION, and CONTACT now");
+  decide(0, DecisionStatus::approved);
+  run(closed_row(), options);
+  EXPECT_EQ(statuses(), (Statuses{"approved", "resolved"})) << "approved as a contact";
+}
+
+/// No result of the run before tells that a counted contact is gone.
+TEST_F(Remembered, a_counted_contact_that_parts_is_resolved_whether_decided_or_not) {
+  const clash::Options options = counting_contacts();
+  ClashModel apart = closed_row();
+  apart.model.bodies[1].placement.translation = {0, 500, 0};
+  for (const bool is_decided : {false, true}) {
+    SetUp();
+    run(row(3, -20), options);
+    if (is_decided) decide(0, DecisionStatus::reviewed);
+    run(closed_row(), options);
+    run(closed_row(), options);
+    EXPECT_EQ(statuses()[0], is_decided ? "reviewed" : "active");
+    run(apart, options);
+    EXPECT_EQ(statuses()[0], "resolved");
+    EXPECT_EQ(clashes()[0].row.gone_run, 4);
+  }
 }
 
 TEST_F(Remembered, one_change_among_many_writes_a_handful_of_rows) {

@@ -55,6 +55,8 @@ class StoredViews : public testing::Test {
     view.drawing = &drawing_;
     view.made_from = &made_from_;
     view.boxes = &boxes_;
+    view.model = &model_;
+    view.far_objects = far_objects_;
     view.edges_solved = 11;
     view.seconds = 0.25;
     return store_view(database(), view);
@@ -66,6 +68,7 @@ class StoredViews : public testing::Test {
   hlr::Drawing drawing_;
   Snapshot made_from_;
   std::vector<geometry::Box3l> boxes_;
+  std::vector<model::ObjectId> far_objects_{model::ObjectId{1}};
 };
 
 TEST_F(StoredViews, AreFoundAgain) {
@@ -92,7 +95,33 @@ TEST_F(StoredViews, AreFoundAgain) {
   const auto equal = are_equal((*stored)->drawing, drawing_);
   ASSERT_TRUE(equal);
   EXPECT_TRUE(*equal);
-  EXPECT_TRUE(check_views(database(), {}));
+  const auto damaged = check_views(database(), {});
+  ASSERT_TRUE(damaged);
+  EXPECT_TRUE(damaged->empty());
+}
+
+/// By the names of then, whatever the model and the view are now.
+TEST_F(StoredViews, TellWhatTheyShowedByName) {
+  ASSERT_TRUE(store("deck", R"({"view":"top"})"));
+  const auto former = former_drawing(database(), "deck", {});
+  ASSERT_TRUE(former) << former.error().text();
+  const auto equal = are_equal(former->drawing, drawing_);
+  ASSERT_TRUE(equal);
+  EXPECT_TRUE(*equal);
+  EXPECT_EQ(former->far_objects, far_objects_);
+  ASSERT_EQ(former->model.objects.size(), model_.objects.size());
+  for (std::size_t o = 0; o < model_.objects.size(); ++o) {
+    EXPECT_EQ(former->model.objects[o].id, model_.objects[o].id);
+    EXPECT_EQ(former->model.objects[o].name, model_.objects[o].name);
+  }
+  ASSERT_TRUE(database().execute("UPDATE drawing_objects SET names = x'00'"));
+  EXPECT_FALSE(former_drawing(database(), "deck", {}));
+  const auto damaged = check_views(database(), {});
+  ASSERT_TRUE(damaged);
+  EXPECT_EQ(damaged->size(), 1U);
+  ASSERT_TRUE(database().execute("DELETE FROM drawing_objects"));
+  EXPECT_FALSE(former_drawing(database(), "deck", {})) << "of an earlier version";
+  EXPECT_FALSE(former_drawing(database(), "hull", {}));
 }
 
 TEST_F(StoredViews, TheirObjectsFollowFilesThatExchangeTheirNames) {
@@ -159,15 +188,19 @@ TEST_F(StoredViews, DamageIsTold) {
   for (const char* const damage :
        {"UPDATE drawing SET lines = x'00'", "UPDATE drawing SET made_from = x''",
         "UPDATE drawing SET lines = made_from", "UPDATE drawing SET made_from = lines"}) {
-    ASSERT_TRUE(store("deck", "{}"));
-    ASSERT_TRUE(check_views(database(), {}));
-    ASSERT_TRUE(database().execute(damage));
+    for (const char* const name : {"deck", "hull", "pumps"}) ASSERT_TRUE(store(name, "{}"));
+    ASSERT_TRUE(database().execute(std::string(damage) +
+                                   " WHERE view IN (SELECT id FROM view WHERE name <> 'hull')"));
     const auto stored = load_drawing(database(), "deck", {1, 2}, {});
     ASSERT_FALSE(stored) << damage;
     EXPECT_EQ(stored.error().code, ErrorCode::input);
-    const Status checked = check_views(database(), {});
-    ASSERT_FALSE(checked) << damage;
-    EXPECT_NE(checked.error().text().find("deck"), std::string::npos) << checked.error().text();
+    const auto damaged = check_views(database(), {});
+    ASSERT_TRUE(damaged) << damage;
+    ASSERT_EQ(damaged->size(), 2U) << damage;
+    for (const DamagedView& view : *damaged)
+      EXPECT_NE(view.error.text().find(view.view), std::string::npos) << view.error.text();
+    EXPECT_EQ((*damaged)[0].view, "deck");
+    EXPECT_EQ((*damaged)[1].view, "pumps");
   }
 }
 
