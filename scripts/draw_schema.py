@@ -11,7 +11,7 @@ from pathlib import Path
 # What stands below each other, and what the columns of the picture are about.
 COLUMNS = [('The model', ['file', 'file_block', 'shape_pack', 'model_seal']),
            ('What became of it', ['revision', 'changed_file', 'changed_object']),
-           ('Tests', ['test', 'report_part', 'run', 'run_test']),
+           ('Tests', ['test', 'report', 'report_part', 'run', 'run_test']),
            ('Clashes', ['clash', 'event']),
            ('Views', ['view', 'drawing'])]
 WIDTH, BETWEEN, LINE, MARGIN = 176, 52, 15, 16

@@ -25,11 +25,15 @@ CREATE TABLE test (
   name TEXT NOT NULL UNIQUE,        -- empty: the test of the command line
   settings TEXT NOT NULL,           -- for people
   run INTEGER NOT NULL REFERENCES run(id),  -- the last one
-  objects INTEGER NOT NULL,         -- of the model then
-  snapshot BLOB NOT NULL,           -- what the report was computed from
-  report BLOB NOT NULL,             -- all of it but pairs and regions
+  objects INTEGER NOT NULL          -- of the model then
+) STRICT;
+
+CREATE TABLE report (               -- the last result of a test; apart, as a row is written whole
+  test INTEGER PRIMARY KEY REFERENCES test(id),
+  snapshot BLOB NOT NULL,           -- what it was computed from
+  head BLOB NOT NULL,               -- all of it but pairs and regions
   kept BLOB NOT NULL,               -- what the next run needs besides (clash::KeptForChanges)
-  seal BLOB NOT NULL                -- a hash over report, kept and all of report_part
+  seal BLOB NOT NULL                -- a hash over head, kept and all of report_part
 ) STRICT;
 
 CREATE TABLE report_part (          -- pairs and regions of a range of objects
