@@ -13,6 +13,7 @@
 #include "cli/run/exit_code.hpp"
 #include "cli/run/session.hpp"
 #include "strake/core/diagnostics.hpp"
+#include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 #include "strake/model/scene.hpp"
@@ -43,6 +44,9 @@ struct Loaded {
   model::Scene scene;
   /// The model files; of a project those that it was made of.
   std::vector<std::filesystem::path> files = {};
+
+  /// Of a project: project::SignedModel::shape_hashes; otherwise none.
+  std::vector<Hash128> shape_hashes = {};
 
   /// Returns what reading and placing noticed.
   [[nodiscard]] Diagnostics diagnostics() const;

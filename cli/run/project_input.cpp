@@ -21,6 +21,13 @@ namespace {
 /// An hour: whoever waits longer waits for a process that hangs.
 constexpr double kLongestWaitS = 3600;
 
+Result<project::SignedModel> signed_model(Session& session, project::Project& project) {
+  Result<project::SignedModel> stored = project.signed_model(session.context());
+  if (!stored || !stored->model.files.empty()) return stored;
+  return Error{ErrorCode::input, "has no model files", project.path().string(),
+               "'strake project add' adds some"};
+}
+
 }  // namespace
 
 void add_wait_option(CLI::App& command, std::string& wait) {
@@ -130,10 +137,9 @@ Status check_spares_model_files(project::Project& project, const std::string& op
 }
 
 Result<model::Model> project_model(Session& session, project::Project& project) {
-  Result<model::Model> model = project.model(session.context());
-  if (!model || !model->files.empty()) return model;
-  return Error{ErrorCode::input, "has no model files", project.path().string(),
-               "'strake project add' adds some"};
+  Result<project::SignedModel> stored = signed_model(session, project);
+  if (!stored) return stored.error();
+  return std::move(stored->model);
 }
 
 Result<std::vector<std::filesystem::path>> model_files(
@@ -154,14 +160,16 @@ Result<Loaded> load_project(Session& session, OpenedProject& opened,
   Result<std::vector<std::filesystem::path>> files =
       model_files(opened.project, opened.file, said_of_files);
   if (!files) return files.error();
-  Result<model::Model> model = [&] {
+  Result<project::SignedModel> stored = [&] {
     const auto timer = session.step("load");
-    return project_model(session, opened.project);
+    return signed_model(session, opened.project);
   }();
-  if (!model) return model.error();
-  tell_of_model(session, *model);
-  Result<Loaded> loaded = place(session, std::move(*model), options);
-  if (loaded) loaded->files = std::move(*files);
+  if (!stored) return stored.error();
+  tell_of_model(session, stored->model);
+  Result<Loaded> loaded = place(session, std::move(stored->model), options);
+  if (!loaded) return loaded;
+  loaded->files = std::move(*files);
+  loaded->shape_hashes = std::move(stored->shape_hashes);
   return loaded;
 }
 

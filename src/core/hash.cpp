@@ -13,15 +13,18 @@
 namespace strake {
 
 struct Hasher::State {
-  XXH3_state_t xxh;  // holds its own alignment, which operator new obeys
+  XXH3_state_t xxh;    // holds its own alignment, which operator new obeys
+  bool begun = false;  ///< whether anything went into it: most hashes are of less than waits here
   /// What has been added last: XXH3 takes long runs several times faster than single numbers.
   std::array<std::byte, 1024> waiting;
   std::size_t size = 0;
 
-  State() { XXH3_128bits_reset(&xxh); }
+  State() {}  // NOLINT(modernize-use-equals-default): that would fill a kilobyte with zeros
 
   void add(std::span<const std::byte> bytes) {
     if (bytes.size() > waiting.size() - size) {
+      if (!begun) XXH3_128bits_reset(&xxh);
+      begun = true;
       XXH3_128bits_update(&xxh, waiting.data(), size);
       size = 0;
     }
@@ -63,6 +66,7 @@ Hasher& Hasher::add(std::span<const std::byte> bytes) {
 }
 
 Hash128 Hasher::value() const {
+  if (!state_->begun) return hash_bytes(std::span(state_->waiting).first(state_->size));
   State all = *state_;
   XXH3_128bits_update(&all.xxh, all.waiting.data(), all.size);
   const XXH128_hash_t hash = XXH3_128bits_digest(&all.xxh);

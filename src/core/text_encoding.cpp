@@ -173,6 +173,10 @@ std::string valid_utf8(std::string_view text) {
   return out;
 }
 
+std::string_view valid_utf8(std::string_view text, std::string& room) {
+  return is_utf8(text) ? text : std::string_view(room = valid_utf8(text));
+}
+
 void append_json_string(std::string& out, std::string_view text) {
   out += '"';
   for (move_run(out, text); !text.empty(); move_run(out, text)) {

@@ -68,6 +68,9 @@ void append_utf8(std::string& out, std::uint32_t code);
 
 /// Returns the text with U+FFFD for bytes that are not UTF-8, and otherwise as it is.
 [[nodiscard]] std::string valid_utf8(std::string_view text);
+/// Returns the same without a copy of what is valid, as nearly all is: of what is not a copy
+/// lies in `room`, which must outlast the result.
+[[nodiscard]] std::string_view valid_utf8(std::string_view text, std::string& room);
 
 /// Appends a JSON string with its quotes; bytes that are no UTF-8 become U+FFFD.
 void append_json_string(std::string& out, std::string_view text);

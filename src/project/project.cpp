@@ -66,10 +66,16 @@ Result<std::vector<StoredFile>> Project::files() {
 }
 
 Result<model::Model> Project::model(const parallel::Context& context) {
+  Result<SignedModel> model = signed_model(context);
+  if (!model) return model.error();
+  return std::move(model->model);
+}
+
+Result<SignedModel> Project::signed_model(const parallel::Context& context) {
   try {
     const Result<ReadScope> scope = ReadScope::begin(database());
     if (!scope) return scope.error();
-    Result<model::Model> model = load_model(database(), context);
+    Result<SignedModel> model = load_model(database(), context);
     if (!model) return model;
     if (const Status whole = database().check_unchanged(); !whole) return whole.error();
     return model;

@@ -145,8 +145,9 @@ Result<clash::Report> ProjectClashes::test(Session& session, const Loaded& loade
   }
   {
     const auto timer = session.step("signatures");
-    Result<clash::Signatures> signatures = clash::signatures(
-        loaded.scene, planned.sets, planned.options, planned.policy, session.context());
+    Result<clash::Signatures> signatures =
+        clash::signatures(loaded.scene, planned.sets, planned.options, planned.policy,
+                          session.context(), loaded.shape_hashes);
     if (!signatures) return signatures.error();
     tested.snapshot = {signatures->rules, identities, std::move(signatures->objects)};
   }

@@ -27,11 +27,16 @@ struct Signatures {
 
 /// Returns the signatures of one test. The numbers of objects, shapes and labels do not show in
 /// them; what stays the same of a label is its name (SameLabel::names), without which another first
-/// object of a label changes all that carry it. Errors: those of detect() for its inputs;
-/// cancelled.
+/// object of a label changes all that carry it.
+///
+/// `shape_hashes` are those that somebody has of the model's shapes, so that meshes are not hashed
+/// again: equal ones stand for equal shapes, zeros for one that is not known. Runs with and without
+/// them have other signatures. Errors: those of detect() for its inputs; usage for another number
+/// of hashes than of shapes; cancelled.
 [[nodiscard]] Result<Signatures> signatures(const model::Scene& scene, const Sets& sets,
                                             const Options& options, const Policy& policy,
-                                            const parallel::Context& context);
+                                            const parallel::Context& context,
+                                            std::span<const Hash128> shape_hashes = {});
 
 /// An object that is gone, or has another signature now.
 inline constexpr std::uint32_t kChanged = 0xffffffffU;

@@ -40,6 +40,14 @@ struct StoredFile {
   std::uint64_t objects = 0, bodies = 0;
 };
 
+/// A model with hashes of its shapes that were made when they were stored.
+struct SignedModel {
+  model::Model model;
+  /// Of each shape, over all that there is of a mesh or of polylines; zeros for a primitive. Two
+  /// models of projects have equal hashes where shapes are equal, to the last bit, and only there.
+  std::vector<Hash128> shape_hashes;
+};
+
 /// Whether the file begins as a project does: the program takes it where it takes model files.
 [[nodiscard]] bool is_project(const std::filesystem::path& file);
 
@@ -62,6 +70,8 @@ class Project {
   [[nodiscard]] Result<std::vector<StoredFile>> files();
   /// Returns the model that io::read_models() returned for these files, finished.
   [[nodiscard]] Result<model::Model> model(const parallel::Context& context);
+  /// Returns the same, with what the project knows of its shapes.
+  [[nodiscard]] Result<SignedModel> signed_model(const parallel::Context& context);
 
  private:
   struct State;

@@ -65,7 +65,7 @@ Hash128 hash_of_source(const model::Shape& shape) {
 
 }  // namespace
 
-Result<ShapeSignatures> shape_signatures(const model::Scene& scene,
+Result<ShapeSignatures> shape_signatures(const model::Scene& scene, std::span<const Hash128> known,
                                          const parallel::Context& context) {
   constexpr std::size_t kGrain = 16;
   auto on_grid = parallel::transform(
@@ -75,7 +75,9 @@ Result<ShapeSignatures> shape_signatures(const model::Scene& scene,
   const std::vector<model::Shape>& shapes = scene.model->shapes;
   auto of_source = parallel::transform(
       context, {.name = "signatures of sources", .n = shapes.size(), .grain = kGrain},
-      [&](std::size_t s) { return hash_of_source(shapes[s]); });
+      [&](std::size_t s) {
+        return known.empty() || known[s] == Hash128() ? hash_of_source(shapes[s]) : known[s];
+      });
   if (!of_source) return of_source.error();
   return ShapeSignatures{std::move(*on_grid), std::move(*of_source)};
 }

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -58,10 +59,13 @@ class ObjectSignatures {
 }  // namespace
 
 Result<Signatures> signatures(const model::Scene& scene, const Sets& sets, const Options& options,
-                              const Policy& policy, const parallel::Context& context) {
+                              const Policy& policy, const parallel::Context& context,
+                              std::span<const Hash128> shape_hashes) {
   constexpr std::size_t kGrain = 1024;
   if (const Status s = check_inputs(scene, sets, options, policy); !s) return s.error();
-  const auto shapes = shape_signatures(scene, context);
+  if (!shape_hashes.empty() && shape_hashes.size() != scene.model->shapes.size())
+    return Error{ErrorCode::usage, "there are not as many hashes as shapes", {}, {}};
+  const auto shapes = shape_signatures(scene, shape_hashes, context);
   if (!shapes) return shapes.error();
   const ElementHashes elements(*scene.model);
   const RuleSignatures rules(sets, options, policy, elements);

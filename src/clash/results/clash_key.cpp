@@ -55,11 +55,10 @@ std::optional<Hash128> parse_key(std::string_view text) {
 }
 
 std::uint64_t element_hash(std::string_view file_label, std::string_view id) {
-  return Hasher()
-      .add(std::string_view(valid_utf8(file_label)))
-      .add(std::string_view(valid_utf8(id)))
-      .value()
-      .low;
+  std::string room;
+  Hasher hasher;
+  for (const std::string_view text : {file_label, id}) hasher.add(valid_utf8(text, room));
+  return hasher.value().low;
 }
 
 std::uint64_t element_hash(const model::Model& model, model::ObjectId id) {
@@ -68,22 +67,25 @@ std::uint64_t element_hash(const model::Model& model, model::ObjectId id) {
 }
 
 Hash128 pair_hash(std::string_view test, const ElementName& a, const ElementName& b) {
-  const auto shown = [](const ElementName& e) {
-    return std::pair(valid_utf8(e.file_label), valid_utf8(e.id));
-  };
+  std::array<std::string, 5> rooms;
   // They are ordered as shown, so that a reader of a file gets the same key.
-  auto first = shown(a), second = shown(b);
+  std::pair first(valid_utf8(a.file_label, rooms[0]), valid_utf8(a.id, rooms[1])),
+      second(valid_utf8(b.file_label, rooms[2]), valid_utf8(b.id, rooms[3]));
   if (second < first) std::swap(first, second);
   Hasher hasher;
-  hasher.add(std::string_view(valid_utf8(test)));
-  for (const auto* const element : {&first, &second})
-    hasher.add(std::string_view(element->first)).add(std::string_view(element->second));
+  hasher.add(valid_utf8(test, rooms[4]));
+  for (const auto& [file_label, id] : {first, second}) hasher.add(file_label).add(id);
   return hasher.value();
+}
+
+Hash128 pair_hash(std::string_view test, const model::Model& model, model::ObjectId a,
+                  model::ObjectId b) {
+  return pair_hash(test, element(model, a), element(model, b));
 }
 
 std::string pair_key(std::string_view test, const model::Model& model, model::ObjectId a,
                      model::ObjectId b) {
-  return key_text(pair_hash(test, element(model, a), element(model, b)));
+  return key_text(pair_hash(test, model, a, b));
 }
 
 }  // namespace strake::clash

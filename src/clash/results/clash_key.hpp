@@ -23,6 +23,10 @@ namespace strake::clash {
 [[nodiscard]] std::string pair_key(std::string_view test, const model::Model& model,
                                    model::ObjectId a, model::ObjectId b);
 
+/// Returns it as the hash that it is.
+[[nodiscard]] Hash128 pair_hash(std::string_view test, const model::Model& model, model::ObjectId a,
+                                model::ObjectId b);
+
 /// A durable id, with what it is unique within.
 struct ElementName {
   std::string_view file_label, id;

@@ -51,7 +51,7 @@ CREATE TABLE shape_pack (           -- meshes and polylines, each once for all f
   id INTEGER PRIMARY KEY,
   shapes INTEGER NOT NULL,          -- that it holds
   hashes BLOB NOT NULL,             -- 16 bytes a shape; zeros where it is no longer in use
-  data BLOB NOT NULL
+  data BLOB NOT NULL                -- and a hash over hashes
 ) STRICT;
 )sql";
 

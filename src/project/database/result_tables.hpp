@@ -8,6 +8,9 @@ namespace strake::project {
 /// `clash.decision` is NULL while nobody has decided: such a clash is new in the run `new_run` and
 /// active from the next one on, so that a night on which nothing changes writes no rows. The view
 /// `clashes` shows it as people see it.
+///
+/// A row that comes by the thousand spells its words out: for a list of more than two after IN,
+/// SQLite makes a table of its own each time it inserts a row.
 inline constexpr const char* kResultTables = R"sql(
 CREATE TABLE run (
   id INTEGER PRIMARY KEY,
@@ -22,11 +25,15 @@ CREATE TABLE test (
   name TEXT NOT NULL UNIQUE,        -- empty: the test of the command line
   settings TEXT NOT NULL,           -- for people
   run INTEGER NOT NULL REFERENCES run(id),  -- the last one
-  objects INTEGER NOT NULL,         -- of the model then
-  snapshot BLOB NOT NULL,           -- what the report was computed from
-  report BLOB NOT NULL,             -- all of it but pairs and regions
+  objects INTEGER NOT NULL          -- of the model then
+) STRICT;
+
+CREATE TABLE report (               -- the last result of a test; apart, as a row is written whole
+  test INTEGER PRIMARY KEY REFERENCES test(id),
+  snapshot BLOB NOT NULL,           -- what it was computed from
+  head BLOB NOT NULL,               -- all of it but pairs and regions
   kept BLOB NOT NULL,               -- what the next run needs besides (clash::KeptForChanges)
-  seal BLOB NOT NULL                -- a hash over report, kept and all of report_part
+  seal BLOB NOT NULL                -- a hash over head, kept and all of report_part
 ) STRICT;
 
 CREATE TABLE report_part (          -- pairs and regions of a range of objects
@@ -56,18 +63,23 @@ CREATE TABLE clash (
   test INTEGER NOT NULL REFERENCES test(id),
   a_file TEXT NOT NULL, a_id TEXT NOT NULL, a_name TEXT NOT NULL,
   b_file TEXT NOT NULL, b_id TEXT NOT NULL, b_name TEXT NOT NULL,
-  class TEXT NOT NULL CHECK (class IN ('HIT', 'CONTACT', 'CLEARANCE_VIOLATION')),
-  relation TEXT NOT NULL CHECK (relation IN ('SEPARATE', 'ABUT_OUTSIDE', 'ABUT_INSIDE',
-    'INTERFERE', 'A_IN_B', 'B_IN_A', 'DUPLICATE', 'CROSS')),
+  class TEXT NOT NULL CHECK
+    (class = 'CONTACT' OR class = 'HIT' OR class = 'CLEARANCE_VIOLATION'),
+  relation TEXT NOT NULL CHECK
+    (relation = 'ABUT_OUTSIDE' OR relation = 'INTERFERE' OR relation = 'SEPARATE' OR
+     relation = 'ABUT_INSIDE' OR relation = 'CROSS' OR relation = 'A_IN_B' OR
+     relation = 'B_IN_A' OR relation = 'DUPLICATE'),
   d_mm REAL NOT NULL, x_mm REAL NOT NULL, y_mm REAL NOT NULL, z_mm REAL NOT NULL,
   regions INTEGER NOT NULL,
   first_run INTEGER NOT NULL REFERENCES run(id),
   new_run INTEGER NOT NULL REFERENCES run(id),  -- in which it was new last
   gone_run INTEGER REFERENCES run(id),          -- the first that did not find it any more
   unknown TEXT,                     -- why the last run cannot tell whether it is there
-  decision TEXT CHECK (decision IN ('active', 'reviewed', 'approved', 'resolved')),
+  decision TEXT CHECK (decision = 'active' OR decision = 'reviewed' OR
+    decision = 'approved' OR decision = 'resolved'),
   decided_by TEXT, decided_at TEXT, comment TEXT, assignee TEXT,
-  decided_class TEXT CHECK (decided_class IN ('HIT', 'CONTACT', 'CLEARANCE_VIOLATION')),
+  decided_class TEXT CHECK (decided_class = 'CONTACT' OR decided_class = 'HIT' OR
+    decided_class = 'CLEARANCE_VIOLATION'),
   decided_d_mm REAL, decided_regions INTEGER  -- with its class: what was decided about
 ) STRICT;
 CREATE INDEX clash_decided ON clash (test, decision) WHERE decision IS NOT NULL;
@@ -81,8 +93,10 @@ CREATE TABLE event (                -- changes of status
   run INTEGER REFERENCES run(id),   -- NULL: a person did it between runs
   at TEXT NOT NULL,
   who TEXT NOT NULL,                -- 'strake' where the program did it
-  before TEXT NOT NULL CHECK (before IN ('new', 'active', 'reviewed', 'approved', 'resolved')),
-  after TEXT NOT NULL CHECK (after IN ('new', 'active', 'reviewed', 'approved', 'resolved')),
+  before TEXT NOT NULL CHECK (before = 'new' OR before = 'active' OR before = 'reviewed' OR
+    before = 'approved' OR before = 'resolved'),
+  after TEXT NOT NULL CHECK (after = 'new' OR after = 'active' OR after = 'reviewed' OR
+    after = 'approved' OR after = 'resolved'),
   comment TEXT NOT NULL
 ) STRICT;
 CREATE INDEX event_of_clash ON event (clash);

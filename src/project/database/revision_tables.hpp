@@ -4,6 +4,7 @@
 namespace strake::project {
 
 /// How the model came to be what it is: what was added, read again and removed, and what changed.
+/// Words of many rows are spelled out as those of results are.
 inline constexpr const char* kRevisionTables = R"sql(
 CREATE TABLE revision (
   id INTEGER PRIMARY KEY,
@@ -27,7 +28,8 @@ CREATE TABLE changed_object (       -- none for objects of files that were added
   id INTEGER PRIMARY KEY,
   revision INTEGER NOT NULL REFERENCES revision(id),
   kind TEXT NOT NULL CHECK
-    (kind IN ('added', 'removed', 'moved', 'reshaped', 'reattributed', 'renamed')),
+    (kind = 'moved' OR kind = 'reshaped' OR kind = 'added' OR kind = 'removed' OR
+     kind = 'reattributed' OR kind = 'renamed'),
   file TEXT NOT NULL, object TEXT NOT NULL, name TEXT NOT NULL,
   before_file TEXT, before_object TEXT  -- where they were others
 ) STRICT;

@@ -44,14 +44,14 @@ class ModelLoader {
   ModelLoader(Database& database, const parallel::Context& context)
       : database_(database), context_(context) {}
 
-  Result<model::Model> run() {
+  Result<SignedModel> run() {
     const auto steps = {&ModelLoader::place_files,  &ModelLoader::read_all,
                         &ModelLoader::make_room,    &ModelLoader::unpack,
                         &ModelLoader::check_blocks, &ModelLoader::share_shapes};
     for (const auto step : steps)
       if (const Status status = (this->*step)(); !status) return status.error();
     join_diagnostics();
-    return std::move(model_);
+    return SignedModel{std::move(model_), std::move(shape_hashes_)};
   }
 
  private:
@@ -79,6 +79,7 @@ class ModelLoader {
   std::vector<BlockTask> tasks_;
   std::vector<BlockFindings> findings_;
   model::Model model_;
+  std::vector<Hash128> shape_hashes_;
 };
 
 /// Counts on; false where there are more than can be numbered.
@@ -272,9 +273,11 @@ Status ModelLoader::share_shapes() {
       ++uses[shared.from.pack][shared.from.number];
     }
   }
+  shape_hashes_.resize(model_.shapes.size());
   for (const BlockFindings& findings : findings_)
     for (const SharedShape& shared : findings.shared) {
       model::Shape& shape = packs[shared.from.pack].shapes[shared.from.number];
+      shape_hashes_[shared.at] = packs[shared.from.pack].hashes[shared.from.number];
       if (--uses[shared.from.pack][shared.from.number] == 0)
         model_.shapes[shared.at] = std::move(shape);
       else
@@ -296,7 +299,7 @@ void ModelLoader::join_diagnostics() {
 
 }  // namespace
 
-Result<model::Model> load_model(Database& database, const parallel::Context& context) {
+Result<SignedModel> load_model(Database& database, const parallel::Context& context) {
   return ModelLoader(database, context).run();
 }
 

@@ -190,7 +190,8 @@ bool is_sound(const model::Shape& shape) {
           std::ranges::is_sorted(lines->first) && lines->first.back() == lines->points.size());
 }
 
-Result<Blob> pack_meshes(std::span<const model::Shape* const> shapes) {
+Result<Blob> pack_meshes(std::span<const model::Shape* const> shapes,
+                         std::span<const Hash128> hashes) {
   PackColumns columns;
   for (const model::Shape* const shape : shapes) {
     if (shape == nullptr)
@@ -201,6 +202,7 @@ Result<Blob> pack_meshes(std::span<const model::Shape* const> shapes) {
       columns.add(*lines);
   }
   BlobWriter out;
+  out.hash(hash_bytes(std::as_bytes(hashes)));
   out.column<std::uint8_t>(columns.kinds);
   out.planes(columns.points);
   out.planes(columns.elements);
@@ -213,10 +215,14 @@ Result<Blob> pack_meshes(std::span<const model::Shape* const> shapes) {
   return out.finish();
 }
 
-Result<std::vector<model::Shape>> unpack_meshes(std::span<const std::byte> blob, std::string what) {
+Result<std::vector<model::Shape>> unpack_meshes(std::span<const std::byte> blob,
+                                                std::span<const Hash128> hashes, std::string what) {
   Result<BlobReader> in = BlobReader::open(blob, std::move(what));
   if (!in) return in.error();
+  const Hash128 seal = in->hash();
   std::vector<model::Shape> shapes = PackReader(*in).run();
+  if (shapes.size() != hashes.size() || seal != hash_bytes(std::as_bytes(hashes)))
+    in->refuse("the hashes beside it are not those of its shapes");
   if (const Status status = in->finish(); !status) return status.error();
   return shapes;
 }

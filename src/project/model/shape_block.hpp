@@ -49,10 +49,14 @@ struct SharedShape {
 /// Whether what a mesh or polylines number is there.
 [[nodiscard]] bool is_sound(const model::Shape& shape);
 
-/// Null: a shape that is no longer in use.
-[[nodiscard]] Result<Blob> pack_meshes(std::span<const model::Shape* const> shapes);
-/// Shapes that are no longer in use are empty meshes.
+/// Packs shapes, of which one that is no longer in use is null, with a seal over their hashes,
+/// which stand beside them: shape_hash() of each, zeros where it is not in use.
+[[nodiscard]] Result<Blob> pack_meshes(std::span<const model::Shape* const> shapes,
+                                       std::span<const Hash128> hashes);
+/// Returns the shapes; those that are no longer in use are empty meshes. Errors: input for what is
+/// damaged, and where the hashes are not those that the shapes were stored with.
 [[nodiscard]] Result<std::vector<model::Shape>> unpack_meshes(std::span<const std::byte> blob,
+                                                              std::span<const Hash128> hashes,
                                                               std::string what);
 
 }  // namespace strake::project

@@ -62,10 +62,9 @@ std::string name_of(const Database& database, std::uint32_t pack) {
 }
 
 Result<UnpackedPack> unpacked(const Database& database, const PackRow& pack) {
-  Result<std::vector<model::Shape>> shapes = unpack_meshes(pack.data, name_of(database, pack.id));
+  Result<std::vector<model::Shape>> shapes =
+      unpack_meshes(pack.data, pack.hashes, name_of(database, pack.id));
   if (!shapes) return shapes.error();
-  if (shapes->size() != pack.hashes.size())
-    return database.damaged(fmt::format("pack {} has other shapes than it says", pack.id));
   return UnpackedPack{pack.id, pack.hashes, std::move(*shapes)};
 }
 
@@ -134,7 +133,7 @@ Status shrink(Database& database, const PackRow& row, const std::vector<bool>& u
     left.push_back(used[i] ? &pack->shapes[i] : nullptr);
     if (!used[i]) whole.hashes[i] = {};
   }
-  const Result<Blob> blob = pack_meshes(left);
+  const Result<Blob> blob = pack_meshes(left, whole.hashes);
   if (!blob) return blob.error();
   return write_data(database, row.id, whole.hashes, *blob);
 }
@@ -203,21 +202,21 @@ Result<std::vector<PackedShape>> ShapePacks::add(std::span<const model::Shape> s
     known_.emplace((*hashes)[i], place);
     places.push_back(place);
   }
+  std::vector<std::vector<Hash128>> hashes_of(packs.size());
+  for (std::size_t p = 0; p < packs.size(); ++p)
+    for (const std::uint32_t i : packs[p]) hashes_of[p].push_back((*hashes)[i]);
   const auto blobs = parallel::transform(context, {.name = "packs of shapes", .n = packs.size()},
                                          [&](std::size_t p) -> Result<Blob> {
                                            std::vector<const model::Shape*> of_pack;
                                            of_pack.reserve(packs[p].size());
                                            for (const std::uint32_t i : packs[p])
                                              of_pack.push_back(&shapes[shared[i]]);
-                                           return pack_meshes(of_pack);
+                                           return pack_meshes(of_pack, hashes_of[p]);
                                          });
   if (!blobs) return blobs.error();
   for (std::size_t p = 0; p < packs.size(); ++p) {
-    std::vector<Hash128> of_pack;
-    of_pack.reserve(packs[p].size());
-    for (const std::uint32_t i : packs[p]) of_pack.push_back((*hashes)[i]);
     const auto id = static_cast<std::uint32_t>(next + static_cast<std::int64_t>(p));
-    if (const Status status = write_data(*database_, id, of_pack, (*blobs)[p]); !status)
+    if (const Status status = write_data(*database_, id, hashes_of[p], (*blobs)[p]); !status)
       return status.error();
   }
   return places;

@@ -49,6 +49,10 @@ class Binder {
   }
   Binder& text(std::string_view text) { return put(text); }
   Binder& text_or_null(std::string_view text) { return text.empty() ? null() : put(text); }
+  template <class Side>
+  Binder& side(const Side& side) {
+    return text(side.file).text(side.id).text(side.name);
+  }
   Binder& count(std::uint32_t count) { return put(std::int64_t{count}); }
 
  private:
@@ -60,9 +64,12 @@ class Binder {
 Binder bind_row(Statement& statement, const ClashRow& row) {
   Binder to(statement);
   to.put(row.test).text(row.key);
-  for (const ClashSide* const side : {&row.a, &row.b})
-    to.text(side->file).text(side->id).text(side->name);
-  to.text(name(row.now.cls)).put(row.now.d_mm).count(row.now.regions).text(name(row.relation));
+  to.side(row.a)
+      .side(row.b)
+      .text(name(row.now.cls))
+      .put(row.now.d_mm)
+      .count(row.now.regions)
+      .text(name(row.relation));
   to.put(row.point_mm.x).put(row.point_mm.y).put(row.point_mm.z);
   to.put(row.first_run).put(row.new_run);
   row.gone_run ? to.put(*row.gone_run) : to.null();
@@ -129,8 +136,10 @@ Result<ClashRows> ClashRows::of(Database& database) {
   if (!by_id) return by_id.error();
   Result<Statement> by_key = database.prepare(select + "key = ?1");
   if (!by_key) return by_key.error();
-  Result<Statement> insert =
-      database.prepare(fmt::format("INSERT INTO clash ({}) VALUES ({})", columns, places));
+  Result<Statement> insert = database.prepare(
+      "INSERT INTO clash (test, key, a_file, a_id, a_name, b_file, b_id, b_name, class, d_mm, "
+      "regions, relation, x_mm, y_mm, z_mm, first_run, new_run) VALUES "
+      "(?1,?2,?3,?4,?5,?6,?7,?8,?9,?10,?11,?12,?13,?14,?15,?16,?16) ON CONFLICT (key) DO NOTHING");
   if (!insert) return insert.error();
   Result<Statement> update = database.prepare(
       fmt::format("UPDATE clash SET ({}) = ({}) WHERE id = ?{}", columns, places, count + 1));
@@ -164,11 +173,14 @@ Result<std::optional<ClashRow>> ClashRows::find(std::string_view key) {
   return take(by_key_.bind(1, key));
 }
 
-Status ClashRows::insert(ClashRow& row) {
-  bind_row(insert_, row);
-  if (const Status status = insert_.run(); !status) return status;
-  row.id = database_->last_insert_id();
-  return {};
+Result<std::optional<std::int64_t>> ClashRows::insert(const NewClash& row) {
+  Binder to(insert_);
+  to.put(row.test).text(row.key).side(row.a).side(row.b);
+  to.text(name(row.now.cls)).put(row.now.d_mm).count(row.now.regions).text(name(row.relation));
+  to.put(row.point_mm.x).put(row.point_mm.y).put(row.point_mm.z).put(row.run);
+  if (const Status status = insert_.run(); !status) return status.error();
+  if (database_->changes() == 0) return std::optional<std::int64_t>();
+  return std::optional(database_->last_insert_id());
 }
 
 Status ClashRows::update(const ClashRow& row) {

@@ -49,6 +49,19 @@ struct ClashRow {
   }
 };
 
+/// A clash that a run finds for the first time, with texts as rows show them.
+struct NewClash {
+  struct Side {
+    std::string_view file, id, name;
+  };
+  std::int64_t test = 0, run = 0;
+  std::string_view key;
+  Side a, b;
+  Measure now;
+  clash::Relation relation = clash::Relation::separate;
+  geometry::Vec3d point_mm;
+};
+
 /// A change of status.
 struct ClashEvent {
   std::int64_t clash = 0;
@@ -75,8 +88,9 @@ class ClashRows {
 
   [[nodiscard]] Result<std::optional<ClashRow>> find(std::int64_t id);
   [[nodiscard]] Result<std::optional<ClashRow>> find(std::string_view key);
-  /// Adds a row and gives it its id.
-  [[nodiscard]] Status insert(ClashRow& row);
+  /// Adds a row that nobody has decided about and returns its id; nothing where the key is that of
+  /// another row.
+  [[nodiscard]] Result<std::optional<std::int64_t>> insert(const NewClash& row);
   /// Writes a row that is there.
   [[nodiscard]] Status update(const ClashRow& row);
   [[nodiscard]] Status add(const ClashEvent& event);

@@ -34,15 +34,19 @@ Result<std::int64_t> add_run(Database& database, const RunFacts& facts) {
   return database.last_insert_id();
 }
 
-/// Adds the row of a test that was never run; its results follow.
+/// Adds the rows of a test that was never run; its results follow.
 Result<TestRow> add_test(Database& database, const std::string& name, std::int64_t run) {
-  Result<Statement> insert = database.prepare(
-      "INSERT INTO test (name, settings, run, objects, snapshot, report, kept, seal) "
-      "VALUES (?1, '', ?2, 0, x'', x'', x'', x'')");
+  Result<Statement> insert =
+      database.prepare("INSERT INTO test (name, settings, run, objects) VALUES (?1, '', ?2, 0)");
   if (!insert) return insert.error();
   insert->bind(1, std::string_view(name)).bind(2, run);
   if (const Status status = insert->run(); !status) return status.error();
-  return TestRow{database.last_insert_id(), run};
+  const TestRow row{database.last_insert_id(), run};
+  insert = database.prepare(
+      "INSERT INTO report (test, snapshot, head, kept, seal) VALUES (?1, x'', x'', x'', x'')");
+  if (!insert) return insert.error();
+  if (const Status status = insert->bind(1, row.id).run(); !status) return status.error();
+  return row;
 }
 
 Result<std::uint64_t> count_resolved(Database& database, std::int64_t test) {
@@ -66,15 +70,16 @@ class DecidedBuilder {
 
   void add_test(const clash::Report& report, const TestMemory& memory) {
     std::vector<Entry>& entries = tests_.emplace_back();
-    auto at = memory.statuses().begin();
+    entries.reserve(report.pairs.size());
+    auto at = memory.told().begin();
     for (std::size_t i = 0; i < report.pairs.size(); ++i) {
       const clash::Pair& pair = report.pairs[i];
-      const bool is_told = at != memory.statuses().end() && at->first == i;
-      const ResultStatus* const told = is_told ? &(at++)->second : nullptr;
-      if (told != nullptr && told->row)
-        entries.push_back({&pair, told->reopened, add(told_of(*told, report))});
-      else if (pair.allowed < 0 && (told == nullptr || !told->is_new))
+      if (at != memory.told().end() && at->first == i) {
+        const ToldClash& told = (at++)->second;
+        entries.push_back({&pair, told.reopened, add(told_of(told, memory.is_new(i), report))});
+      } else if (pair.allowed < 0 && !memory.is_new(i)) {
         entries.push_back({&pair, report::Reopened::no, 0});
+      }
     }
     for (const ClashRow& row : memory.not_found())
       not_found_.push_back(add(decision_of(row, report.name)));
@@ -110,10 +115,10 @@ class DecidedBuilder {
     return decisions_.size() - 1;
   }
 
-  [[nodiscard]] static report::Decision told_of(const ResultStatus& told,
+  [[nodiscard]] static report::Decision told_of(const ToldClash& told, bool is_new,
                                                 const clash::Report& report) {
-    report::Decision decision = decision_of(*told.row, report.name);
-    if (decision.status == DecisionStatus::undecided && !told.is_new)
+    report::Decision decision = decision_of(told.row, report.name);
+    if (decision.status == DecisionStatus::undecided && !is_new)
       decision.status = DecisionStatus::active;
     return decision;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "project/results/stored_tests.hpp"
 
+#include <iterator>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -73,48 +74,74 @@ std::vector<std::size_t> changed_parts(const TestToWrite& test, const StoredTest
   return changed;
 }
 
-/// Writes what is no part; `parts` are the hashes of those that are stored now.
-Status write_report(Database& database, const TestToWrite& test, std::span<const Hash128> parts) {
-  const Result<Bytes> head = encode_head(test.results.report);
-  if (!head) return head.error();
-  const Result<Bytes> kept = encode_kept(test.results.report.kept);
-  if (!kept) return kept.error();
-  Result<Statement> update =
-      database.prepare("UPDATE test SET report = ?2, kept = ?3, seal = ?4 WHERE id = ?1");
-  if (!update) return update.error();
-  update->bind(1, test.id).bind(2, std::span<const std::byte>(*head));
-  update->bind(3, std::span<const std::byte>(*kept));
-  return update->bind(4, seal_of(*head, *kept, parts)).run();
+/// A result as bytes: what is no part, and the parts that are to be written.
+struct EncodedResult {
+  Bytes snapshot, kept, head;
+  std::vector<Bytes> parts;
+};
+
+/// Encodes a result, of whose parts those with these numbers, all at the same time.
+Result<EncodedResult> encode(const TestToWrite& test, std::span<const PartRange> parts,
+                             std::span<const std::size_t> changed,
+                             const parallel::Context& context) {
+  Result<std::vector<Bytes>> encoded =
+      parallel::transform(context, {.name = "encode results", .n = changed.size() + 3},
+                          [&](std::size_t i) -> Result<Bytes> {
+                            // The largest ones come first.
+                            if (i == 0) return encode_snapshot(test.snapshot);
+                            if (i == 1) return encode_kept(test.results.report.kept);
+                            if (i == 2) return encode_head(test.results.report);
+                            return encode_part(test.results, parts[changed[i - 3]]);
+                          });
+  if (!encoded) return encoded.error();
+  const auto first_part = encoded->begin() + 3;
+  return EncodedResult{std::move((*encoded)[0]),
+                       std::move((*encoded)[1]),
+                       std::move((*encoded)[2]),
+                       {std::move_iterator(first_part), std::move_iterator(encoded->end())}};
 }
 
-/// Writes the parts that differ; returns the hashes of all that are stored then.
-Result<std::vector<Hash128>> write_parts(Database& database, const TestToWrite& test,
-                                         const StoredTest* before,
-                                         const parallel::Context& context) {
-  const std::vector<PartRange> parts =
-      parts_of(test.results.report, test.snapshot.identities.size());
-  const std::vector<std::size_t> changed = changed_parts(test, before, parts);
-  const Result<std::vector<Bytes>> encoded = parallel::transform(
-      context, {.name = "encode results", .n = changed.size()},
-      [&](std::size_t i) { return encode_part(test.results, parts[changed[i]]); });
-  if (!encoded) return encoded.error();
+/// Writes the parts that differ; returns the hashes of all `count` that are stored then.
+Result<std::vector<Hash128>> write_parts(Database& database, std::int64_t test, std::size_t count,
+                                         std::span<const std::size_t> changed,
+                                         const EncodedResult& encoded, const StoredTest* before) {
   Result<Statement> remove =
       database.prepare("DELETE FROM report_part WHERE test = ?1 AND part >= ?2");
   if (!remove) return remove.error();
-  remove->bind(1, test.id).bind(2, static_cast<std::int64_t>(parts.size()));
+  remove->bind(1, test).bind(2, static_cast<std::int64_t>(count));
   if (const Status status = remove->run(); !status) return status.error();
   std::vector<Hash128> hashes = before == nullptr ? std::vector<Hash128>() : before->results.parts;
-  hashes.resize(parts.size());
+  hashes.resize(count);
   Result<Statement> put =
       database.prepare("INSERT OR REPLACE INTO report_part (test, part, data) VALUES (?1, ?2, ?3)");
   if (!put) return put.error();
   for (std::size_t i = 0; i < changed.size(); ++i) {
-    put->bind(1, test.id).bind(2, static_cast<std::int64_t>(changed[i]));
-    put->bind(3, std::span<const std::byte>((*encoded)[i]));
+    put->bind(1, test).bind(2, static_cast<std::int64_t>(changed[i]));
+    put->bind(3, std::span<const std::byte>(encoded.parts[i]));
     if (const Status status = put->run(); !status) return status.error();
-    hashes[changed[i]] = hash_bytes((*encoded)[i]);
+    hashes[changed[i]] = hash_bytes(encoded.parts[i]);
   }
   return hashes;
+}
+
+/// Writes a result, of whose parts those that differ from the one before.
+Status write_result(Database& database, const TestToWrite& test, const StoredTest* before,
+                    const parallel::Context& context) {
+  const std::vector<PartRange> parts =
+      parts_of(test.results.report, test.snapshot.identities.size());
+  const std::vector<std::size_t> changed = changed_parts(test, before, parts);
+  const Result<EncodedResult> encoded = encode(test, parts, changed, context);
+  if (!encoded) return encoded.error();
+  const Result<std::vector<Hash128>> hashes =
+      write_parts(database, test.id, parts.size(), changed, *encoded, before);
+  if (!hashes) return hashes.error();
+  Result<Statement> update = database.prepare(
+      "UPDATE report SET snapshot = ?2, head = ?3, kept = ?4, seal = ?5 WHERE test = ?1");
+  if (!update) return update.error();
+  update->bind(1, test.id).bind(2, std::span<const std::byte>(encoded->snapshot));
+  update->bind(3, std::span<const std::byte>(encoded->head));
+  update->bind(4, std::span<const std::byte>(encoded->kept));
+  return update->bind(5, seal_of(encoded->head, encoded->kept, *hashes)).run();
 }
 
 Result<std::vector<std::string>> names_of(Database& database, std::string_view sql) {
@@ -154,13 +181,14 @@ Result<std::optional<TestRow>> find_test(Database& database, const std::string& 
 Status write_snapshot(Database& database, std::int64_t test, const Snapshot& snapshot) {
   const Result<Bytes> bytes = encode_snapshot(snapshot);
   if (!bytes) return bytes.error();
-  Result<Statement> update = database.prepare("UPDATE test SET snapshot = ?2 WHERE id = ?1");
+  Result<Statement> update = database.prepare("UPDATE report SET snapshot = ?2 WHERE test = ?1");
   if (!update) return update.error();
   return update->bind(1, test).bind(2, std::span<const std::byte>(*bytes)).run();
 }
 
 Result<std::optional<StoredSnapshot>> read_snapshot(Database& database, const std::string& test) {
-  Result<Statement> select = database.prepare("SELECT id, snapshot FROM test WHERE name = ?1");
+  Result<Statement> select = database.prepare(
+      "SELECT id, snapshot FROM test LEFT JOIN report ON report.test = id WHERE name = ?1");
   if (!select) return select.error();
   const Result<bool> there = select->bind(1, std::string_view(test)).step();
   if (!there) return there.error();
@@ -172,8 +200,9 @@ Result<std::optional<StoredSnapshot>> read_snapshot(Database& database, const st
 
 Result<std::optional<StoredTest>> read_test(Database& database, const std::string& name,
                                             const parallel::Context& context) {
-  Result<Statement> select =
-      database.prepare("SELECT id, run, snapshot, report, kept, seal FROM test WHERE name = ?1");
+  Result<Statement> select = database.prepare(
+      "SELECT id, run, snapshot, head, kept, seal FROM test LEFT JOIN report ON report.test = id "
+      "WHERE name = ?1");
   if (!select) return select.error();
   const Result<bool> there = select->bind(1, std::string_view(name)).step();
   if (!there) return there.error();
@@ -209,13 +238,9 @@ Status write_test(Database& database, const TestToWrite& test, const StoredTest*
   update->bind(1, test.id).bind(2, std::string_view(test.settings)).bind(3, test.run);
   update->bind(4, static_cast<std::int64_t>(test.snapshot.identities.size()));
   if (const Status status = update->run(); !status) return status;
-  if (before == nullptr || before->snapshot != test.snapshot)
-    if (const Status status = write_snapshot(database, test.id, test.snapshot); !status)
-      return status;
-  if (test.is_unchanged) return {};
-  const Result<std::vector<Hash128>> parts = write_parts(database, test, before, context);
-  if (!parts) return parts.error();
-  return write_report(database, test, *parts);
+  if (!test.is_unchanged) return write_result(database, test, before, context);
+  if (before != nullptr && before->snapshot == test.snapshot) return {};
+  return write_snapshot(database, test.id, test.snapshot);
 }
 
 Result<std::optional<model::Model>> read_test_objects(Database& database, const StoredTest& test) {

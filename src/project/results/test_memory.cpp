@@ -2,6 +2,7 @@
 #include "project/results/test_memory.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <tuple>
 #include <unordered_map>
@@ -11,6 +12,7 @@
 #include "core/text_encoding.hpp"
 #include "project/results/positional_rows.hpp"
 #include "report/decisions/decision_match.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::project {
 namespace {
@@ -27,6 +29,23 @@ ClashSide side_of(const model::Model& model, model::ObjectId id) {
   return {valid_utf8(model.files[object.file].label), valid_utf8(object.id),
           valid_utf8(object.name)};
 }
+
+/// The texts of an object as rows show them.
+class ShownSide {
+ public:
+  ShownSide(const model::Model& model, model::ObjectId id) {
+    const model::Object& object = model.object(id);
+    shown_ = {valid_utf8(model.files[object.file].label, rooms_[0]),
+              valid_utf8(object.id, rooms_[1]), valid_utf8(object.name, rooms_[2])};
+  }
+  ShownSide(const ShownSide&) = delete;
+  ShownSide& operator=(const ShownSide&) = delete;
+  [[nodiscard]] const NewClash::Side& texts() const { return shown_; }
+
+ private:
+  std::array<std::string, 3> rooms_;
+  NewClash::Side shown_;
+};
 
 /// Returns the object of a label and an id, as rows show them. Objects are ordered by both.
 std::optional<model::ObjectId> find_object(const model::Model& model, const ClashSide& side) {
@@ -88,7 +107,8 @@ Status TestMemory::run(const parallel::Context& context) {
     for (std::size_t i = 0; i < report_.pairs.size(); ++i)
       match_.different.push_back({std::nullopt, i});
   }
-  if (const Status status = take_match(); !status) return status;
+  is_new_.assign(report_.pairs.size(), false);
+  if (const Status status = take_match(context); !status) return status;
   if (const Status status = take_watched(); !status) return status;
   return take_positional();
 }
@@ -108,14 +128,29 @@ Result<ClashRow> TestMemory::existing(std::int64_t id) {
   return **row;
 }
 
+/// Returns the keys of what is different now and had no row, in its order; zeros for the others.
+Result<std::vector<Hash128>> TestMemory::keys_of_new(const parallel::Context& context) const {
+  return parallel::transform(
+      context, {.name = "keys of clashes", .n = match_.different.size(), .grain = 256},
+      [&](std::size_t i) {
+        const std::optional<std::size_t> now = match_.different[i].now;
+        if (!now || match_.rows[*now] != 0) return Hash128();
+        const Pair& pair = report_.pairs[*now];
+        return clash::pair_hash(report_.name, model_, pair.a, pair.b);
+      });
+}
+
 /// What measures something else, came or went since the run before.
-Status TestMemory::take_match() {
-  for (const PairMatch& match : match_.different) {
+Status TestMemory::take_match(const parallel::Context& context) {
+  const Result<std::vector<Hash128>> keys = keys_of_new(context);
+  if (!keys) return keys.error();
+  for (std::size_t i = 0; i < match_.different.size(); ++i) {
+    const PairMatch& match = match_.different[i];
     const std::int64_t id = match.now ? match_.rows[*match.now]
                                       : (match.before ? before_->results.rows[*match.before] : 0);
     if (id == 0) {
       if (!match.now) continue;
-      if (const Status status = appear(*match.now); !status) return status;
+      if (const Status status = appear(*match.now, (*keys)[i]); !status) return status;
       continue;
     }
     Result<ClashRow> row = existing(id);
@@ -145,35 +180,44 @@ void TestMemory::wait(ClashRow row, std::string why) {
 }
 
 /// A result that had no row in the run before.
-Status TestMemory::appear(std::size_t at) {
+Status TestMemory::appear(std::size_t at, const Hash128& key) {
   const Pair& pair = report_.pairs[at];
   if (pair.allowed >= 0) return {};
-  if (!is_positional(pair) || before_ == nullptr) return add(at);
+  if (!is_positional(pair) || before_ == nullptr) return add(at, clash::key_text(key));
   positional_results_.push_back(at);
   return {};
 }
 
 /// Gives a result the row of its key, or a new one.
-Status TestMemory::add(std::size_t at) {
+Status TestMemory::add(std::size_t at, const std::string& key) {
+  Result<bool> added = insert(at, key);
+  if (!added) return added.error();
+  if (*added) return {};
   const Pair& pair = report_.pairs[at];
-  const std::string key = key_of(pair);
   Result<std::optional<ClashRow>> known = table_.find(std::string_view(key));
   if (!known) return known.error();
   if (*known && (!is_positional(pair) || (**known).point_mm == pair.point_mm))
     return see(std::move(**known), at);
   if (*known)
     if (const Status status = park(**known); !status) return status;
-  ClashRow row;
-  row.test = row_.id;
-  row.key = key;
-  row.first_run = row.new_run = run_;
-  describe(row, pair);
-  if (const Status status = table_.insert(row); !status) return status;
+  added = insert(at, key);
+  if (!added) return added.error();
+  return *added ? Status() : database_.damaged("a clash cannot be added");
+}
+
+/// Gives a result a new row, unless its key is that of another.
+Result<bool> TestMemory::insert(std::size_t at, const std::string& key) {
+  const Pair& pair = report_.pairs[at];
+  const ShownSide a(model_, pair.a), b(model_, pair.b);
+  const Result<std::optional<std::int64_t>> row = table_.insert(
+      {row_.id, run_, key, a.texts(), b.texts(), measure_of(pair), pair.relation, pair.point_mm});
+  if (!row) return row.error();
+  if (!*row) return false;
   ++trend_.written;
   ++trend_.appeared;
-  match_.rows[at] = row.id;
-  statuses_[at].is_new = true;
-  return {};
+  match_.rows[at] = **row;
+  is_new_[at] = true;
+  return true;
 }
 
 void TestMemory::describe(ClashRow& row, const Pair& pair) const {
@@ -329,10 +373,9 @@ Status TestMemory::apply(const ClashRow& before, ClashRow& row, const Seen& seen
   if (const Status status = keep_history(before, row, seen, pair.has_value()); !status)
     return status;
   if (!pair) return {};
-  ResultStatus& status = statuses_[*pair];
-  status.is_new = row.new_run == run_;
-  status.reopened = change.reopened;
-  if (row.is_touched() || change.reopened != report::Reopened::no) status.row = row;
+  is_new_[*pair] = row.new_run == run_;
+  if (row.is_touched() || change.reopened != report::Reopened::no)
+    told_.insert_or_assign(*pair, ToldClash{change.reopened, row});
   return {};
 }
 
@@ -396,7 +439,7 @@ Status TestMemory::take_positional() {
   for (std::size_t i = 0; i < positional_results_.size(); ++i) {
     const std::size_t at = positional_results_[i];
     if (found[i]) is_found[*found[i]] = true;
-    const Status status = found[i] ? see(rows[*found[i]], at) : add(at);
+    const Status status = found[i] ? see(rows[*found[i]], at) : add(at, key_of(report_.pairs[at]));
     if (!status) return status;
   }
   for (std::size_t r = 0; r < rows.size(); ++r) {

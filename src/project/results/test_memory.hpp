@@ -13,14 +13,14 @@
 #include "project/results/coverage.hpp"
 #include "project/results/match_reports.hpp"
 #include "project/results/remember.hpp"
+#include "strake/core/hash.hpp"
 
 namespace strake::project {
 
-/// What the clash of a result is, for reports; of one that nobody decided about, nothing.
-struct ResultStatus {
-  bool is_new = false;
+/// The clash of a result that somebody wrote into, or that came back, for reports.
+struct ToldClash {
   report::Reopened reopened = report::Reopened::no;
-  std::optional<ClashRow> row;  ///< where somebody wrote into it, or it came back
+  ClashRow row;
 };
 
 /// A row that was not found by its key, and why this run cannot tell about it.
@@ -45,17 +45,21 @@ class TestMemory {
   /// Whether the results are those stored, all of them.
   [[nodiscard]] bool is_unchanged() const { return is_unchanged_; }
   [[nodiscard]] const TestTrend& trend() const { return trend_; }
+  /// Whether this run found the clash of a result for the first time, or again.
+  [[nodiscard]] bool is_new(std::size_t pair) const { return is_new_[pair]; }
   /// Returns what there is to be said of results, by their numbers.
-  [[nodiscard]] const std::map<std::size_t, ResultStatus>& statuses() const { return statuses_; }
+  [[nodiscard]] const std::map<std::size_t, ToldClash>& told() const { return told_; }
   /// Returns decided clashes that this run did not find and cannot tell about.
   [[nodiscard]] const std::vector<ClashRow>& not_found() const { return not_found_; }
 
  private:
-  [[nodiscard]] Status take_match();
+  [[nodiscard]] Status take_match(const parallel::Context& context);
   [[nodiscard]] Status take_positional();
   [[nodiscard]] Status take_watched();
-  [[nodiscard]] Status appear(std::size_t pair);
-  [[nodiscard]] Status add(std::size_t pair);
+  [[nodiscard]] Result<std::vector<Hash128>> keys_of_new(const parallel::Context& context) const;
+  [[nodiscard]] Status appear(std::size_t pair, const Hash128& key);
+  [[nodiscard]] Status add(std::size_t pair, const std::string& key);
+  [[nodiscard]] Result<bool> insert(std::size_t pair, const std::string& key);
   [[nodiscard]] Status see(ClashRow row, std::size_t pair);
   [[nodiscard]] Status see_counted(ClashRow row, const clash::UnlistedContact& contact);
   [[nodiscard]] Status miss(ClashRow row);
@@ -93,7 +97,8 @@ class TestMemory {
   std::set<std::int64_t> handled_;  ///< rows that this run has dealt with, or that wait
   std::map<std::int64_t, OpenParts> open_before_;  ///< of rows whose results the run before had
   TestTrend trend_;
-  std::map<std::size_t, ResultStatus> statuses_;
+  std::vector<bool> is_new_;  ///< of each result
+  std::map<std::size_t, ToldClash> told_;
   std::vector<ClashRow> not_found_;
 };
 

@@ -74,6 +74,15 @@ void join(std::span<const Identified> then, std::span<const Identified> now, con
   }
 }
 
+/// Objects are ordered by what identities are hashes of: where all of these are as they were, so
+/// are their numbers.
+std::vector<std::uint32_t> unchanged_in_place(const Snapshot& then, const Snapshot& now) {
+  std::vector<std::uint32_t> now_of(then.identities.size(), kGone);
+  for (std::uint32_t o = 0; o < now_of.size(); ++o)
+    if (then.signatures[o] == now.signatures[o]) now_of[o] = o;
+  return now_of;
+}
+
 }  // namespace
 
 void rename_objects(Snapshot& snapshot, const NewIdentities& renamed) {
@@ -95,6 +104,7 @@ Result<std::vector<std::uint32_t>> unchanged(const Snapshot& then, const Snapsho
   if (then.identities.size() != then.signatures.size() ||
       now.identities.size() != now.signatures.size())
     return Error{ErrorCode::internal, "a snapshot has not as many signatures as objects", {}, {}};
+  if (then.identities == now.identities) return unchanged_in_place(then, now);
   Result<std::vector<IdentityLots>> lots = parallel::transform(
       context, {.name = "identities by lots", .n = 2},
       [&](std::size_t side) { return IdentityLots(side == 0 ? then.identities : now.identities); });

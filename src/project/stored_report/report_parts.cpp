@@ -11,6 +11,8 @@
 #include "project/stored_report/report_codec.hpp"
 #include "project/stored_report/report_head.hpp"
 #include "project/stored_report/value_columns.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::project {
@@ -151,16 +153,41 @@ Result<DecodedPart> decode_part(std::span<const std::byte> bytes, const Limits& 
   return part;
 }
 
-void append(DecodedPart part, RememberedReport& all) {
-  const auto first = static_cast<std::uint32_t>(all.report.regions.size());
-  for (Pair& pair : part.pairs)
-    if (pair.first_region > 0) pair.first_region += first - 1;
-  const auto add = [](auto& to, const auto& values) {
-    to.insert(to.end(), values.begin(), values.end());
+/// Puts parts one behind the other.
+Status join(std::vector<DecodedPart>& parts, RememberedReport& all,
+            const parallel::Context& context) {
+  struct Place {
+    std::size_t pair = 0, region = 0;
   };
-  add(all.report.pairs, part.pairs);
-  add(all.report.regions, part.regions);
-  add(all.rows, part.rows);
+  std::vector<Place> places;
+  Place end;
+  for (const DecodedPart& part : parts) {
+    places.push_back(end);
+    end.pair += part.pairs.size();
+    end.region += part.regions.size();
+  }
+  auto pairs = parallel::slots<Pair>(end.pair, context);
+  if (!pairs) return pairs.error();
+  auto regions = parallel::slots<Region>(end.region, context);
+  if (!regions) return regions.error();
+  auto rows = parallel::slots<std::int64_t>(end.pair, context);
+  if (!rows) return rows.error();
+  const Status joined =
+      parallel::for_each(context, {.name = "join results", .n = parts.size()}, [&](std::size_t k) {
+        const DecodedPart part = std::move(parts[k]);
+        Pair* const first = pairs->data() + places[k].pair;
+        std::ranges::copy(part.pairs, first);
+        for (Pair& pair : std::span(first, part.pairs.size()))
+          if (pair.first_region > 0)
+            pair.first_region += static_cast<std::uint32_t>(places[k].region) - 1;
+        std::ranges::copy(part.regions, regions->data() + places[k].region);
+        std::ranges::copy(part.rows, rows->data() + places[k].pair);
+      });
+  if (!joined) return joined;
+  all.report.pairs = std::move(*pairs);
+  all.report.regions = std::move(*regions);
+  all.rows = std::move(*rows);
+  return {};
 }
 
 std::size_t count_parts(std::size_t objects) {
@@ -265,7 +292,7 @@ Result<RememberedReport> decode_report(const EncodedReport& encoded, std::size_t
                                                what + ", part " + std::to_string(k));
                           });
   if (!parts) return parts.error();
-  for (DecodedPart& part : *parts) append(std::move(part), all);
+  if (const Status joined = join(*parts, all, context); !joined) return joined.error();
   return all;
 }
 

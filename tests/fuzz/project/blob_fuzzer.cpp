@@ -36,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(project::unpack_attributes(*blob, "fuzz", attributes));
   std::vector<model::Shape> shapes(items);
   static_cast<void>(project::unpack_shapes(*blob, "fuzz", shapes));
-  static_cast<void>(project::unpack_meshes(*blob, "fuzz"));
+  static_cast<void>(project::unpack_meshes(*blob, {}, "fuzz"));
   static_cast<void>(project::unpack_diagnostics(*blob, "fuzz"));
   return 0;
 }

@@ -426,8 +426,8 @@ class Damage(ProjectScenario):
     def test_what_other_programs_put_in(self):
         for sql in ('CREATE TRIGGER t AFTER INSERT ON run BEGIN DELETE FROM clash; END',
                     'DROP TABLE clash', 'DROP VIEW clashes', 'DELETE FROM shape_pack', 'UPDATE file SET objects = 7',
-                    "UPDATE shape_pack SET data = zeroblob(1000)", 'UPDATE test SET snapshot = report',
-                    'DELETE FROM report_part', "UPDATE test SET seal = x''"):
+                    "UPDATE shape_pack SET data = zeroblob(1000)", 'UPDATE report SET snapshot = head',
+                    'DELETE FROM report_part', "UPDATE report SET seal = x''"):
             with self.subTest(sql):
                 self.put(self.content)
                 with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as other:

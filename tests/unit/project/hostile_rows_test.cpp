@@ -188,9 +188,10 @@ TEST(ProjectBlocks, ShapesThatNumberWhatTheyLackAreRefused) {
   const auto refuses = [](const model::Shape& shape) {
     EXPECT_FALSE(is_sound(shape));
     const model::Shape* const one = &shape;
-    const auto blob = pack_meshes(std::span(&one, 1));
+    const std::vector<Hash128> hashes{shape_hash(shape)};
+    const auto blob = pack_meshes(std::span(&one, 1), hashes);
     ASSERT_TRUE(blob);
-    EXPECT_FALSE(unpack_meshes(*blob, "pack"));
+    EXPECT_FALSE(unpack_meshes(*blob, hashes, "pack"));
   };
   geometry::TriangleMesh mesh = test::box_mesh(1, 2, 3);
   mesh.triangles[3][1] = 8;

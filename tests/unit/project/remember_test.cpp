@@ -98,7 +98,7 @@ TEST_F(Remembered, results_that_are_not_all_there_are_damage_and_not_less_clashe
   for (const char* const damage :
        {"DELETE FROM report_part", "UPDATE report_part SET part = part + 1",
         "INSERT INTO report_part SELECT test, part + 1, data FROM report_part",
-        "UPDATE test SET seal = x''", "UPDATE test SET seal = zeroblob(16)"}) {
+        "UPDATE report SET seal = x''", "UPDATE report SET seal = zeroblob(16)"}) {
     SCOPED_TRACE(damage);
     ASSERT_TRUE(database_->execute("SAVEPOINT before"));
     ASSERT_TRUE(database_->execute(damage));
@@ -449,7 +449,7 @@ TEST_F(Remembered, an_unknown_key_is_an_error) {
 
 TEST_F(Remembered, a_damaged_result_names_its_test) {
   run(row(2));
-  ASSERT_TRUE(database_->execute("UPDATE test SET snapshot = x'00'"));
+  ASSERT_TRUE(database_->execute("UPDATE report SET snapshot = x'00'"));
   EXPECT_NE(read_test(*database_, "", {}).error().where.find("the test of the command line"),
             std::string::npos);
   ASSERT_TRUE(database_->execute("UPDATE test SET name = 'all'"));
