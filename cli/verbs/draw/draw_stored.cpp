@@ -128,7 +128,7 @@ Result<std::optional<project::StoredDrawing>> remembered(Session& session, Opene
 
 /// Counts the objects of then that are gone or other ones now, and those of now that are new.
 std::size_t count_changed(const std::vector<std::uint32_t>& now_of, std::size_t objects_now) {
-  const auto gone = static_cast<std::size_t>(std::ranges::count(now_of, project::kGone));
+  const auto gone = static_cast<std::size_t>(std::ranges::count(now_of, model::kNoObject));
   // An object that changed is gone and new.
   const std::size_t kept = now_of.size() - gone;
   return std::max(gone, objects_now - std::min(objects_now, kept));

@@ -38,14 +38,14 @@ void keep_in_order(std::span<const std::uint32_t> now, std::span<const geometry:
                    Comparison& result) {
   std::vector<std::uint32_t> sequence;
   for (const std::uint32_t number : now)
-    if (number != kChanged) sequence.push_back(number);
+    if (number != model::kNoObject) sequence.push_back(number);
   if (std::ranges::is_sorted(sequence)) return;
   const std::vector<bool> kept = longest_ascent(sequence);
   for (std::size_t i = 0; i < sequence.size(); ++i) {
     if (kept[i]) continue;
     std::uint32_t& before = result.before[sequence[i]];
     result.left.push_back(boxes[before]);
-    before = kChanged;
+    before = model::kNoObject;
     ++result.changed;
   }
 }
@@ -56,14 +56,14 @@ Result<Comparison> compare_objects(std::span<const std::uint32_t> now,
                                    std::span<const geometry::Box3l> boxes, std::size_t objects) {
   if (now.size() != boxes.size()) return misfit();
   Comparison result;
-  result.before.assign(objects, kChanged);
+  result.before.assign(objects, model::kNoObject);
   result.changed = objects;
   for (std::uint32_t old = 0; old < now.size(); ++old) {
-    if (now[old] == kChanged) {
+    if (now[old] == model::kNoObject) {
       result.left.push_back(boxes[old]);
       continue;
     }
-    if (now[old] >= objects || result.before[now[old]] != kChanged) return misfit();
+    if (now[old] >= objects || result.before[now[old]] != model::kNoObject) return misfit();
     result.before[now[old]] = old;
     result.same_numbers = result.same_numbers && now[old] == old;
     --result.changed;

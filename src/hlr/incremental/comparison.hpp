@@ -13,7 +13,7 @@ namespace strake::hlr {
 
 /// What became of the objects of an earlier drawing.
 struct Comparison {
-  /// By object now, its number in the earlier drawing; kChanged where it is new or another.
+  /// By object now, its number in the earlier drawing; model::kNoObject where it is new or another.
   std::vector<std::uint32_t> before;
   std::vector<geometry::Box3l> left;  ///< where objects were that are gone or others now
   bool same_numbers = true;           ///< each object that stayed has the number that it had

@@ -200,20 +200,14 @@ bool OccluderGatherer::find_neighbours() {
   neighbours_ = Neighbours::too_many;
   if (item_box_.empty()) return false;
   const std::uint32_t own = visibility_.placed[item_->body].object;
-  const LooseBox own_box = rounded_outwards(item_box_);
-  SegmentQuery any;
-  any.u0 = own_box.u0;
-  any.u1 = own_box.u1;
-  any.v0 = own_box.v0;
-  any.v1 = own_box.v1;
-  const auto deepest = static_cast<double>(item_box_.lo.w);
-  any.w0 = deepest - 1e-12 * std::abs(deepest);
   near_.clear();
   bool few = true;
-  visibility_.tree.traverse_boxes(any, [&](std::uint32_t body, const LooseBox& its) {
-    if (visibility_.placed[body].object != own) near_.push_back({its, body});
-    return few = near_.size() <= kFewNeighbours;
-  });
+  visibility_.tree.traverse_boxes(anything_in(item_box_),
+                                  [&](std::uint32_t body, const LooseBox& its) {
+                                    if (visibility_.placed[body].object != own)
+                                      near_.push_back({its, body});
+                                    return few = near_.size() <= kFewNeighbours;
+                                  });
   if (!few) return false;
   std::ranges::sort(near_, [](const Neighbour& x, const Neighbour& y) {
     return x.box.w1 != y.box.w1 ? x.box.w1 > y.box.w1 : x.body < y.body;

@@ -205,7 +205,7 @@ Status TestMemory::miss(ClashRow row) {
   const auto before_of = [&](const SoughtObject& object) -> std::optional<model::ObjectId> {
     if (!object.id || before_ == nullptr) return std::nullopt;
     const std::uint32_t o = match_.before_of[index(*object.id)];
-    return o == kGone ? std::nullopt : std::optional(model::ObjectId{o});
+    return o == model::kNoObject ? std::nullopt : std::optional(model::ObjectId{o});
   };
   SoughtObject a = sought(row.a), b = sought(row.b);
   a.before = before_of(a);

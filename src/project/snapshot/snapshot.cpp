@@ -99,7 +99,7 @@ Result<std::vector<std::uint32_t>> unchanged(const Snapshot& then, const Snapsho
       context, {.name = "identities by lots", .n = 2},
       [&](std::size_t side) { return IdentityLots(side == 0 ? then.identities : now.identities); });
   if (!lots) return lots.error();
-  std::vector<std::uint32_t> now_of(then.identities.size(), kGone);
+  std::vector<std::uint32_t> now_of(then.identities.size(), model::kNoObject);
   const Status status = parallel::for_each(
       context, {.name = "unchanged objects", .n = IdentityLots::kLots}, [&](std::size_t lot) {
         join((*lots)[0].sorted(lot), (*lots)[1].sorted(lot), then, now, now_of);

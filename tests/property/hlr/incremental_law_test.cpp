@@ -157,7 +157,7 @@ std::vector<std::uint32_t> mapped(const Seen& before, const Seen& now) {
     const auto found = number.find(before.identities[o]);
     const bool stays = found != number.end() &&
                        before.signatures.objects[o] == now.signatures.objects[found->second];
-    result.push_back(stays ? found->second : hlr::kChanged);
+    result.push_back(stays ? found->second : model::kNoObject);
   }
   return result;
 }
