@@ -180,6 +180,8 @@ struct Counters {
   std::uint64_t left_out = 0;  ///< edges with hidden pieces that were dropped, see Options::hidden
   std::uint64_t seams = 0;     ///< edges without their flush seams: see Options::flush_seams
   std::uint64_t uncut_objects = 0;  ///< objects that sections left whole: see Options::uncut
+  std::uint64_t shared_shapes = 0;  ///< shapes whose own faces were tested once for several bodies
+  std::uint64_t shared_bodies = 0;  ///< the bodies that share what these tests found
 };
 
 /// What became of an object. Each selected object has one fate other than `unselected`: none

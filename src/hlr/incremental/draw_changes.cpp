@@ -19,6 +19,8 @@
 #include "hlr/visibility/specks.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/hlr/incremental.hpp"
+#include "strake/hlr/steps.hpp"
+#include "strake/parallel/report.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -66,8 +68,10 @@ Result<Drawing> draw_part(const ChangedView& changed, const Reach& reach,
   WholeView whole = changed.whole;
   whole.tessellation = part.plan(changed.tessellation);
   whole.asked = reach.asked;
-  const Result<ViewJob> job =
-      prepare_view({part.scene, reach.needed, changed.view, changed.options, &whole}, context);
+  const Result<ViewJob> job = [&] {
+    const parallel::StageTimer timer(context.report, kPreparationStep);
+    return prepare_view({part.scene, reach.needed, changed.view, changed.options, &whole}, context);
+  }();
   if (!job) return job.error();
   Drawing drawing;
   drawing.options = changed.options;
