@@ -46,6 +46,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.counters = job->counters;
   drawing.diagnostics = job->diagnostics;
   drawing.origin = view.perspective ? view.perspective->target : job->origin;
+  drawing.hatches = job->hatches;
   drawing.counted.resize(scene.model->objects.size());
   if (!options.hidden) drawing.left_out.resize(scene.model->objects.size());
   if (const Status status = solve(*job, context, drawing); !status) return status.error();

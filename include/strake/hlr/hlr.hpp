@@ -110,6 +110,7 @@ struct HalfSpace {
 struct Hatch {
   double angle_deg = -1;   ///< from the horizontal of the paper, seen square; at most 180
   double spacing_mm = -1;  ///< in the model; 0: none
+  friend bool operator==(const Hatch&, const Hatch&) = default;
 };
 
 struct Options {
@@ -258,6 +259,7 @@ struct Drawing {
   /// By object, how many edges had hidden pieces left out, see Options::hidden. Empty: none had.
   std::vector<std::uint32_t> left_out;
   std::vector<LineCount> counted;  ///< by object
+  std::vector<Hatch> hatches;      ///< by object, as sections chose them; empty: nothing is hatched
   /// A reference point, grid units: the middle of all that is drawn; in perspective the target.
   geometry::Vec3l origin;
   Counters counters;

@@ -33,6 +33,14 @@ std::vector<bool> longest_ascent(std::span<const std::uint32_t> sequence) {
   return chosen;
 }
 
+/// Makes another of an object that stayed.
+void make_other(std::uint32_t number, std::span<const geometry::Box3l> boxes, Comparison& result) {
+  std::uint32_t& before = result.before[number];
+  result.left.push_back(boxes[before]);
+  before = model::kNoObject;
+  ++result.changed;
+}
+
 /// Makes others of those objects that changed places.
 void keep_in_order(std::span<const std::uint32_t> now, std::span<const geometry::Box3l> boxes,
                    Comparison& result) {
@@ -41,16 +49,22 @@ void keep_in_order(std::span<const std::uint32_t> now, std::span<const geometry:
     if (number != model::kNoObject) sequence.push_back(number);
   if (std::ranges::is_sorted(sequence)) return;
   const std::vector<bool> kept = longest_ascent(sequence);
-  for (std::size_t i = 0; i < sequence.size(); ++i) {
-    if (kept[i]) continue;
-    std::uint32_t& before = result.before[sequence[i]];
-    result.left.push_back(boxes[before]);
-    before = model::kNoObject;
-    ++result.changed;
-  }
+  for (std::size_t i = 0; i < sequence.size(); ++i)
+    if (!kept[i]) make_other(sequence[i], boxes, result);
 }
 
 }  // namespace
+
+void tell_hatches_apart(std::span<const Hatch> earlier, std::span<const Hatch> now,
+                        std::span<const geometry::Box3l> boxes, Comparison& comparison) {
+  if (earlier.empty() && now.empty()) return;
+  const bool comparable = !earlier.empty() && !now.empty();
+  for (std::uint32_t o = 0; o < comparison.before.size(); ++o) {
+    const std::uint32_t before = comparison.before[o];
+    if (before == model::kNoObject || (comparable && earlier[before] == now[o])) continue;
+    make_other(o, boxes, comparison);
+  }
+}
 
 Result<Comparison> compare_objects(std::span<const std::uint32_t> now,
                                    std::span<const geometry::Box3l> boxes, std::size_t objects) {
