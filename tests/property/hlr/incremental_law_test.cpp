@@ -263,6 +263,21 @@ TEST(IncrementalLaw, LinesFarFromAllEdgesFollow) {
   EXPECT_FALSE(redrawn.in_full);
 }
 
+/// Three blocks in a row are cut. The hatch of each differs from that of the one before: when the
+/// first is gone, both others have another one, and the third is not near the first.
+TEST(IncrementalLaw, HatchesFollowWhatIsFarFromThem) {
+  ChangingModel changing(1, 0);
+  for (int i = 0; i < 3; ++i) add_box(changing, {10.0 * i, 0, 0}, {10.0 * (i + 1), 10, 10});
+  for (int i = 0; i < 20; ++i) add_box(changing, {1000.0 + 10 * i, 0, 0}, {1005.0 + 10 * i, 5, 4});
+  hlr::View view{.direction = {0, 0, 1}};
+  view.sections.push_back({{0, 0, 1}, {0, 0, 5000}});
+  const Seen before = seen(changing, view, {}, {});
+  changing.objects()[0].bodies[0].placement.translation = {0, 50, 0};
+  const hlr::Redrawn redrawn = followed(before, seen(changing, view, {}, {}), view);
+  EXPECT_EQ(redrawn.objects_solved, 3U);
+  EXPECT_FALSE(redrawn.in_full);
+}
+
 /// The report on a solid around the eye names it, whatever changed.
 TEST(IncrementalLaw, TheSolidAroundTheEyeIsReported) {
   ChangingModel changing(1, 0);
