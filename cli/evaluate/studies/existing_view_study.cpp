@@ -81,8 +81,8 @@ class ViewRuns {
     add_row("new view", made->seconds, made->seconds.all,
             {"-", std::to_string(made->drawing.account.objects()),
              std::to_string(work.feature_edges), "-",
-             fmt::format("{} instances share the local results of {} shapes", work.shared_bodies,
-                         work.shared_shapes)});
+             fmt::format("{} instances share local results; shapes that they place: {}",
+                         work.shared_bodies, work.shared_shapes)});
     charted_ = {made->seconds.all, made->seconds.global};
     // Moved objects keep their local results; where objects are added the thesis does all again.
     if (const Status s = follow(*made, "unchanged", ships_.before, made->seconds.global); !s)
