@@ -122,6 +122,7 @@ strake_component(drawing
     drawing/write.hpp
     hlr/hlr.hpp
     hlr/incremental.hpp
+    hlr/steps.hpp
     sheets/sheet.hpp
     sheets/sheet_file.hpp
     sheets/write.hpp)

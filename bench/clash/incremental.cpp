@@ -56,7 +56,7 @@ struct Run {
 };
 
 std::vector<std::uint32_t> mapped(const clash::Signatures& before, const clash::Signatures& now) {
-  std::vector<std::uint32_t> map(before.objects.size(), clash::kChanged);
+  std::vector<std::uint32_t> map(before.objects.size(), model::kNoObject);
   for (std::uint32_t o = 0; o < map.size(); ++o)
     if (before.objects[o] == now.objects[o]) map[o] = o;
   return map;

@@ -95,7 +95,7 @@ bool draw_moved(model::Scene& scene, const Case& one, const hlr::Drawing& drawin
                 bool check, Moved& moved) {
   std::vector<std::uint32_t> now(boxes.size());
   std::iota(now.begin(), now.end(), 0U);
-  now[moved.object] = hlr::kChanged;
+  now[moved.object] = model::kNoObject;
   move(scene, moved.object, 7000);
   hlr::EarlierDrawing earlier{stored(drawing), now, boxes};
   bench::Lap lap;

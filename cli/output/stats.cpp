@@ -30,6 +30,10 @@ void Stats::count(std::string_view name, std::uint64_t value) {
   counters_.emplace_back(name, value);
 }
 
+void Stats::tell(std::string_view name, std::string_view words) {
+  words_.emplace_back(name, words);
+}
+
 void Stats::costly(std::string_view a, std::string_view b, std::string_view where,
                    std::uint64_t cost) {
   costly_.push_back({std::string(a), std::string(b), std::string(where), cost});
@@ -58,6 +62,7 @@ std::string Stats::text(const parallel::RunReport& report) const {
           region.nested_cpu_s, shared ? "" : std::to_string(region.items),
           region.nested_runs == 1 ? "once" : fmt::format("{} times", region.nested_runs));
   }
+  for (const auto& [name, words] : words_) out += fmt::format("{:<28}  {}\n", name, words);
   for (const auto& [name, value] : counters_) out += fmt::format("{:<28}{:>10}\n", name, value);
   for (const Costly& pair : costly_)
     out += fmt::format("{:<28}{:>10}   {} and {}{}\n", "costly pair", pair.cost, printable(pair.a),
@@ -70,7 +75,7 @@ std::string Stats::text(const parallel::RunReport& report) const {
 std::string Stats::json(const parallel::RunReport& report) const {
   using Json = nlohmann::ordered_json;
   Json phases = Json::array(), stages = Json::array(), parts = Json::array(),
-       counters = Json::object(), costly = Json::array();
+       words = Json::object(), counters = Json::object(), costly = Json::array();
   for (const Phase& phase : phases_)
     phases.push_back({{"name", phase.name}, {"wall_s", phase.wall_s}, {"cpu_s", phase.cpu_s}});
   for (const parallel::StageReport& stage : report.stages())
@@ -86,15 +91,20 @@ std::string Stats::json(const parallel::RunReport& report) const {
                      {"longest_s", region.longest_s},
                      {"load_balance", region.load_balance()},
                      {"bound", region.bound()}});
+  for (const auto& [name, text] : words_) words[name] = text;
   for (const auto& [name, value] : counters_) counters[name] = value;
   for (const Costly& pair : costly_)
     costly.push_back({{"a", valid_utf8(pair.a)},
                       {"b", valid_utf8(pair.b)},
                       {"where", valid_utf8(pair.where)},
                       {"cost", pair.cost}});
-  return Json{{"phases", std::move(phases)},       {"stages", std::move(stages)},
-              {"regions", std::move(parts)},       {"counters", std::move(counters)},
-              {"costly_pairs", std::move(costly)}, {"peak_memory_bytes", peak_memory_bytes()}}
+  return Json{{"phases", std::move(phases)},
+              {"stages", std::move(stages)},
+              {"regions", std::move(parts)},
+              {"words", std::move(words)},
+              {"counters", std::move(counters)},
+              {"costly_pairs", std::move(costly)},
+              {"peak_memory_bytes", peak_memory_bytes()}}
       .dump();
 }
 

@@ -29,8 +29,13 @@ parallel::Context Session::context() {
   return {.team = team_.get(),
           .stop = interrupts_.token(),
           .progress = options_.quiet ? nullptr : &progress_,
-          .report = options_.stats ? &report_ : nullptr,
+          .report = options_.stats || measures_ ? &report_ : nullptr,
           .distribution = distribution_of(options_)};
+}
+
+const parallel::RunReport& Session::measured() {
+  measures_ = true;
+  return report_;
 }
 
 Status Session::write(const std::filesystem::path& target, Producer producer) {

@@ -27,6 +27,8 @@ class Session {
   Session(const CommonOptions& options, unsigned workers, Console& console, Interrupts& interrupts);
 
   [[nodiscard]] parallel::Context context();
+  /// Returns the report on parallel work; from now on contexts ask for it, --stats or not.
+  [[nodiscard]] const parallel::RunReport& measured();
   [[nodiscard]] Console& console() { return console_; }
   [[nodiscard]] Stats& stats() { return stats_; }
   /// Begins a step of the run, which is timed for --stats until the value dies, and shown as
@@ -56,6 +58,7 @@ class Session {
   std::unique_ptr<parallel::Team> team_;  ///< null for one worker: the sequential twin
   parallel::Progress progress_;
   parallel::RunReport report_;
+  bool measures_ = false;
   Stats stats_;
   std::mutex step_mutex_;
   std::string step_;

@@ -229,6 +229,9 @@ Status write_pages(Session& session, const fs::path& folder, const EvaluationRec
         return status;
     }
   if (const Status status = write("evaluation.csv", evaluation_csv(record)); !status) return status;
+  if (!record.studies.empty())
+    if (const Status status = write("evaluation-studies.csv", studies_csv(record)); !status)
+      return status;
   if (!record.peers.empty())
     if (const Status status = write("evaluation-peers.csv", peers_csv(record)); !status)
       return status;

@@ -16,6 +16,7 @@
 #include "strake/drawing/write.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/hlr/incremental.hpp"
+#include "strake/hlr/steps.hpp"
 #include "strake/io/reader.hpp"
 #include "strake/io/writer.hpp"
 #include "strake/model/scene.hpp"

@@ -7,6 +7,8 @@
 #include "hlr/seams/flush_seams.hpp"
 #include "hlr/visibility/specks.hpp"
 #include "strake/hlr/hlr.hpp"
+#include "strake/hlr/steps.hpp"
+#include "strake/parallel/report.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -30,7 +32,10 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   Options adjusted = options;
   // The baseline knows no culling.
   if (options.solver == Solver::push) adjusted.culling = false;
-  const Result<ViewJob> job = prepare_view({scene, drawn, view, adjusted}, context);
+  const Result<ViewJob> job = [&] {
+    const parallel::StageTimer timer(context.report, kPreparationStep);
+    return prepare_view({scene, drawn, view, adjusted}, context);
+  }();
   if (!job) return job.error();
   Drawing drawing;
   drawing.view = view;
@@ -41,6 +46,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.counters = job->counters;
   drawing.diagnostics = job->diagnostics;
   drawing.origin = view.perspective ? view.perspective->target : job->origin;
+  drawing.hatches = job->hatches;
   drawing.counted.resize(scene.model->objects.size());
   if (!options.hidden) drawing.left_out.resize(scene.model->objects.size());
   if (const Status status = solve(*job, context, drawing); !status) return status.error();

@@ -88,7 +88,7 @@ class ChangingModel {
     if (objects_.empty()) return insert(0);
     const std::size_t at = draw_.below(objects_.size());
     ChangingObject& one = objects_[at];
-    switch (draw_.below(10)) {
+    switch (draw_.below(11)) {
       case 0:
         return insert(draw_.below(objects_.size() + 1));
       case 1:
@@ -105,6 +105,9 @@ class ChangingModel {
         return;
       case 5:
         std::swap(one, objects_[draw_.below(objects_.size())]);
+        return;
+      case 10:
+        if (!one.bodies.empty()) one.bodies.front().red ^= 64U;
         return;
       case 6:
         one.name += "'";

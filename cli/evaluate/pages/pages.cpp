@@ -166,4 +166,18 @@ std::string evaluation_csv(const EvaluationRecord& record) {
   return out;
 }
 
+std::string studies_csv(const EvaluationRecord& record) {
+  std::string out = "study,row,column,value\n";
+  for (const StudyRecord& study : record.studies)
+    for (std::size_t r = 0; r < study.rows.size(); ++r)
+      for (std::size_t c = 0; c < study.columns.size(); ++c) {
+        fmt::format_to(std::back_inserter(out), "{},{},", study.name, r + 1);
+        report::append_csv(out, study.columns[c]);
+        out += ',';
+        report::append_csv(out, study.rows[r][c]);
+        out += '\n';
+      }
+  return out;
+}
+
 }  // namespace strake::cli

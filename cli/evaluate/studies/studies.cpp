@@ -9,7 +9,7 @@ namespace strake::cli {
 
 namespace {
 
-constexpr std::array<StudyCase, 10> kStudies{{
+constexpr std::array<StudyCase, 11> kStudies{{
     {"bucketing", "Buckets for the faces of a part",
      "The thesis expects few buckets to suit objects that overlap and many to suit scattered ones, "
      "and proposes to choose their number from the data. 'auto' does.",
@@ -58,6 +58,13 @@ constexpr std::array<StudyCase, 10> kStudies{{
      "query for each object of the four ships, on one thread; the join of the hierarchy with "
      "itself, which the engine uses, stands beside.",
      study_octree},
+    {"existing-view", "Existing view against new view",
+     "The thesis removes hidden lines of a new view locally and globally. Of an existing one the "
+     "local results lie in the view, so that it does the global step only, and all again where "
+     "objects were added. Here an existing view costs what changed reaches. Seconds of a view "
+     "that changed are those of signatures, their comparison and lines; the thesis's way is that "
+     "much of our new view. Bytes are compared with those of a drawing made anew.",
+     study_existing_view},
 }};
 
 }  // namespace

@@ -48,6 +48,7 @@ struct StudyRun {
 // The studies.
 [[nodiscard]] Status study_bucketing(const StudyInput& input, StudyRecord& study);
 [[nodiscard]] Status study_distribution(const StudyInput& input, StudyRecord& study);
+[[nodiscard]] Status study_existing_view(const StudyInput& input, StudyRecord& study);
 [[nodiscard]] Status study_gap(const StudyInput& input, StudyRecord& study);
 [[nodiscard]] Status study_granularity(const StudyInput& input, StudyRecord& study);
 [[nodiscard]] Status study_imported(const StudyInput& input, StudyRecord& study);

@@ -57,7 +57,8 @@ std::string told(std::string_view test, const project::TestWork& work) {
 std::uint64_t count_kept(const clash::Report& report, const std::vector<std::uint32_t>& now_of) {
   return static_cast<std::uint64_t>(
       std::ranges::count_if(report.pairs, [&](const clash::Pair& pair) {
-        return now_of[index(pair.a)] != project::kGone && now_of[index(pair.b)] != project::kGone;
+        return now_of[index(pair.a)] != model::kNoObject &&
+               now_of[index(pair.b)] != model::kNoObject;
       }));
 }
 
@@ -187,7 +188,7 @@ Result<clash::Report> ProjectClashes::follow(Session& session, const Loaded& loa
   }
   work.how = project::Retested::changes;
   work.changed_objects = work.objects - static_cast<std::uint64_t>(now_of->size()) +
-                         static_cast<std::uint64_t>(std::ranges::count(*now_of, project::kGone));
+                         static_cast<std::uint64_t>(std::ranges::count(*now_of, model::kNoObject));
   Result<clash::Report> report =
       clash::detect_changes(loaded.scene, planned.sets, planned.options, planned.policy,
                             {before.results.report, *now_of}, session.context());

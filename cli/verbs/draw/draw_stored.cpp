@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -17,6 +18,7 @@
 
 #include "cli/run/project_input.hpp"
 #include "cli/verbs/draw/draw_run.hpp"
+#include "cli/verbs/draw/draw_summary.hpp"
 #include "cli/verbs/draw/view_settings.hpp"
 #include "project/snapshot/snapshot.hpp"
 #include "project/views/drawing_codec.hpp"
@@ -24,6 +26,8 @@
 #include "strake/drawing/write.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/hlr/incremental.hpp"
+#include "strake/hlr/steps.hpp"
+#include "strake/parallel/report.hpp"
 
 namespace strake::cli {
 
@@ -39,37 +43,57 @@ struct ViewOfProject {
 /// How the lines of a view came about.
 struct SolvedView {
   hlr::Drawing drawing;
-  std::uint64_t edges_solved = 0;
-  std::size_t changed = 0;  ///< objects that are new, gone or other than in the drawing before
-  double seconds = 0;
-  std::string_view in_full_because = {};  ///< empty: what is remembered was used
+  ViewWork work;
 };
 
-std::string grouped(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t at = text.size(); at > 3;) text.insert(at -= 3, ",");
-  return text;
-}
+/// Wall seconds of a piece of work.
+class Lap {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
 
-std::string counted(std::uint64_t number, std::string_view one) {
-  return fmt::format("{} {}{}", grouped(number), one, number == 1 ? "" : "s");
-}
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
 
-/// The line that tells what was solved and what it took.
-std::string solved_text(const std::string& name, const SolvedView& solved) {
-  const std::size_t objects = solved.drawing.account.fates.size();
-  const std::uint64_t edges = solved.drawing.counters.feature_edges;
-  const std::string view = "view '" + name + "': ";
-  if (!solved.in_full_because.empty())
-    return view + fmt::format("{}: {} of {} solved in {:.2f} s", solved.in_full_because,
-                              counted(edges, "edge"), counted(objects, "object"), solved.seconds);
-  if (solved.changed == 0 && solved.edges_solved == 0)
-    return view + fmt::format("none of {} changed, nothing solved again, {} kept",
-                              counted(objects, "object"), counted(edges, "edge"));
-  return view + fmt::format("{} of {} changed, {} solved again in {:.2f} s, {} kept",
-                            grouped(solved.changed), counted(objects, "object"),
-                            counted(solved.edges_solved, "edge"), solved.seconds,
-                            grouped(edges - std::min(edges, solved.edges_solved)));
+/// Seconds of the steps of hidden lines, from when it was made.
+class Steps {
+ public:
+  explicit Steps(Session& session) : report_(session.measured()), before_(all()) {}
+
+  void add_to(ViewWork& work) const {
+    const std::array<double, 3> now = all();
+    work.solve_s = lap_.seconds();
+    work.preparation_s = now[0] - before_[0];
+    work.local_s = now[1] - before_[1];
+    work.global_s = now[2] - before_[2];
+  }
+
+ private:
+  [[nodiscard]] std::array<double, 3> all() const {
+    std::array<double, 3> seconds{};
+    for (const parallel::StageReport& stage : report_.stages())
+      for (std::size_t i = 0; i < kSteps.size(); ++i)
+        if (stage.name == kSteps[i]) seconds[i] = stage.wall_s;
+    return seconds;
+  }
+
+  static constexpr std::array<std::string_view, 3> kSteps{hlr::kPreparationStep, hlr::kLocalStep,
+                                                          hlr::kGlobalStep};
+  const parallel::RunReport& report_;
+  std::array<double, 3> before_;
+  Lap lap_;
+};
+
+/// Fills what the drawing tells of the work.
+void count_lines(SolvedView& solved) {
+  const hlr::Counters& counters = solved.drawing.counters;
+  solved.work.stage = solved.drawing.options.stage;
+  solved.work.objects = solved.drawing.account.fates.size();
+  solved.work.edges = counters.feature_edges;
+  solved.work.shared_bodies = counters.shared_bodies;
+  solved.work.shared_shapes = counters.shared_shapes;
 }
 
 Result<ViewOfProject> view_to_draw(const DrawOptions& given, OpenedProject& opened) {
@@ -130,7 +154,7 @@ Result<std::optional<project::StoredDrawing>> remembered(Session& session, Opene
 
 /// Counts the objects of then that are gone or other ones now, and those of now that are new.
 std::size_t count_changed(const std::vector<std::uint32_t>& now_of, std::size_t objects_now) {
-  const auto gone = static_cast<std::size_t>(std::ranges::count(now_of, project::kGone));
+  const auto gone = static_cast<std::size_t>(std::ranges::count(now_of, model::kNoObject));
   // An object that changed is gone and new.
   const std::size_t kept = now_of.size() - gone;
   return std::max(gone, objects_now - std::min(objects_now, kept));
@@ -140,46 +164,55 @@ std::size_t count_changed(const std::vector<std::uint32_t>& now_of, std::size_t 
 Result<SolvedView> solve_changes(Session& session, const DrawRequest& request,
                                  const PreparedView& prepared, const model::Scene& scene,
                                  project::StoredDrawing stored, const project::Snapshot& now) {
-  SolvedView solved;
+  SolvedView solved{.drawing = {}, .work = {.run = ViewRun::unchanged}};
   // Reports have names of objects, which signatures do not see.
   if (stored.made_from == now && stored.drawing.diagnostics.counts().empty()) {
     solved.drawing = std::move(stored.drawing);
     solved.drawing.view = request.view;
     solved.drawing.options = prepared.options;
+    count_lines(solved);
     return solved;
   }
+  const Lap lap;
   const auto now_of = [&] {
     const auto timer = session.step("match");
     return project::unchanged(stored.made_from, now, session.context());
   }();
   if (!now_of) return now_of.error();
-  solved.changed = count_changed(*now_of, now.identities.size());
+  solved.work.match_s = lap.seconds();
+  solved.work.objects_changed = count_changed(*now_of, now.identities.size());
   const auto timer = session.step("hidden lines");
-  const auto begin = std::chrono::steady_clock::now();
+  const Steps steps(session);
   Result<hlr::Redrawn> redrawn =
       hlr::draw_changes(scene, prepared.drawn, request.view, prepared.options,
                         {std::move(stored.drawing), *now_of, stored.boxes}, session.context());
   if (!redrawn) return redrawn.error();
-  solved.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  steps.add_to(solved.work);
   solved.drawing = std::move(redrawn->drawing);
-  solved.edges_solved = redrawn->edges_solved;
-  if (redrawn->in_full) solved.in_full_because = redrawn->why;
+  solved.work.edges_solved = redrawn->edges_solved;
+  solved.work.objects_solved = redrawn->objects_solved;
+  solved.work.why = redrawn->why;
+  if (redrawn->in_full)
+    solved.work.run = ViewRun::in_full;
+  else if (solved.work.objects_changed > 0 || redrawn->objects_solved > 0)
+    solved.work.run = ViewRun::followed;
+  count_lines(solved);
   return solved;
 }
 
 Result<SolvedView> solve_in_full(Session& session, const DrawRequest& request,
                                  const PreparedView& prepared, const model::Scene& scene,
-                                 std::string_view why) {
-  const auto begin = std::chrono::steady_clock::now();
+                                 ViewRun run, std::string_view why) {
+  const Steps steps(session);
   Result<hlr::Drawing> drawing = solve(session, request, prepared, scene);
   if (!drawing) return drawing.error();
-  const std::uint64_t edges = drawing->counters.feature_edges;
-  return SolvedView{
-      .drawing = std::move(*drawing),
-      .edges_solved = edges,
-      .changed = scene.model->objects.size(),
-      .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-      .in_full_because = why};
+  SolvedView solved{.drawing = std::move(*drawing), .work = {.run = run, .why = std::string(why)}};
+  steps.add_to(solved.work);
+  count_lines(solved);
+  solved.work.objects_changed = scene.model->objects.size();
+  solved.work.objects_solved = solved.drawing.account.objects();
+  solved.work.edges_solved = solved.work.edges;
+  return solved;
 }
 
 /// Stores what a run has found. A view that is only drawn again is drawn even where the project
@@ -220,15 +253,18 @@ class StoredRun {
     Result<PreparedView> prepared = prepare_view(session_, request_, loaded_.scene);
     if (!prepared) return prepared.error();
     prepared_ = std::move(*prepared);
+    const Lap lap;
     Result<ViewState> now = state_of(session_, request_, prepared_, loaded_.scene);
     if (!now) return now.error();
+    const double signatures_s = lap.seconds();
     now_ = std::move(*now);
     Result<SolvedView> solved = solved_view(opened);
     if (!solved) return solved.error();
     solved_ = std::move(*solved);
-    session_.stats().count("objects changed", solved_.changed);
-    session_.stats().count("edges solved", solved_.edges_solved);
-    session_.console().note(solved_text(view_.name, solved_));
+    solved_.work.match_s += signatures_s;
+    count_view_work(session_.stats(), solved_.work);
+    session_.console().note(did_line(view_.name, solved_.work));
+    session_.console().note(cost_line(view_.name, solved_.work));
     return given_.verify ? verify() : Status{};
   }
 
@@ -258,8 +294,8 @@ class StoredRun {
       view.boxes = &now_.boxes;
       view.model = loaded_.model.get();
       view.far_objects = prepared_.layout.far_left_out;
-      view.edges_solved = solved_.edges_solved;
-      view.seconds = solved_.seconds;
+      view.edges_solved = solved_.work.edges_solved;
+      view.seconds = solved_.work.solve_s;
     }
     return view.settings || view.drawing != nullptr ? remember(session_, given_, view) : Status{};
   }
@@ -269,21 +305,28 @@ class StoredRun {
  private:
   Result<SolvedView> solved_view(OpenedProject& opened) {
     if (given_.full)
-      return solve_in_full(session_, request_, prepared_, loaded_.scene, "in full, as asked");
+      return solve_in_full(session_, request_, prepared_, loaded_.scene, ViewRun::in_full,
+                           "as asked");
+    const Lap lap;
     auto stored = remembered(session_, opened, view_.name, now_.snapshot);
     if (!stored) return stored.error();
-    if (!*stored)
-      return solve_in_full(session_, request_, prepared_, loaded_.scene,
-                           "nothing is remembered of it that holds now");
-    kept_ = (*stored)->made_from == now_.snapshot;
-    return solve_changes(session_, request_, prepared_, loaded_.scene, std::move(**stored),
-                         now_.snapshot);
+    const double read_s = lap.seconds();
+    Result<SolvedView> solved = [&] {
+      if (!*stored)
+        return solve_in_full(session_, request_, prepared_, loaded_.scene, ViewRun::made,
+                             "nothing is remembered of it that holds now");
+      kept_ = (*stored)->made_from == now_.snapshot;
+      return solve_changes(session_, request_, prepared_, loaded_.scene, std::move(**stored),
+                           now_.snapshot);
+    }();
+    if (solved) solved->work.read_s = read_s;
+    return solved;
   }
 
   /// Solves everything, and takes that where it is another drawing.
   Status verify() {
     Result<SolvedView> full =
-        solve_in_full(session_, request_, prepared_, loaded_.scene, "in full, to verify");
+        solve_in_full(session_, request_, prepared_, loaded_.scene, ViewRun::in_full, "to verify");
     if (!full) return full.error();
     const Result<bool> equal = [&] {
       const auto timer = session_.step("compare");
@@ -291,8 +334,8 @@ class StoredRun {
     }();
     if (!equal) return equal.error();
     if (*equal) {
-      session_.console().note(
-          fmt::format("view '{}': the same lines in full, in {:.2f} s", view_.name, full->seconds));
+      session_.console().note(fmt::format("view '{}': the same lines in full, in {:.2f} s",
+                                          view_.name, full->work.solve_s));
       return {};
     }
     differs_ = true;

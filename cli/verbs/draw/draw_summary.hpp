@@ -27,4 +27,45 @@ namespace strake::cli {
 /// Adds every fate to --stats, each name behind `prefix`.
 void count_objects(Stats& stats, const hlr::Account& account, std::string_view prefix);
 
+/// What a run did about the lines of a stored view.
+enum class ViewRun : std::uint8_t {
+  made,       ///< the view is new: nothing is remembered of it that holds
+  unchanged,  ///< it exists, and nothing that it shows changed
+  followed,   ///< it exists, and what changed was solved again
+  in_full,    ///< all of it was solved, though something may be remembered
+};
+
+/// What that took. Seconds are of the clock on the wall.
+struct ViewWork {
+  ViewRun run = ViewRun::made;
+  std::string why = {};  ///< of a view that is new or solved in full
+  hlr::Stage stage = hlr::Stage::global;
+  std::uint64_t objects = 0, edges = 0;  ///< all
+  std::uint64_t objects_changed = 0;     ///< new, gone or other than in the drawing before
+  std::uint64_t objects_solved = 0, edges_solved = 0;
+  std::uint64_t shared_bodies = 0, shared_shapes = 0;  ///< as of hlr::Counters
+  double read_s = 0;                                   ///< reading what is remembered
+  double match_s = 0;                                  ///< finding what changed
+  double solve_s = 0;  ///< all of the hidden lines, of which these are steps
+  double preparation_s = 0, local_s = 0, global_s = 0;
+
+  /// Return how many objects had their local, and their global results found anew.
+  [[nodiscard]] std::uint64_t solved_locally() const {
+    return stage == hlr::Stage::none ? 0 : objects_solved;
+  }
+  [[nodiscard]] std::uint64_t solved_globally() const {
+    return stage == hlr::Stage::global ? objects_solved : 0;
+  }
+};
+
+/// Returns what a run did, as "existing view with changes".
+[[nodiscard]] std::string_view words(ViewRun run);
+
+/// Return the lines of a run's end on a stored view: what it did, and what that took.
+[[nodiscard]] std::string did_line(const std::string& view, const ViewWork& work);
+[[nodiscard]] std::string cost_line(const std::string& view, const ViewWork& work);
+
+/// Counts the work for --stats.
+void count_view_work(Stats& stats, const ViewWork& work);
+
 }  // namespace strake::cli

@@ -38,16 +38,13 @@ struct Signatures {
                                             const parallel::Context& context,
                                             std::span<const Hash128> shape_hashes = {});
 
-/// An object that is gone, or has another signature now.
-inline constexpr std::uint32_t kChanged = 0xffffffffU;
-
 /// A run whose rules had the same signature, as detect() or detect_changes() reported it: nothing
 /// may have been taken out of the report since. With KeptForChanges all its numbers are within the
 /// lists that they refer to.
 struct EarlierRun {
   Report report;
-  /// For each object of that run, its number now; kChanged where there is none with the same
-  /// identity and signature. Files may have other labels.
+  /// For each object of that run, its number now; model::kNoObject where there is none with the
+  /// same identity and signature. Files may have other labels.
   std::span<const std::uint32_t> now;
 };
 

@@ -110,6 +110,7 @@ struct HalfSpace {
 struct Hatch {
   double angle_deg = -1;   ///< from the horizontal of the paper, seen square; at most 180
   double spacing_mm = -1;  ///< in the model; 0: none
+  friend bool operator==(const Hatch&, const Hatch&) = default;
 };
 
 struct Options {
@@ -180,6 +181,8 @@ struct Counters {
   std::uint64_t left_out = 0;  ///< edges with hidden pieces that were dropped, see Options::hidden
   std::uint64_t seams = 0;     ///< edges without their flush seams: see Options::flush_seams
   std::uint64_t uncut_objects = 0;  ///< objects that sections left whole: see Options::uncut
+  std::uint64_t shared_shapes = 0;  ///< shapes whose own faces were tested once for several bodies
+  std::uint64_t shared_bodies = 0;  ///< the bodies that share what these tests found
 };
 
 /// What became of an object. Each selected object has one fate other than `unselected`: none
@@ -256,6 +259,7 @@ struct Drawing {
   /// By object, how many edges had hidden pieces left out, see Options::hidden. Empty: none had.
   std::vector<std::uint32_t> left_out;
   std::vector<LineCount> counted;  ///< by object
+  std::vector<Hatch> hatches;      ///< by object, as sections chose them; empty: nothing is hatched
   /// A reference point, grid units: the middle of all that is drawn; in perspective the target.
   geometry::Vec3l origin;
   Counters counters;

@@ -37,16 +37,13 @@ struct Signatures {
                                             const Options& options,
                                             const parallel::Context& context);
 
-/// An object that is gone, or has another signature now.
-inline constexpr std::uint32_t kChanged = 0xffffffffU;
-
 /// An earlier drawing whose view had the same signature.
 struct EarlierDrawing {
   /// As draw() or draw_changes() returned it; what stays of it is moved. Where the capacity of its
   /// pieces is a little larger than their number, they stay where they are.
   Drawing drawing;
-  /// For each object of that drawing, its number now; kChanged where there is none with the same
-  /// identity and signature.
+  /// For each object of that drawing, its number now; model::kNoObject where there is none with the
+  /// same identity and signature.
   std::span<const std::uint32_t> now;
   std::span<const geometry::Box3l> boxes;  ///< Signatures::boxes of that drawing
 };

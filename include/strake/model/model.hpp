@@ -26,6 +26,10 @@ template <class Id>
   return static_cast<std::uint32_t>(id);
 }
 
+/// No object's number. In what maps the objects of one state of a model to those of another it
+/// stands for one that is not there, or is not what it was.
+inline constexpr std::uint32_t kNoObject = 0xffffffffU;
+
 /// Geometry in its own frame (millimetres, z up), shared by every body that places it.
 using Shape = std::variant<geometry::TriangleMesh, geometry::Primitive, geometry::Polylines>;
 

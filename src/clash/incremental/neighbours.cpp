@@ -97,7 +97,7 @@ class NeighbourSearch {
   }
 
  private:
-  [[nodiscard]] bool is_changed(std::size_t o) const { return map_.before[o] == kChanged; }
+  [[nodiscard]] bool is_changed(std::size_t o) const { return map_.before[o] == model::kNoObject; }
   [[nodiscard]] bool is_tested(std::size_t o) const { return sets_.in_a[o] || sets_.in_b[o]; }
   [[nodiscard]] float precision(const model::GridBody& body) const {
     return scene_.model->bodies[body.body].precision_um;

@@ -10,9 +10,9 @@ namespace {
 /// Marks as changed what a longest ascending subsequence of the numbers leaves out (patience
 /// sorting: pile k holds the smallest number that ends an ascending run of k + 1).
 void keep_ascending(std::vector<std::uint32_t>& now) {
-  std::vector<std::uint32_t> piles, before(now.size(), kChanged);  // both by object before
+  std::vector<std::uint32_t> piles, before(now.size(), model::kNoObject);  // both by object before
   for (std::uint32_t o = 0; o < now.size(); ++o) {
-    if (now[o] == kChanged) continue;
+    if (now[o] == model::kNoObject) continue;
     const auto pile =
         std::ranges::lower_bound(piles, now[o], {}, [&](std::uint32_t last) { return now[last]; });
     if (pile != piles.begin()) before[o] = *std::prev(pile);
@@ -22,16 +22,17 @@ void keep_ascending(std::vector<std::uint32_t>& now) {
       *pile = o;
   }
   std::vector<bool> kept(now.size(), false);
-  for (std::uint32_t o = piles.empty() ? kChanged : piles.back(); o != kChanged; o = before[o])
+  for (std::uint32_t o = piles.empty() ? model::kNoObject : piles.back(); o != model::kNoObject;
+       o = before[o])
     kept[o] = true;
   for (std::size_t o = 0; o < now.size(); ++o)
-    if (!kept[o]) now[o] = kChanged;
+    if (!kept[o]) now[o] = model::kNoObject;
 }
 
 bool is_ascending(std::span<const std::uint32_t> now) {
   std::uint32_t next = 0;
   for (const std::uint32_t o : now) {
-    if (o == kChanged) continue;
+    if (o == model::kNoObject) continue;
     if (o < next) return false;
     next = o + 1;
   }
@@ -41,8 +42,8 @@ bool is_ascending(std::span<const std::uint32_t> now) {
 }  // namespace
 
 void ObjectMap::let_go(std::uint32_t object) {
-  before[now[object]] = kChanged;
-  now[object] = kChanged;
+  before[now[object]] = model::kNoObject;
+  now[object] = model::kNoObject;
   ++changed;
 }
 
@@ -51,17 +52,17 @@ Result<ObjectMap> map_objects(std::span<const std::uint32_t> now, std::size_t ob
                      "earlier run", "map each to an object of this scene, and no two to one"};
   std::vector<bool> taken(objects, false);
   for (const std::uint32_t o : now) {
-    if (o == kChanged) continue;
+    if (o == model::kNoObject) continue;
     if (o >= objects || taken[o]) return misfit;
     taken[o] = true;
   }
   ObjectMap map;
   map.now.assign(now.begin(), now.end());
   if (!is_ascending(map.now)) keep_ascending(map.now);
-  map.before.assign(objects, kChanged);
+  map.before.assign(objects, model::kNoObject);
   std::size_t kept = 0;
   for (std::uint32_t o = 0; o < map.now.size(); ++o) {
-    if (map.now[o] == kChanged) continue;
+    if (map.now[o] == model::kNoObject) continue;
     map.before[map.now[o]] = o;
     map.renumbered = map.renumbered || map.now[o] != o;
     ++kept;

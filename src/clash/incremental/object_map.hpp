@@ -15,8 +15,8 @@ namespace strake::clash {
 /// both, so that their pairs are, too: of those that changed places as few as can be count as
 /// changed.
 struct ObjectMap {
-  std::vector<std::uint32_t> now;     ///< by object before; kChanged
-  std::vector<std::uint32_t> before;  ///< by object now; kChanged
+  std::vector<std::uint32_t> now;     ///< by object before; model::kNoObject
+  std::vector<std::uint32_t> before;  ///< by object now; model::kNoObject
   std::size_t changed = 0;            ///< objects now that were not there, or not so
   bool renumbered = false;            ///< an unchanged object has another number
 

@@ -20,7 +20,9 @@ class RenamedObjects {
                  const ObjectMap& map)
       : then_(then), now_(now), map_(map) {}
 
-  [[nodiscard]] bool stays(model::ObjectId o) const { return map_.now[index(o)] != kChanged; }
+  [[nodiscard]] bool stays(model::ObjectId o) const {
+    return map_.now[index(o)] != model::kNoObject;
+  }
   /// The object has to be one that stays.
   [[nodiscard]] bool is_renamed(model::ObjectId o) const { return then_[index(o)] != now(o); }
   [[nodiscard]] std::uint64_t then(model::ObjectId o) const { return then_[index(o)]; }

@@ -211,7 +211,7 @@ class ReportMerge {
   void merge_objects() {
     for (std::size_t o = 0; o < inputs_.map.before.size(); ++o) {
       const std::uint32_t before = inputs_.map.before[o];
-      if (before == kChanged) continue;
+      if (before == model::kNoObject) continue;
       now_.sheets[o] = was_.sheets[before];
     }
     now_.kept->elements = inputs_.names;

@@ -115,7 +115,8 @@ template <class T, class Gone>
   const auto dead = parallel::collect<std::size_t>(
       context, {.name = "pairs of changed objects", .n = list.size(), .grain = kGrain},
       [&](std::size_t i, std::vector<std::size_t>& out) {
-        if (map.now[index(list[i].a)] == kChanged || map.now[index(list[i].b)] == kChanged)
+        if (map.now[index(list[i].a)] == model::kNoObject ||
+            map.now[index(list[i].b)] == model::kNoObject)
           out.push_back(i);
       });
   if (!dead) return dead.error();

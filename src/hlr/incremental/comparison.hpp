@@ -8,12 +8,13 @@
 
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
+#include "strake/hlr/hlr.hpp"
 
 namespace strake::hlr {
 
 /// What became of the objects of an earlier drawing.
 struct Comparison {
-  /// By object now, its number in the earlier drawing; kChanged where it is new or another.
+  /// By object now, its number in the earlier drawing; model::kNoObject where it is new or another.
   std::vector<std::uint32_t> before;
   std::vector<geometry::Box3l> left;  ///< where objects were that are gone or others now
   bool same_numbers = true;           ///< each object that stayed has the number that it had
@@ -22,6 +23,11 @@ struct Comparison {
   /// Returns whether all is as it was.
   [[nodiscard]] bool nothing() const { return left.empty() && changed == 0; }
 };
+
+/// Makes others of objects that stayed, as far as they have another hatch. `boxes`: of the earlier
+/// drawing. Where one of the two has no hatches at all, all are others.
+void tell_hatches_apart(std::span<const Hatch> earlier, std::span<const Hatch> now,
+                        std::span<const geometry::Box3l> boxes, Comparison& comparison);
 
 /// Compares by a mapping and the boxes of earlier objects, see EarlierDrawing. Lines of an object
 /// are numbered in the order of the objects that it meets: of objects that changed places in the

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -19,6 +21,8 @@
 #include "hlr/visibility/specks.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/hlr/incremental.hpp"
+#include "strake/hlr/steps.hpp"
+#include "strake/parallel/report.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -26,9 +30,8 @@ namespace {
 constexpr std::string_view kMostOfIt = "what changed reaches most of the drawing";
 
 /// Returns why a view is drawn in full whatever changed; empty where it is not.
-std::string_view reason_for_all(const View& view, const Options& options) {
+std::string_view reason_for_all(const Options& options) {
   if (options.solver != Solver::gather) return "only the solver 'gather' follows changes";
-  if (!view.sections.empty()) return "hatches of sections depend on their neighbours";
   if (!options.flush_seams) return "which seams are flush depends on neighbours";
   return {};
 }
@@ -38,6 +41,7 @@ bool describes_all(const EarlierDrawing& earlier) {
   const std::size_t objects = earlier.now.size();
   return earlier.boxes.size() == objects && drawing.counted.size() == objects &&
          drawing.account.fates.size() == objects &&
+         (drawing.hatches.empty() || drawing.hatches.size() == objects) &&
          drawing.left_out.size() == (drawing.options.hidden ? 0 : objects);
 }
 
@@ -66,8 +70,10 @@ Result<Drawing> draw_part(const ChangedView& changed, const Reach& reach,
   WholeView whole = changed.whole;
   whole.tessellation = part.plan(changed.tessellation);
   whole.asked = reach.asked;
-  const Result<ViewJob> job =
-      prepare_view({part.scene, reach.needed, changed.view, changed.options, &whole}, context);
+  const Result<ViewJob> job = [&] {
+    const parallel::StageTimer timer(context.report, kPreparationStep);
+    return prepare_view({part.scene, reach.needed, changed.view, changed.options, &whole}, context);
+  }();
   if (!job) return job.error();
   Drawing drawing;
   drawing.options = changed.options;
@@ -117,13 +123,18 @@ Diagnostics without_defects(const Diagnostics& all) {
   return left;
 }
 
+/// Returns whether a drawing has reports that name objects, those of defects aside.
+bool names_objects(const Drawing& drawing) {
+  return !without_defects(drawing.diagnostics).counts().empty();
+}
+
 /// All is as it was: but objects may have other names.
 Redrawn draw_nothing(const Request& request, Drawing earlier) {
   Redrawn redrawn{.drawing = std::move(earlier)};
   Drawing& drawing = redrawn.drawing;
   drawing.counters = {.seams = drawing.counters.seams,
                       .uncut_objects = drawing.counters.uncut_objects};
-  drawing.diagnostics = without_defects(drawing.diagnostics);
+  drawing.diagnostics = {};
   fill_head(request, drawing);
   return redrawn;
 }
@@ -143,22 +154,48 @@ Result<Redrawn> put_together(const ChangedView& changed, const Reach& reach, Dra
   redrawn.edges_solved = part.counters.feature_edges;
   redrawn.objects_solved = static_cast<std::uint64_t>(std::ranges::count(reach.asked, true));
   drawing.counters = part.counters;
-  drawing.diagnostics = std::move(part.diagnostics);
+  drawing.diagnostics = changed.sections ? changed.sections->diagnostics : Diagnostics();
+  drawing.diagnostics.append(std::move(part.diagnostics));
+  drawing.counters.uncut_objects = changed.sections ? changed.sections->uncut_objects : 0;
+  drawing.hatches = changed.sections ? changed.sections->hatches : std::vector<Hatch>();
   drawing.origin = part.origin;
   drawing.sag_mm = sag_of(changed);
   fill_head({changed.scene, changed.drawn, changed.view, changed.options}, drawing);
   return redrawn;
 }
 
-Result<Redrawn> draw_what_changed(const Request& request, const Comparison& comparison,
-                                  Drawing earlier, const parallel::Context& context) {
+/// Cuts all that is drawn where the view has sections.
+Result<std::optional<WholeSections>> find_sections(const Request& request,
+                                                   const parallel::Context& context) {
   const auto& [scene, drawn, view, options] = request;
+  if (view.sections.empty()) return std::optional<WholeSections>();
+  const parallel::StageTimer timer(context.report, kPreparationStep);
+  auto sections = prepare_sections({scene, drawn, view, options}, context);
+  if (!sections) return sections.error();
+  return std::optional(std::move(*sections));
+}
+
+/// What became of objects, and the drawing that they are in.
+struct Earlier {
+  Comparison comparison;
+  Drawing drawing;
+  std::span<const geometry::Box3l> boxes;  ///< as of EarlierDrawing
+};
+
+Result<Redrawn> draw_what_changed(const Request& request, Earlier earlier,
+                                  const parallel::Context& context) {
+  const auto& [scene, drawn, view, options] = request;
+  auto sections = find_sections(request, context);
+  if (!sections) return sections.error();
+  if (*sections)
+    tell_hatches_apart(earlier.drawing.hatches, (*sections)->hatches, earlier.boxes,
+                       earlier.comparison);
   const auto seen_by = tessellation_of(view, options);
   if (!seen_by) return seen_by.error();
   const model::ViewTessellation plan = plan_view_tessellation(scene, drawn, *seen_by);
   const auto shapes = shape_extents(scene, context);
   if (!shapes) return shapes.error();
-  const auto boxes = object_extents(scene, drawn, *shapes, context);
+  const auto boxes = object_extents(scene, drawn, view, *shapes, context);
   if (!boxes) return boxes.error();
   const auto extent = drawn_extent(scene, drawn, *shapes, *seen_by, plan, options, context);
   if (!extent) return extent.error();
@@ -167,12 +204,15 @@ Result<Redrawn> draw_what_changed(const Request& request, const Comparison& comp
                             view,
                             options,
                             *boxes,
-                            comparison,
+                            earlier.comparison,
                             plan,
                             {.box = extent->box,
                              .longest_side = static_cast<double>(extent->longest_side),
                              .tessellation = {},
-                             .asked = {}}};
+                             .hatches = *sections ? std::span<const Hatch>((*sections)->hatches)
+                                                  : std::span<const Hatch>(),
+                             .asked = {}},
+                            std::move(*sections)};
   const auto reach = find_reach(changed, context);
   if (reach && reach->most) return draw_all(request, kMostOfIt, context);
   auto part = reach ? draw_part(changed, *reach, context) : Result<Drawing>(reach.error());
@@ -181,10 +221,12 @@ Result<Redrawn> draw_what_changed(const Request& request, const Comparison& comp
     // Limits of a part are others than those of the whole.
     return draw_all(request, "what changed cannot be drawn alone", context);
   }
-  auto redrawn = put_together(changed, *reach, std::move(*part), std::move(earlier), context);
+  auto redrawn =
+      put_together(changed, *reach, std::move(*part), std::move(earlier.drawing), context);
   if (redrawn)
     redrawn->drawing.contact_distance_mm =
-        static_cast<double>(extent->contact) * geometry::kMmPerGrid;
+        changed.sections ? changed.sections->contact_distance_mm
+                         : static_cast<double>(extent->contact) * geometry::kMmPerGrid;
   return redrawn;
 }
 
@@ -198,13 +240,14 @@ Result<Redrawn> draw_changes(const model::Scene& scene, const std::vector<bool>&
   if (!describes_all(earlier))
     return Error{ErrorCode::usage, "the earlier drawing and what is said of it differ in size",
                  "view", "give a number and a box for each object of that drawing"};
-  const auto comparison = compare_objects(earlier.now, earlier.boxes, scene.model->objects.size());
+  auto comparison = compare_objects(earlier.now, earlier.boxes, scene.model->objects.size());
   if (!comparison) return comparison.error();
-  if (comparison->nothing() && comparison->same_numbers)
+  if (comparison->nothing() && comparison->same_numbers && !names_objects(earlier.drawing))
     return draw_nothing(request, std::move(earlier.drawing));
-  if (const std::string_view why = reason_for_all(view, options); !why.empty())
+  if (const std::string_view why = reason_for_all(options); !why.empty())
     return draw_all(request, why, context);
-  return draw_what_changed(request, *comparison, std::move(earlier.drawing), context);
+  return draw_what_changed(
+      request, {std::move(*comparison), std::move(earlier.drawing), earlier.boxes}, context);
 }
 
 }  // namespace strake::hlr

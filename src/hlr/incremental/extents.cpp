@@ -24,6 +24,8 @@ constexpr std::size_t kBodiesPerItem = 4096;
 /// a quarter longer, within 1.6 times as much; snapping moves the corners of both by less than one.
 constexpr double kSags = 3;
 constexpr std::int64_t kSnaps = 4;
+/// Hatch lines lie on a section plane, off which rounding moves the rims of caps by 1.5 at most.
+constexpr std::int64_t kBeyondCaps = 4;
 
 ShapeExtent extent_of(const model::GridShape& shape) {
   ShapeExtent extent;
@@ -94,8 +96,9 @@ Result<std::vector<ShapeExtent>> shape_extents(const model::Scene& scene,
 }
 
 Result<std::vector<Box3l>> object_extents(const model::Scene& scene, const std::vector<bool>& drawn,
-                                          std::span<const ShapeExtent> shapes,
+                                          const View& view, std::span<const ShapeExtent> shapes,
                                           const parallel::Context& context) {
+  const std::int64_t beyond = view.sections.empty() ? 0 : kBeyondCaps;
   return parallel::transform(
       context,
       {.name = "extents of objects", .n = scene.model->objects.size(), .grain = kBodiesPerItem},
@@ -105,7 +108,7 @@ Result<std::vector<Box3l>> object_extents(const model::Scene& scene, const std::
         for (const model::GridBody& body :
              scene.bodies_of(model::ObjectId{static_cast<std::uint32_t>(o)})) {
           const Box3l outer = shapes[body.grid_shape].outer();
-          if (!outer.empty()) box.include(outer.moved(body.origin));
+          if (!outer.empty()) box.include(outer.moved(body.origin).inflated(beyond));
         }
         return box;
       });

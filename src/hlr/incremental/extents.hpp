@@ -29,11 +29,11 @@ struct ShapeExtent {
 [[nodiscard]] Result<std::vector<ShapeExtent>> shape_extents(const model::Scene& scene,
                                                              const parallel::Context& context);
 
-/// Returns the outer boxes of the objects that are drawn (`drawn` empty: all); empty for the
-/// others. Errors: cancelled.
+/// Returns the outer boxes of the objects that are drawn (`drawn` empty: all) and of the lines that
+/// a view adds to them; empty for the others. Errors: cancelled.
 [[nodiscard]] Result<std::vector<geometry::Box3l>> object_extents(
-    const model::Scene& scene, const std::vector<bool>& drawn, std::span<const ShapeExtent> shapes,
-    const parallel::Context& context);
+    const model::Scene& scene, const std::vector<bool>& drawn, const View& view,
+    std::span<const ShapeExtent> shapes, const parallel::Context& context);
 
 /// The box of all that is drawn, as the view tessellates it, and the longest side of a body.
 struct DrawnExtent {

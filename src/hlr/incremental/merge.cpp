@@ -32,7 +32,7 @@ std::vector<Stretch> stretches_of(const Comparison& comparison, const std::vecto
   const auto& before = comparison.before;
   for (std::uint32_t o = 0; o < before.size(); ++o) {
     const bool fresh = asked[o];
-    if (!fresh && before[o] == kChanged) continue;
+    if (!fresh && before[o] == model::kNoObject) continue;
     Stretch* const last = all.empty() ? nullptr : &all.back();
     const bool goes_on = last != nullptr && last->fresh == fresh && last->last == o &&
                          (fresh || before[o] == last->before + (o - last->first));
@@ -67,11 +67,11 @@ std::vector<Run> runs_of(std::span<const Stretch> stretches, std::span<const T> 
   return runs;
 }
 
-/// Returns by earlier number the number now; kChanged for those that are gone.
+/// Returns by earlier number the number now; model::kNoObject for those that are gone.
 std::vector<std::uint32_t> numbers_now(const Comparison& comparison, std::size_t earlier) {
-  std::vector<std::uint32_t> now(earlier, kChanged);
+  std::vector<std::uint32_t> now(earlier, model::kNoObject);
   for (std::uint32_t o = 0; o < comparison.before.size(); ++o)
-    if (comparison.before[o] != kChanged) now[comparison.before[o]] = o;
+    if (comparison.before[o] != model::kNoObject) now[comparison.before[o]] = o;
   return now;
 }
 
@@ -149,7 +149,7 @@ std::vector<T> merged(const Comparison& comparison, const std::vector<bool>& ask
     const std::uint32_t before = comparison.before[o];
     if (asked[o])
       now[o] = fresh[o];
-    else if (before != kChanged)
+    else if (before != model::kNoObject)
       now[o] = earlier[before];
   }
   return now;
@@ -191,7 +191,7 @@ Status merge_account(const model::Scene& scene, const std::vector<bool>& drawn,
   std::vector<Defect> kept, defects;
   for (Defect defect : account.defects) {
     const std::uint32_t object = now[model::index(defect.object)];
-    if (object == kChanged || anew.asked[object]) continue;
+    if (object == model::kNoObject || anew.asked[object]) continue;
     defect.object = model::ObjectId{object};
     kept.push_back(defect);
   }

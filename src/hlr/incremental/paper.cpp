@@ -20,7 +20,6 @@ using geometry::Vec3l;
 constexpr std::int64_t kHeldByDouble = std::int64_t{1} << 52;
 /// Coordinates on paper stay below this: see prepare_view().
 constexpr double kFarthest = 1152921504606846976.0;  // 2^60
-constexpr double kRoundingShare = 1e-12;             // of rounding
 
 std::array<Vec3l, 8> corners_of(const Box3l& box, const Vec3l& origin) {
   std::array<Vec3l, 8> corners;
@@ -117,18 +116,6 @@ SegmentQuery Paper::orthographic(const ViewPoint& a, const ViewPoint& b) const {
   return query;
 }
 
-SegmentQuery Paper::anything_in(const ViewBox& box) {
-  const LooseBox loose = rounded_outwards(box);
-  SegmentQuery query;
-  query.u0 = loose.u0;
-  query.u1 = loose.u1;
-  query.v0 = loose.v0;
-  query.v1 = loose.v1;
-  const auto deepest = static_cast<double>(box.lo.w);
-  query.w0 = deepest - kRoundingShare * std::abs(deepest);
-  return query;
-}
-
 Hideable::Hideable(std::vector<SegmentQuery> queries) : queries_(std::move(queries)) {
   std::vector<ViewBox> boxes;
   boxes.reserve(queries_.size());
@@ -139,7 +126,7 @@ Hideable::Hideable(std::vector<SegmentQuery> queries) : queries_(std::move(queri
 bool Hideable::may_be_hidden_by(const ViewBox& box) const {
   if (box.empty()) return false;
   const LooseBox hides = rounded_outwards(box);
-  SegmentQuery query = Paper::anything_in(box);
+  SegmentQuery query = anything_in(box);
   query.w0 = -hides.w1;
   bool found = false;
   tree_.traverse(query, [&](std::uint32_t i) {

@@ -32,9 +32,6 @@ class Paper {
   [[nodiscard]] std::optional<SegmentQuery> edge(const geometry::Vec3l& a,
                                                  const geometry::Vec3l& b) const;
 
-  /// Returns a query for what may hide anything in a box on paper.
-  [[nodiscard]] static SegmentQuery anything_in(const ViewBox& box);
-
  private:
   [[nodiscard]] SegmentQuery orthographic(const ViewPoint& a, const ViewPoint& b) const;
 

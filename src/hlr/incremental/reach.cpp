@@ -38,7 +38,7 @@ class SolidBoxes {
   template <class Visit>
   void for_each_that_meets(const Box3l& box, Visit&& visit) const {
     if (box.empty()) return;
-    tree_.traverse(Paper::anything_in(as_view_box(box)),
+    tree_.traverse(anything_in(as_view_box(box)),
                    [&](std::uint32_t i) { return !boxes_[i].meets(box) || visit(i); });
   }
   [[nodiscard]] bool any_meets(const Box3l& box) const {
@@ -115,7 +115,7 @@ class ReachSearch {
 
  private:
   [[nodiscard]] bool is_changed(std::size_t object) const {
-    return changed_.comparison.before[object] == kChanged;
+    return changed_.comparison.before[object] == model::kNoObject;
   }
 
   [[nodiscard]] std::vector<Box3l> changed_boxes() const {
@@ -149,8 +149,8 @@ class ReachSearch {
     if (is_changed(o) || (crosses_ && changes_.any_meets(box))) return Concern::sure;
     if (!hides_ || box.empty()) return Concern::none;
     const ViewBox on_paper = paper_.box_of(box.inflated(kRounded));
-    return !on_paper.empty() && is_under_changes(Paper::anything_in(on_paper)) ? Concern::maybe
-                                                                               : Concern::none;
+    return !on_paper.empty() && is_under_changes(anything_in(on_paper)) ? Concern::maybe
+                                                                        : Concern::none;
   }
 
   [[nodiscard]] Result<std::vector<Concern>> find_concerns() const {
@@ -251,7 +251,7 @@ class ReachSearch {
     std::vector<SegmentQuery> queries;
     for (const Crossing& crossing : *crossings) {
       reach.needed[crossing.object] = true;
-      if (!crossing.box.empty()) queries.push_back(Paper::anything_in(crossing.box));
+      if (!crossing.box.empty()) queries.push_back(anything_in(crossing.box));
     }
     for (const ObjectEdges& one : edges)
       if (reach.asked[one.object])

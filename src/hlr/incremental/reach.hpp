@@ -29,6 +29,7 @@ struct ChangedView {
   const Comparison& comparison;
   const model::ViewTessellation& tessellation;
   WholeView whole;
+  std::optional<WholeSections> sections;  ///< of views with sections
 
   [[nodiscard]] bool draws(std::size_t object) const { return drawn.empty() || drawn[object]; }
 };

@@ -11,7 +11,6 @@
 #include "hlr/incremental/extents.hpp"
 #include "hlr/incremental/shape_hash.hpp"
 #include "hlr/prepare/drawn_objects.hpp"
-#include "hlr/prepare/view_diagnostics.hpp"
 #include "hlr/prepare/view_job.hpp"
 #include "hlr/view/projection.hpp"
 #include "strake/hlr/incremental.hpp"
@@ -24,7 +23,7 @@ using geometry::Vec3l;
 
 constexpr std::size_t kObjectsPerBlock = 1024;
 /// To be raised when the same scene and view give another drawing than before.
-constexpr std::uint32_t kRulesOfDrawing = 1;
+constexpr std::uint32_t kRulesOfDrawing = 2;
 
 void add(Hasher& hasher, const Vec3l& v) { hasher.add(v.x).add(v.y).add(v.z); }
 
@@ -71,13 +70,11 @@ class ObjectWords {
         options_(options),
         shapes_(shapes),
         plan_(plan),
-        sees_colours_(!options.flush_seams || !view.sections.empty()),
-        sees_names_(view.perspective || !view.sections.empty()) {}
+        sees_colours_(!options.flush_seams || !view.sections.empty()) {}
 
   void add(std::vector<std::uint64_t>& words, std::uint32_t object) const {
     const model::ObjectId id{object};
     words.push_back(scene_.model->object(id).body_count > 0 ? 1 : 0);
-    if (sees_names_) add(words, object_text(*scene_.model, id));
     add_lacking(words, id);
     add_section_rules(words, object);
     for (const model::GridBody& body : scene_.bodies_of(id)) add(words, body);
@@ -136,7 +133,7 @@ class ObjectWords {
   const Options& options_;
   std::span<const HashedShape> shapes_;
   const model::ViewTessellation& plan_;
-  bool sees_colours_, sees_names_;  ///< reports on sections and the eye tell names
+  bool sees_colours_;
 };
 
 }  // namespace
@@ -157,7 +154,7 @@ Result<Signatures> signatures(const model::Scene& scene, const std::vector<bool>
   const model::ViewTessellation plan = plan_view_tessellation(scene, drawn, *seen_by);
   const auto extents = shape_extents(scene, context);
   if (!extents) return extents.error();
-  auto boxes = object_extents(scene, drawn, *extents, context);
+  auto boxes = object_extents(scene, drawn, view, *extents, context);
   if (!boxes) return boxes.error();
   result.boxes = std::move(*boxes);
   const auto shapes = hash_shapes(scene, context);

@@ -291,22 +291,26 @@ void add_body(const ViewJob& job, std::span<const SectionPlane> planes, std::uin
 
 }  // namespace
 
-Result<std::vector<Line>> hatch_lines(const ViewJob& job, std::span<const SectionPlane> planes,
-                                      const parallel::Context& context) {
+Result<std::vector<Hatch>> choose_hatches(const ViewJob& job, std::span<const SectionPlane> planes,
+                                          const parallel::Context& context) {
+  if (planes.empty() || job.options.hatch_spacing_mm == 0) return std::vector<Hatch>{};
   const double side_mm = largest_side(job);
-  if (planes.empty() || job.options.hatch_spacing_mm == 0 || side_mm == 0)
-    return std::vector<Line>{};
+  if (side_mm == 0) return std::vector<Hatch>{};
   const double usual_mm = job.options.hatch_spacing_mm < 0 ? usual_number(side_mm / kUsualShare)
                                                            : job.options.hatch_spacing_mm;
   if (const Status status = check(job, usual_mm, side_mm); !status) return status.error();
-  const auto hatches =
-      choose_hatches(*job.scene, job.seen, job.contact, job.options.hatches, usual_mm, context);
-  if (!hatches) return hatches.error();
+  return choose_hatches(*job.scene, job.seen, job.contact, job.options.hatches, usual_mm, context);
+}
+
+Result<std::vector<Line>> hatch_lines(const ViewJob& job, std::span<const SectionPlane> planes,
+                                      const parallel::Context& context) {
+  if (job.hatches.empty()) return std::vector<Line>{};
   return parallel::collect<Line>(
       context, {.name = "sections: hatch", .n = job.scene->bodies.size(), .grain = 16},
       [&](std::size_t b, std::vector<Line>& out) {
         const model::ObjectId object = job.scene->bodies[b].object;
-        add_body(job, planes, static_cast<std::uint32_t>(b), (*hatches)[model::index(object)], out);
+        add_body(job, planes, static_cast<std::uint32_t>(b), job.hatches[model::index(object)],
+                 out);
       });
 }
 

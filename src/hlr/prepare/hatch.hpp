@@ -56,8 +56,14 @@ class HatchGrid {
   std::int64_t step_ = 1;                   ///< difference of that constant from line to line
 };
 
-/// Returns the hatch lines on the caps that look towards the viewer, by body. Errors: a spacing or
-/// an angle that makes no sense (usage), cancelled.
+/// Returns the hatch of each object of a job, see choose_hatches(); nothing where none is wanted.
+/// Errors: a spacing or an angle that makes no sense (usage), cancelled.
+[[nodiscard]] Result<std::vector<Hatch>> choose_hatches(const ViewJob& job,
+                                                        std::span<const SectionPlane> planes,
+                                                        const parallel::Context& context);
+
+/// Returns the hatch lines on the caps that look towards the viewer, by body, in the job's
+/// hatches. Errors: cancelled.
 [[nodiscard]] Result<std::vector<Line>> hatch_lines(const ViewJob& job,
                                                     std::span<const SectionPlane> planes,
                                                     const parallel::Context& context);

@@ -246,11 +246,12 @@ Result<model::ViewTessellationOptions> tessellation_of(const View& view, const O
   return seen_by;
 }
 
-Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& context) {
+namespace {
+
+/// Checks what is asked for, and places the bodies.
+Result<ViewJob> begin_job(const ViewInput& input, const parallel::Context& context) {
   const auto& [scene, drawn, view, options, whole] = input;
   if (const Status status = check(view, options); !status) return status.error();
-  const auto planes = section_planes(view.sections);
-  if (!planes) return planes.error();
   if (const Status status = check_drawn(scene, drawn); !status) return status.error();
   if (const Status status = check_drawn(scene, options.uncut); !status) return status.error();
 
@@ -273,24 +274,63 @@ Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& co
   job.scene = job.own ? job.own.get() : &scene;
   fill_bodies(job);
   if (const Status status = place(job, whole); !status) return status.error();
-  const auto crossings =
-      find_intersection_lines(*job.scene, job.drawn, job.contact,
-                              {options.intersections, job.cos_sharp, job.asked}, context);
-  if (!crossings) return crossings.error();
-  job.counters.crossing_pairs = crossings->pairs;
-  job.counters.crossing_tests = crossings->tests;
-  job.uncut = find_uncut(*job.scene, job.drawn, options.uncut, *planes);
+  return job;
+}
+
+/// Cuts the bodies by the section planes, and chooses hatches where the whole did not.
+Status cut_bodies(ViewJob& job, std::span<const SectionPlane> planes, const WholeView* whole,
+                  const parallel::Context& context) {
+  job.uncut = find_uncut(*job.scene, job.drawn, job.options.uncut, planes);
   job.counters.uncut_objects = static_cast<std::uint64_t>(std::ranges::count(job.uncut, true));
-  auto seen = make_sectioned_shapes(*job.scene, job.drawn, job.uncut, *planes, context);
+  auto seen = make_sectioned_shapes(*job.scene, job.drawn, job.uncut, planes, context);
   if (!seen) return seen.error();
   job.seen = std::move(*seen);
   widen_contact(job);
+  if (whole != nullptr) {
+    job.hatches.assign(whole->hatches.begin(), whole->hatches.end());
+    return {};
+  }
+  auto hatches = choose_hatches(job, planes, context);
+  if (!hatches) return hatches.error();
+  job.hatches = std::move(*hatches);
+  return {};
+}
+
+}  // namespace
+
+Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& context) {
+  const auto planes = section_planes(input.view.sections);
+  if (!planes) return planes.error();
+  auto begun = begin_job(input, context);
+  if (!begun) return begun.error();
+  ViewJob job = std::move(*begun);
+  const auto crossings =
+      find_intersection_lines(*job.scene, job.drawn, job.contact,
+                              {job.options.intersections, job.cos_sharp, job.asked}, context);
+  if (!crossings) return crossings.error();
+  job.counters.crossing_pairs = crossings->pairs;
+  job.counters.crossing_tests = crossings->tests;
+  if (const Status status = cut_bodies(job, *planes, input.whole, context); !status)
+    return status.error();
   auto lines = derive_lines(job, crossings->all, *planes, context);
   if (!lines) return lines.error();
   job.lines = std::move(*lines);
-  job.diagnostics = report_sections(*job.scene, job.drawn, job.seen, *planes);
+  if (input.whole == nullptr)
+    job.diagnostics = report_sections(*job.scene, job.drawn, job.seen, *planes);
   job.diagnostics.append(report_eye(job));
   return job;
+}
+
+Result<WholeSections> prepare_sections(const ViewInput& input, const parallel::Context& context) {
+  const auto planes = section_planes(input.view.sections);
+  if (!planes) return planes.error();
+  auto job = begin_job(input, context);
+  if (!job) return job.error();
+  if (const Status status = cut_bodies(*job, *planes, nullptr, context); !status)
+    return status.error();
+  return WholeSections{std::move(job->hatches), job->contact_distance_mm,
+                       job->counters.uncut_objects,
+                       report_sections(*job->scene, job->drawn, job->seen, *planes)};
 }
 
 }  // namespace strake::hlr

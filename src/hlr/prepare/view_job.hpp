@@ -77,6 +77,7 @@ struct ViewJob {
   double contact_distance_mm = 0;         ///< the largest contact distance
   std::vector<bool> uncut;                ///< per object: sections leave it whole; or empty
   SectionedShapes seen;
+  std::vector<Hatch> hatches;  ///< per object; empty: nothing is hatched
   Lines lines;
   Counters counters;  ///< counters of the preparation
   Diagnostics diagnostics;
@@ -115,11 +116,12 @@ struct ViewJob {
 };
 
 /// What the preparation of a part of what is drawn takes from the whole, so that what it says of
-/// the part is what the whole would say. Of views without sections.
+/// the part is what the whole would say. Sections are reported for the whole alone.
 struct WholeView {
   geometry::Box3l box = geometry::empty_box<std::int64_t>();  ///< of all that is drawn
   double longest_side = 0;                                    ///< of the boxes of its bodies
   model::ViewTessellation tessellation;                       ///< for the shapes of the part
+  std::span<const Hatch> hatches;                             ///< by object; as ViewJob::hatches
   /// By object: its lines are wanted. What else is drawn of the part only hides.
   std::vector<bool> asked;
 };
@@ -137,6 +139,18 @@ struct ViewInput {
 /// the origin and the intersection lines, and cuts shapes by the section planes.
 [[nodiscard]] Result<ViewJob> prepare_view(const ViewInput& input,
                                            const parallel::Context& context);
+
+/// What sections make of all that is drawn, where it takes the whole to tell.
+struct WholeSections {
+  std::vector<Hatch> hatches;      ///< as ViewJob::hatches
+  double contact_distance_mm = 0;  ///< as ViewJob::contact_distance_mm
+  std::uint64_t uncut_objects = 0;
+  Diagnostics diagnostics;  ///< reports on sections
+};
+
+/// Cuts all that is drawn, without looking for lines. Errors: those of prepare_view().
+[[nodiscard]] Result<WholeSections> prepare_sections(const ViewInput& input,
+                                                     const parallel::Context& context);
 
 /// Returns how a view has the primitives of a scene tessellated. Errors: those of section_planes().
 [[nodiscard]] Result<model::ViewTessellationOptions> tessellation_of(const View& view,

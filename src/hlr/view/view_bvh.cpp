@@ -30,6 +30,20 @@ LooseBox rounded_outwards(const ViewBox& box) {
   return {below(box.lo.u), above(box.hi.u), below(box.lo.v), above(box.hi.v), above(box.hi.w)};
 }
 
+SegmentQuery anything_in(const ViewBox& box) {
+  constexpr double kRoundingShare =
+      1e-12;  // of the depth, far above what rounding to a double takes
+  const LooseBox loose = rounded_outwards(box);
+  SegmentQuery query;
+  query.u0 = loose.u0;
+  query.u1 = loose.u1;
+  query.v0 = loose.v0;
+  query.v1 = loose.v1;
+  const auto deepest = static_cast<double>(box.lo.w);
+  query.w0 = deepest - kRoundingShare * std::abs(deepest);
+  return query;
+}
+
 // Median splits of the longer side on paper: depth is at most log2(n), so the stack of
 // traverse_boxes() suffices.
 ViewBvh::ViewBvh(std::span<const ViewBox> boxes, std::uint32_t leaf_size) {

@@ -36,6 +36,9 @@ struct SegmentQuery {
   }
 };
 
+/// Returns a query for what may hide anything in a box.
+[[nodiscard]] SegmentQuery anything_in(const ViewBox& box);
+
 /// A bounding-volume hierarchy over view boxes, traversed front to back where that has a meaning.
 class ViewBvh {
  public:

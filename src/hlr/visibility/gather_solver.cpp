@@ -10,9 +10,12 @@
 #include <vector>
 
 #include "hlr/prepare/view_job.hpp"
+#include "hlr/visibility/step_shares.hpp"
 #include "hlr/visibility/visibility_scene.hpp"
+#include "strake/hlr/steps.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/report.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -40,8 +43,9 @@ void add(LineCount& lines, const SolverWork& work) {
   lines.specks += static_cast<std::uint32_t>(work.specks);
 }
 
-void OccluderGatherer::start(const EdgeRange& item) {
+void OccluderGatherer::start(const EdgeRange& item, bool times_own) {
   item_ = &item;
+  times_own_ = times_own;
   neighbours_ = Neighbours::not_searched;
   item_box_ = {};
   if (item.lines || visibility_.perspective_map) return;
@@ -121,9 +125,16 @@ std::span<const OcclusionInterval> OccluderGatherer::intervals_of_own_body(const
   return intervals_;
 }
 
+void OccluderGatherer::gather_own_objects() {
+  if (!times_own_) return gather_own_objects_untimed();
+  const Stopwatch watch;
+  gather_own_objects_untimed();
+  work.own_s += watch.seconds();
+}
+
 // Hidden-by-self takes precedence, so the own object comes first and, unless it hides the
 // edge wholly, completely. Decision 0066 says why it hides none of its wires unless asked to.
-void OccluderGatherer::gather_own_objects() {
+void OccluderGatherer::gather_own_objects_untimed() {
   if (job_.spares_own(edge_.kind) || job_.options.stage == Stage::none) return;
   if (edge_.feature != nullptr && edge_.own->opaque) gather_own_body();
   gather_object(edge_.own->object);
@@ -200,20 +211,14 @@ bool OccluderGatherer::find_neighbours() {
   neighbours_ = Neighbours::too_many;
   if (item_box_.empty()) return false;
   const std::uint32_t own = visibility_.placed[item_->body].object;
-  const LooseBox own_box = rounded_outwards(item_box_);
-  SegmentQuery any;
-  any.u0 = own_box.u0;
-  any.u1 = own_box.u1;
-  any.v0 = own_box.v0;
-  any.v1 = own_box.v1;
-  const auto deepest = static_cast<double>(item_box_.lo.w);
-  any.w0 = deepest - 1e-12 * std::abs(deepest);
   near_.clear();
   bool few = true;
-  visibility_.tree.traverse_boxes(any, [&](std::uint32_t body, const LooseBox& its) {
-    if (visibility_.placed[body].object != own) near_.push_back({its, body});
-    return few = near_.size() <= kFewNeighbours;
-  });
+  visibility_.tree.traverse_boxes(anything_in(item_box_),
+                                  [&](std::uint32_t body, const LooseBox& its) {
+                                    if (visibility_.placed[body].object != own)
+                                      near_.push_back({its, body});
+                                    return few = near_.size() <= kFewNeighbours;
+                                  });
   if (!few) return false;
   std::ranges::sort(near_, [](const Neighbour& x, const Neighbour& y) {
     return x.box.w1 != y.box.w1 ? x.box.w1 > y.box.w1 : x.body < y.body;
@@ -436,12 +441,9 @@ EdgePieceBuilder::Absent EdgePieceBuilder::finish(std::uint32_t number,
   return {leave_out_unwanted(visibility_.job.options, first, out), specks};
 }
 
-}  // namespace strake::hlr
-
 // The engine: every edge gathers what hides it, front to back, and stops when nothing of it is
 // left to be seen. No edge writes to another, so there are no locks and no order to wait for.
 
-namespace strake::hlr {
 namespace {
 
 /// Solves the edges of items; for one worker.
@@ -450,12 +452,14 @@ class Drawer {
   Drawer(const VisibilityScene& visibility, const SpeckRule& rule)
       : visibility_(visibility), gatherer_(visibility), piece_builder_(visibility, rule) {}
 
-  SolverWork run(const EdgeRange& item, std::vector<EdgePiece>& out) {
-    gatherer_.start(item);
+  SolverWork run(const EdgeRange& item, bool timed, std::vector<EdgePiece>& out) {
+    const Stopwatch watch;
+    gatherer_.start(item, timed);
     if (item.lines)
       run_lines(item, out);
     else
       run_edges(item, out);
+    if (timed) gatherer_.work.timed_s = watch.seconds();
     return std::exchange(gatherer_.work, {});
   }
 
@@ -526,6 +530,7 @@ void append_self_occlusion(const VisibilityScene& visibility, OccluderGatherer& 
 /// Computes once what the faces of shared shapes hide of their own edges.
 Status compute_self_occlusion(VisibilityScene& visibility, const parallel::Context& context,
                               Counters& counters) {
+  const parallel::StageTimer timer(context.report, kLocalStep);
   const std::vector<EdgeRange> items = self_occlusion_ranges(visibility);
   struct OwnPart {
     SelfOcclusion intervals;
@@ -551,6 +556,10 @@ Status compute_self_occlusion(VisibilityScene& visibility, const parallel::Conte
     all.first.push_back(static_cast<std::uint32_t>(all.intervals.size()));
     add(counters, parts[i].work);
   }
+  counters.shared_shapes =
+      static_cast<std::uint64_t>(std::ranges::count(items, 0U, &EdgeRange::first));
+  counters.shared_bodies = static_cast<std::uint64_t>(
+      std::ranges::count(visibility.placed, true, &BodyInstance::shares_self_occlusion));
   return {};
 }
 
@@ -564,21 +573,26 @@ Status solve_gather(const ViewJob& job, const parallel::Context& context, Drawin
   const VisibilityScene& visibility = *made;
   const SpeckRule rule(job);
   std::vector<SolverWork> work(visibility.items.size());
+  const StepShares shares(context.report, job.options.stage, work.size());
   Result<std::vector<EdgePiece>> pieces = parallel::collect_with<EdgePiece>(
       context, {.name = "hidden lines: edges", .n = visibility.items.size()},
       [&] { return Drawer(visibility, rule); },
       [&](Drawer& drawer, std::size_t i, std::vector<EdgePiece>& out) {
-        work[i] = drawer.run(visibility.items[i], out);
+        work[i] = drawer.run(visibility.items[i], shares.times(i), out);
       });
   if (!pieces) return pieces.error();
   drawing.pieces = std::move(pieces).value();
+  double own_s = 0, timed_s = 0;
   for (std::size_t i = 0; i < work.size(); ++i) {
+    own_s += work[i].own_s;
+    timed_s += work[i].timed_s;
     const std::uint32_t object = visibility.placed[visibility.items[i].body].object;
     add(drawing.counters, work[i]);
     add(drawing.counted[object], work[i]);
     if (work[i].left_out > 0)
       drawing.left_out[object] += static_cast<std::uint32_t>(work[i].left_out);
   }
+  shares.report(own_s, timed_s);
   return {};
 }
 

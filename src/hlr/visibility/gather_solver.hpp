@@ -17,6 +17,7 @@ namespace strake::hlr {
 
 struct SolverWork {
   std::uint64_t edges = 0, covered = 0, tests = 0, wide_tests = 0, left_out = 0, specks = 0;
+  double own_s = 0, timed_s = 0;  ///< of timed items: in tests against their own objects, and all
 };
 
 /// Adds the work to the counters that are no sums over objects (sum_up_lines()).
@@ -33,7 +34,8 @@ class OccluderGatherer {
       : visibility_(visibility), job_(visibility.job) {}
 
   /// Announces that the next queries are for the edges of an item, which must outlive them.
-  void start(const EdgeRange& item);
+  /// `times_own`: what tests against its own object take is added to the work.
+  void start(const EdgeRange& item, bool times_own = false);
 
   /// Returns whether the occlusion buffer hides every edge of the item that is no point on paper,
   /// not cut away and not seen through its own object. It decides nothing where it matters who
@@ -80,6 +82,7 @@ class OccluderGatherer {
 
   void begin(const EdgeQuery& edge, const RationalParam& lo, const RationalParam& hi);
   void gather_own_objects();
+  void gather_own_objects_untimed();
   void gather_object(std::uint32_t object);
   void gather_others();
   bool find_neighbours();
@@ -127,6 +130,7 @@ class OccluderGatherer {
   };
   enum class Neighbours : std::uint8_t { not_searched, found, too_many };
   const EdgeRange* item_ = nullptr;
+  bool times_own_ = false;
   ViewBox item_box_;  ///< of its edges; empty for lines, and in perspective
   Neighbours neighbours_ = Neighbours::too_many;
   std::vector<Neighbour> near_;  ///< the nearest to the viewer first

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -18,10 +19,12 @@
 #include "hlr/visibility/gather_solver.hpp"
 #include "hlr/visibility/visibility_intervals.hpp"
 #include "hlr/visibility/visibility_scene.hpp"
+#include "strake/hlr/steps.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/item_locks.hpp"
 #include "strake/parallel/marks.hpp"
+#include "strake/parallel/report.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -190,6 +193,7 @@ Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing&
     OccluderGatherer gatherer;
     EdgePieceBuilder builder;
   };
+  std::optional<parallel::StageTimer> timer(std::in_place, context.report, kLocalStep);
   const Status local = parallel::for_each_with(
       context, {.name = "push: local step", .n = objects.size()},
       [&] { return Local{OccluderGatherer(visibility), EdgePieceBuilder(visibility, rule)}; },
@@ -200,7 +204,9 @@ Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing&
         work[o] = std::exchange(own.gatherer.work, {});
       });
   if (!local) return local;
+  timer.reset();
   if (job.options.stage == Stage::global) {
+    timer.emplace(context.report, kGlobalStep);
     const ViewBvh tree = tree_of(objects);
     parallel::ItemLocks locks(objects.size());
     const std::vector<std::uint32_t> order = nearest_first(visibility);
@@ -211,6 +217,7 @@ Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing&
           work[objects.size() + body] = pusher.run(static_cast<std::uint32_t>(body));
         });
     if (!global) return global;
+    timer.reset();
   }
   Result<std::vector<EdgePiece>> pieces = parallel::collect_with<EdgePiece>(
       context, {.name = "push: pieces", .n = objects.size()},

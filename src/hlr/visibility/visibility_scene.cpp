@@ -10,8 +10,10 @@
 
 #include "hlr/edges/element_loop.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/hlr/steps.hpp"
 #include "strake/parallel/distinct.hpp"
 #include "strake/parallel/pieces.hpp"
+#include "strake/parallel/report.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -48,6 +50,7 @@ double nearest_depth(const ViewJob& job) {
 
 /// Projects each shape for all bodies that share it; in perspective, for each body.
 Status project_shapes(VisibilityScene& visibility, const parallel::Context& context) {
+  const parallel::StageTimer timer(context.report, kLocalStep);
   const ViewJob& job = visibility.job;
   const model::Scene& scene = *job.scene;
   const std::size_t shapes = visibility.perspective_map ? scene.bodies.size() : job.seen.all.size();
@@ -246,6 +249,8 @@ Result<VisibilityScene> make_visibility_scene(const ViewJob& job,
   VisibilityScene visibility(job);
   if (job.view.perspective) visibility.perspective_map.emplace(job.view, nearest_depth(job));
   if (const Status status = project_shapes(visibility, context); !status) return status.error();
+  const parallel::StageTimer timer(context.report,
+                                   job.options.stage == Stage::global ? kGlobalStep : kLocalStep);
   if (const Status status = place_bodies(visibility, context); !status) return status.error();
   if (job.options.culling && job.options.stage != Stage::none && !visibility.perspective_map)
     mark_shared_self_occlusion(visibility);

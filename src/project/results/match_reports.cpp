@@ -41,7 +41,7 @@ std::vector<FormerPair> former_pairs(const std::vector<Pair>& pairs, ReportMatch
   former.reserve(pairs.size());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const std::uint32_t a = match.now_of[index(pairs[i].a)], b = match.now_of[index(pairs[i].b)];
-    if (a == kGone || b == kGone)
+    if (a == model::kNoObject || b == model::kNoObject)
       match.different.push_back({i, std::nullopt});
     else
       former.push_back({std::min(a, b), std::max(a, b), i});
@@ -69,9 +69,9 @@ Result<ReportMatch> match_reports(const StoredTest& before, const Snapshot& now,
   Result<std::vector<std::uint32_t>> now_of = same_objects(before.snapshot, now, context);
   if (!now_of) return now_of.error();
   match.now_of = std::move(*now_of);
-  match.before_of.assign(now.identities.size(), kGone);
+  match.before_of.assign(now.identities.size(), model::kNoObject);
   for (std::uint32_t o = 0; o < match.now_of.size(); ++o)
-    if (match.now_of[o] != kGone) match.before_of[match.now_of[o]] = o;
+    if (match.now_of[o] != model::kNoObject) match.before_of[match.now_of[o]] = o;
   match.rows.assign(report.pairs.size(), 0);
   const clash::Report& earlier = before.results.report;
   const std::vector<FormerPair> former = former_pairs(earlier.pairs, match);

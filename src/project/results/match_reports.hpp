@@ -21,8 +21,9 @@ struct PairMatch {
 
 /// What differs between the results of two runs of one test.
 struct ReportMatch {
-  std::vector<std::uint32_t> now_of;     ///< of each object of the earlier run; kGone: not there
-  std::vector<std::uint32_t> before_of;  ///< of each object now; kGone: it was not there
+  std::vector<std::uint32_t>
+      now_of;  ///< of each object of the earlier run; model::kNoObject: not there
+  std::vector<std::uint32_t> before_of;  ///< of each object now; model::kNoObject: it was not there
   std::vector<std::int64_t> rows;        ///< of each result now; 0: it had none
   std::vector<PairMatch> different;      ///< results that measure something else, came or went
 };

@@ -77,7 +77,7 @@ void join(std::span<const Identified> then, std::span<const Identified> now, con
 /// Objects are ordered by what identities are hashes of: where all of these are as they were, so
 /// are their numbers.
 std::vector<std::uint32_t> unchanged_in_place(const Snapshot& then, const Snapshot& now) {
-  std::vector<std::uint32_t> now_of(then.identities.size(), kGone);
+  std::vector<std::uint32_t> now_of(then.identities.size(), model::kNoObject);
   for (std::uint32_t o = 0; o < now_of.size(); ++o)
     if (then.signatures[o] == now.signatures[o]) now_of[o] = o;
   return now_of;
@@ -109,7 +109,7 @@ Result<std::vector<std::uint32_t>> unchanged(const Snapshot& then, const Snapsho
       context, {.name = "identities by lots", .n = 2},
       [&](std::size_t side) { return IdentityLots(side == 0 ? then.identities : now.identities); });
   if (!lots) return lots.error();
-  std::vector<std::uint32_t> now_of(then.identities.size(), kGone);
+  std::vector<std::uint32_t> now_of(then.identities.size(), model::kNoObject);
   const Status status = parallel::for_each(
       context, {.name = "unchanged objects", .n = IdentityLots::kLots}, [&](std::size_t lot) {
         join((*lots)[0].sorted(lot), (*lots)[1].sorted(lot), then, now, now_of);

@@ -33,11 +33,8 @@ void rename_objects(Snapshot& snapshot, const NewIdentities& renamed);
 [[nodiscard]] Result<std::vector<std::uint64_t>> identities(const model::Model& model,
                                                             const parallel::Context& context);
 
-/// No object.
-inline constexpr std::uint32_t kGone = 0xffffffffU;
-
-/// Returns for each object of `then` its number in `now`: kGone where none has its identity and
-/// signature. Identities that are not unique match nothing.
+/// Returns for each object of `then` its number in `now`: model::kNoObject where none has its
+/// identity and signature. Identities that are not unique match nothing.
 [[nodiscard]] Result<std::vector<std::uint32_t>> unchanged(const Snapshot& then,
                                                            const Snapshot& now,
                                                            const parallel::Context& context);

@@ -18,7 +18,7 @@ namespace strake::project {
 
 namespace {
 
-constexpr std::uint64_t kDrawingForm = 1;
+constexpr std::uint64_t kDrawingForm = 2, kFormWithoutHatches = 1;
 constexpr std::size_t kMostOf32Bits = std::size_t{1} << 32U;
 
 /// Appends the numbers that `get` takes from each item, `each` to an item.
@@ -86,6 +86,7 @@ void write_lines(BlobWriter& out, const hlr::Drawing& drawing) {
   write_column(out, counted, 2, [](const hlr::LineCount& count, std::size_t k) {
     return static_cast<std::int64_t>(k == 0 ? count.edges : count.specks);
   });
+  write(out, std::span<const hlr::Hatch>(drawing.hatches));
   write_curves(out, drawing.curves);
   write_pieces(out, drawing.pieces);
 }
@@ -123,7 +124,8 @@ void write(BlobWriter& out, const hlr::Drawing& drawing) {
 
 Result<hlr::Drawing> read_drawing(BlobReader& in, const parallel::Context& context) {
   hlr::Drawing drawing;
-  if (in.number() != kDrawingForm)
+  const std::uint64_t form = in.number();
+  if (form != kDrawingForm && form != kFormWithoutHatches)
     in.refuse("a drawing is of a form that this version cannot read");
   drawing.view = read_view(in);
   drawing.options = read_options(in);
@@ -140,6 +142,9 @@ Result<hlr::Drawing> read_drawing(BlobReader& in, const parallel::Context& conte
   if (!drawing.left_out.empty() && drawing.left_out.size() != objects)
     in.refuse("columns are not of one length");
   drawing.counted = read_line_counts(in, objects);
+  if (form == kDrawingForm) drawing.hatches = read_hatches(in);
+  if (!drawing.hatches.empty() && drawing.hatches.size() != objects)
+    in.refuse("columns are not of one length");
   drawing.curves = read_curves(in, objects);
   Result<std::vector<hlr::EdgePiece>> pieces = read_pieces(in, objects, context);
   if (!pieces) return pieces.error();

@@ -101,6 +101,26 @@ hlr::View read_view(BlobReader& in) {
   return view;
 }
 
+void write(BlobWriter& out, std::span<const hlr::Hatch> hatches) {
+  std::vector<double> values;
+  values.reserve(hatches.size() * 2);
+  for (const hlr::Hatch& hatch : hatches) {
+    values.push_back(hatch.angle_deg);
+    values.push_back(hatch.spacing_mm);
+  }
+  out.reals(values);
+}
+
+std::vector<hlr::Hatch> read_hatches(BlobReader& in) {
+  const std::vector<double> values = in.column<double>();
+  if (values.size() % 2 != 0) in.refuse("a hatch has no spacing");
+  std::vector<hlr::Hatch> hatches;
+  hatches.reserve(values.size() / 2);
+  for (std::size_t h = 0; h + 1 < values.size(); h += 2)
+    hatches.push_back({values[h], values[h + 1]});
+  return hatches;
+}
+
 void write(BlobWriter& out, const hlr::Options& options) {
   write_enum(out, options.stage);
   write_enum(out, options.solver);
@@ -116,12 +136,7 @@ void write(BlobWriter& out, const hlr::Options& options) {
   out.number(options.hidden ? 1 : 0);
   out.number(options.keep_specks ? 1 : 0);
   out.real(options.hatch_spacing_mm);
-  std::vector<double> hatches;
-  for (const hlr::Hatch& hatch : options.hatches) {
-    hatches.push_back(hatch.angle_deg);
-    hatches.push_back(hatch.spacing_mm);
-  }
-  out.reals(hatches);
+  write(out, std::span<const hlr::Hatch>(options.hatches));
   out.flags(options.uncut);
 }
 
@@ -145,10 +160,7 @@ hlr::Options read_options(BlobReader& in) {
   options.hidden = in.number() != 0;
   options.keep_specks = in.number() != 0;
   options.hatch_spacing_mm = read_finite(in);
-  const std::vector<double> hatches = in.column<double>();
-  if (hatches.size() % 2 != 0) in.refuse("a hatch has no spacing");
-  for (std::size_t h = 0; h + 1 < hatches.size(); h += 2)
-    options.hatches.push_back({hatches[h], hatches[h + 1]});
+  options.hatches = read_hatches(in);
   options.uncut = in.flags();
   return options;
 }

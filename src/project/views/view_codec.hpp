@@ -17,6 +17,9 @@ void write(BlobWriter& out, const geometry::Vec3l& vector);
 void write(BlobWriter& out, const hlr::View& view);
 [[nodiscard]] hlr::View read_view(BlobReader& in);
 
+void write(BlobWriter& out, std::span<const hlr::Hatch> hatches);
+[[nodiscard]] std::vector<hlr::Hatch> read_hatches(BlobReader& in);
+
 void write(BlobWriter& out, const hlr::Options& options);
 [[nodiscard]] hlr::Options read_options(BlobReader& in);
 

@@ -42,7 +42,7 @@ std::vector<std::uint32_t> mapped(const Earlier& earlier, const EditedInputs& in
     const auto at = numbers.find(earlier.identities[o]);
     const bool same =
         at != numbers.end() && now.objects[at->second] == earlier.signatures.objects[o];
-    map.push_back(same ? at->second : kChanged);
+    map.push_back(same ? at->second : model::kNoObject);
   }
   return map;
 }

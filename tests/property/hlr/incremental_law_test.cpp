@@ -76,6 +76,7 @@ std::string difference(const Drawing& a, const Drawing& b) {
     return text;
   if (a.left_out != b.left_out) return "edges left out";
   if (a.counted != b.counted) return "lines counted";
+  if (a.hatches != b.hatches) return "hatches";
   if (a.origin != b.origin) return "origin";
   if (a.account.fates != b.account.fates) return "fates";
   if (a.account.count != b.account.count) return "counts of fates";
@@ -107,7 +108,8 @@ hlr::View some_view(Draw& draw) {
     view.direction = direction;
     view.perspective = {.eye = eye, .target = target, .near_mm = 1};
   }
-  if (draw.one_in(12)) view.sections.push_back({{0, 1, 0}, {0, 4 * kMm, 0}});
+  if (draw.one_in(3)) view.sections.push_back({{0, 1, 0}, {0, 4 * kMm + draw.whole(0, 2), 0}});
+  if (draw.one_in(6)) view.sections.push_back({{1, -2, 9}, {60 * kMm, 4 * kMm, 5 * kMm}});
   return view;
 }
 
@@ -124,7 +126,19 @@ hlr::Options some_options(Draw& draw) {
   if (draw.one_in(4)) options.own_polylines = hlr::OwnPolylines::hidden;
   if (draw.one_in(3)) options.sag_mm = 0.02;
   if (draw.one_in(16)) options.flush_seams = false;
+  if (draw.one_in(4)) options.hatch_spacing_mm = draw.one_in(3) ? 0 : 0.75;
   options.culling = !draw.one_in(6);
+  return options;
+}
+
+/// Gives some objects a hatch, and has sections leave some whole: always the same ones.
+hlr::Options with_rules(hlr::Options options, const ChangingModel& changing) {
+  for (const test::ChangingObject& one : changing.objects()) {
+    options.uncut.push_back(one.identity % 7 == 3);
+    options.hatches.emplace_back();
+    if (one.identity % 5 == 1) options.hatches.back().angle_deg = 30;
+    if (one.identity % 9 == 2) options.hatches.back().spacing_mm = one.identity % 2 == 0 ? 0 : 2;
+  }
   return options;
 }
 
@@ -134,6 +148,7 @@ struct Seen {
   model::Scene scene;
   std::vector<bool> drawn;
   std::vector<std::uint64_t> identities;
+  hlr::Options options;
   hlr::Signatures signatures;
 };
 
@@ -145,6 +160,7 @@ Seen seen(const ChangingModel& changing, const hlr::View& view, const hlr::Optio
   state.drawn = changing.drawn();
   for (const test::ChangingObject& one : changing.objects())
     state.identities.push_back(one.identity);
+  state.options = options;
   state.signatures = hlr::signatures(state.scene, state.drawn, view, options, context).value();
   return state;
 }
@@ -157,7 +173,7 @@ std::vector<std::uint32_t> mapped(const Seen& before, const Seen& now) {
     const auto found = number.find(before.identities[o]);
     const bool stays = found != number.end() &&
                        before.signatures.objects[o] == now.signatures.objects[found->second];
-    result.push_back(stays ? found->second : hlr::kChanged);
+    result.push_back(stays ? found->second : model::kNoObject);
   }
   return result;
 }
@@ -170,24 +186,26 @@ TEST(IncrementalLaw, AfterAnyEditsTheDrawingIsThatMadeAnew) {
   std::vector<std::unique_ptr<parallel::Team>> teams;
   for (const unsigned threads : kThreads)
     teams.push_back(std::make_unique<parallel::Team>(threads));
-  std::uint64_t followed = 0, solved = 0, all = 0;
+  std::uint64_t followed = 0, sectioned = 0, solved = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= kSequences; ++seed) {
     Draw draw(seed);
     ChangingModel changing(seed * 77, 12 + draw.below(50));
     const hlr::View view = some_view(draw);
     const hlr::Options options = some_options(draw);
-    Seen before = seen(changing, view, options, {});
-    auto drawing = hlr::draw(before.scene, before.drawn, view, options, {});
+    const bool has_rules = draw.one_in(2);
+    const auto rules = [&] { return has_rules ? with_rules(options, changing) : options; };
+    Seen before = seen(changing, view, rules(), {});
+    auto drawing = hlr::draw(before.scene, before.drawn, view, before.options, {});
     ASSERT_TRUE(drawing.has_value()) << "seed " << seed << ": " << drawing.error().message;
     for (std::uint64_t step = 0; step < kSteps; ++step) {
       changing.edit();
       const parallel::Context context{.team = teams[(seed + step) % teams.size()].get()};
-      Seen now = seen(changing, view, options, context);
+      Seen now = seen(changing, view, rules(), context);
       ASSERT_EQ(now.signatures.view, before.signatures.view);
-      const auto full = hlr::draw(now.scene, now.drawn, view, options, {});
+      const auto full = hlr::draw(now.scene, now.drawn, view, now.options, {});
       const std::vector<std::uint32_t> numbers = mapped(before, now);
       auto redrawn =
-          hlr::draw_changes(now.scene, now.drawn, view, options,
+          hlr::draw_changes(now.scene, now.drawn, view, now.options,
                             {std::move(*drawing), numbers, before.signatures.boxes}, context);
       ASSERT_EQ(full.has_value(), redrawn.has_value()) << "seed " << seed << ", step " << step;
       if (!full) break;
@@ -196,6 +214,7 @@ TEST(IncrementalLaw, AfterAnyEditsTheDrawingIsThatMadeAnew) {
       ASSERT_EQ(redrawn->in_full, !redrawn->why.empty());
       if (!redrawn->in_full) {
         ++followed;
+        if (!view.sections.empty() && redrawn->edges_solved > 0) ++sectioned;
         solved += redrawn->edges_solved;
         all += full->counters.feature_edges;
       }
@@ -204,6 +223,7 @@ TEST(IncrementalLaw, AfterAnyEditsTheDrawingIsThatMadeAnew) {
     }
   }
   EXPECT_GT(2 * followed, kSequences * kSteps);
+  EXPECT_GT(8 * sectioned, kSequences * kSteps);
   EXPECT_LT(3 * solved, all);
 }
 
@@ -243,6 +263,21 @@ TEST(IncrementalLaw, LinesFarFromAllEdgesFollow) {
   EXPECT_FALSE(redrawn.in_full);
 }
 
+/// Three blocks in a row are cut. The hatch of each differs from that of the one before: when the
+/// first is gone, both others have another one, and the third is not near the first.
+TEST(IncrementalLaw, HatchesFollowWhatIsFarFromThem) {
+  ChangingModel changing(1, 0);
+  for (int i = 0; i < 3; ++i) add_box(changing, {10.0 * i, 0, 0}, {10.0 * (i + 1), 10, 10});
+  for (int i = 0; i < 20; ++i) add_box(changing, {1000.0 + 10 * i, 0, 0}, {1005.0 + 10 * i, 5, 4});
+  hlr::View view{.direction = {0, 0, 1}};
+  view.sections.push_back({{0, 0, 1}, {0, 0, 5000}});
+  const Seen before = seen(changing, view, {}, {});
+  changing.objects()[0].bodies[0].placement.translation = {0, 50, 0};
+  const hlr::Redrawn redrawn = followed(before, seen(changing, view, {}, {}), view);
+  EXPECT_EQ(redrawn.objects_solved, 3U);
+  EXPECT_FALSE(redrawn.in_full);
+}
+
 /// The report on a solid around the eye names it, whatever changed.
 TEST(IncrementalLaw, TheSolidAroundTheEyeIsReported) {
   ChangingModel changing(1, 0);
@@ -252,7 +287,10 @@ TEST(IncrementalLaw, TheSolidAroundTheEyeIsReported) {
   const Seen before = seen(changing, view, {}, {});
   changing.objects()[0].name = "another name";
   const Seen renamed = seen(changing, view, {}, {});
-  EXPECT_EQ(followed(before, renamed, view).drawing.diagnostics.count("eye-in-solid"), 1U);
+  const hlr::Redrawn of_names = followed(before, renamed, view);
+  EXPECT_EQ(of_names.drawing.diagnostics.count("eye-in-solid"), 1U);
+  EXPECT_EQ(of_names.edges_solved, 0U);
+  EXPECT_FALSE(of_names.in_full);
   // Behind the eye nothing is drawn, and nothing can be hidden.
   changing.objects()[9].bodies[0].placement.translation = {0, -50, 0};
   const Seen behind = seen(changing, view, {}, {});

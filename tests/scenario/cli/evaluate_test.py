@@ -166,6 +166,43 @@ class Evaluate(unittest.TestCase):
         self.assertIn('(chart-distribution-4.svg)', page)
         self.assertTrue((self.folder / 'studies' / 'chart-distribution-4.svg').is_file())
 
+    def test_existing_views_cost_what_changed(self):
+        done = subprocess.run([STRAKE, 'evaluate', '--scale', '0.001', '--threads', '1,2', '--repeat', '1', '--only',
+                               'existing-view', '-o', 'views'],
+                              capture_output=True, text=True, cwd=self.folder, timeout=500)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        record = self.record('views')
+        jsonschema.validate(record, json.loads((SCHEMAS / 'evaluation.schema.json').read_text(encoding='utf-8')))
+        study, = record['studies']
+        self.assertEqual(study['differences'], [])
+        rows = [dict(zip(study['columns'], row, strict=True)) for row in study['rows']]
+        states = ('new view', 'unchanged', 'one object moved', 'one in a thousand moved', '1 % added')
+        self.assertEqual([row['State'] for row in rows], list(states) * 13)
+        for row in rows:
+            with self.subTest(row=row):
+                self.assertEqual(row['Equal'], '-' if row['State'] == 'new view' else 'yes')
+                self.assertGreater(float(row["Thesis's way s"]), 0)
+                if row['State'] == 'new view':
+                    everything = int(row['Edges solved'])
+                    self.assertGreater(float(row['Local s']), 0)
+                    self.assertGreater(float(row['Global s']), 0)
+                    self.assertRegex(row['Note'], r'^[1-9]\d* instances share' if row['View'] != 'Whole ship, perspective'
+                                     else r'^0 instances')
+                elif row['State'] == 'unchanged':
+                    self.assertEqual((row['Changed'], row['Solved'], row['Edges solved']), ('0', '0', '0'))
+                elif row['State'] == 'one object moved':
+                    self.assertEqual((row['Changed'], row['Note']), ('1', ''))
+                    self.assertLess(5 * int(row['Edges solved']), everything)
+        chart, = study['charts']
+        self.assertEqual([len(series['values']) for series in chart['series']], [13] * 6)
+        page = (self.folder / 'views' / 'evaluation.md').read_text(encoding='utf-8')
+        self.assertIn('(chart-existing-view-1.svg)', page)
+        self.assertIn('<svg', (self.folder / 'views' / 'evaluation.html').read_text(encoding='utf-8'))
+        with (self.folder / 'views' / 'evaluation-studies.csv').open(encoding='utf-8', newline='') as file:
+            cells = list(csv.DictReader(file))
+        # A quote keeps spreadsheets from taking a dash for a formula.
+        self.assertEqual([cell['value'].lstrip("'") for cell in cells], [cell for row in study['rows'] for cell in row])
+
     def worker_charts(self, study, count):
         self.assertEqual(len(study['charts']), count)
         for chart in study['charts']:

@@ -50,17 +50,19 @@ class ProjectDraw(Scenario):
 
     def test_a_view_is_solved_once(self):
         self.fresh(*VIEW)
-        self.assertRegex(self.save(*VIEW), r"view 'hall': .*edges? of 30 objects solved in ")
+        self.assertRegex(self.save(*VIEW), r"view 'hall': new view: .*edges? of 30 objects solved in ")
         for name in ('json', 'svg', 'view'):
             self.same(f'p.{name}', f'f.{name}')
         told = self.told('--stored', 'hall', '--stats', '-o', 'a.json', '-o', 'a.svg', '-o', 'a.view')
-        self.assertRegex(told, r"view 'hall': none of 30 objects changed, nothing solved again, \d+ edges kept")
+        self.assertRegex(told, r"view 'hall': existing view, unchanged: none of 30 objects changed, nothing solved again, "
+                         r"\d+ edges kept")
+        self.assertRegex(told, r'no local and no global step; [\d.]+ s to find what changed, [\d.]+ s to read')
         self.assertIn('signatures', told)
         for name in ('json', 'svg', 'view'):
             self.same(f'a.{name}', f'f.{name}')
         # Defined again alike, it is not solved again either.
         self.assertIn('nothing solved again', self.save(*VIEW))
-        self.assertRegex(self.told('--stored', 'hall', '--full'), r'in full, as asked: .* solved in')
+        self.assertRegex(self.told('--stored', 'hall', '--full'), r'view in full: as asked: .* solved in')
         self.assertIn('hall', self.text('project', 'list', 'p.strake', 'views'))
 
     def test_what_changed_is_solved(self):
@@ -69,11 +71,55 @@ class ProjectDraw(Scenario):
             self.update(moved)
             self.fresh(*VIEW)
             told = self.told('--stored', 'hall', '--verify', '-o', 'a.json', '-o', 'a.svg', '-o', 'a.view')
-            self.assertRegex(told, r"view 'hall': (1 of 30 objects changed, .* edges? solved again in |.* solved in )")
+            self.assertRegex(told, r"view 'hall': (existing view with changes: 1 of 30 objects changed, .* edges? solved again in |"
+                             r'view in full: .* solved in )')
             self.assertIn('the same lines in full', told)
             for name in ('json', 'svg', 'view'):
                 self.same(f'a.{name}', f'f.{name}')
             self.assertIn('nothing solved again', self.told('--stored', 'hall'))
+
+    def figures(self, *arguments):
+        """The statistics of a run, which are the last line of standard error."""
+        return json.loads(self.told(*arguments, '--stats', '--json').splitlines()[-1])
+
+    def test_what_it_did_and_what_it_cost_is_told(self):
+        self.fresh(*VIEW)
+        self.assertRegex(self.save(*VIEW), r'[\d.]+ s of preparation, [\d.]+ s of the local step for 30 objects, of which '
+                                           r'\d+ instances share results, [\d.]+ s of the global step for 30 objects; ')
+        kept = self.figures('--stored', 'hall')
+        self.assertEqual(kept['words']['view'], 'existing view, unchanged')
+        for name in ('objects changed', 'objects solved locally', 'objects solved globally', 'edges solved'):
+            self.assertEqual(kept['counters'][name], 0, name)
+        self.update(-60)
+        changed = self.figures('--stored', 'hall')
+        self.assertIn(changed['words']['view'], ('existing view with changes', 'view in full'))
+        self.assertEqual(changed['counters']['objects changed'], 1)
+        self.assertGreater(changed['counters']['objects solved locally'], 0)
+        self.assertTrue({'view preparation', 'local hidden lines', 'global hidden lines'} <=
+                        {stage['name'] for stage in changed['stages']})
+        # A view that is not global has no global step; another view is new.
+        local = self.figures('--save', 'hall', '--view', 'iso', '--stage', 'local')
+        self.assertEqual(local['words']['view'], 'new view')
+        self.assertEqual(local['counters']['objects solved locally'], 30)
+        self.assertEqual(local['counters']['objects solved globally'], 0)
+        self.assertNotIn('global hidden lines', {stage['name'] for stage in local['stages']})
+
+    def test_sections_and_eyes_follow_changes(self):
+        for view in (('--view', 'top', '--section', 'z=50mm'), ('--eye', '-500,-900,700', '--target', '300,300,0')):
+            self.update(0)
+            self.save(*view)
+            (self.folder / 'm.obj').rename(self.folder / 'b.obj')
+            self.text('project', 'update', 'p.strake', 'b.obj', '--match-files', 'm.obj=b.obj')
+            self.assertIn('nothing solved again', self.told('--stored', 'hall', '--verify'))
+            self.write('b.obj', hall(20))
+            self.text('project', 'update', 'p.strake')
+            told = self.told('--stored', 'hall', '--verify', '-o', 'a.json')
+            self.assertIn('existing view with changes: 1 of 30 objects changed', told)
+            self.assertIn('the same lines in full', told)
+            self.text('draw', 'b.obj', *WAYS, *view, '-o', 'f.json')
+            self.same('a.json', 'f.json')
+            (self.folder / 'b.obj').rename(self.folder / 'm.obj')
+            self.text('project', 'update', 'p.strake', 'm.obj', '--match-files', 'b.obj=m.obj')
 
     def test_a_file_of_another_name_is_not_solved_again(self):
         self.save(*VIEW)

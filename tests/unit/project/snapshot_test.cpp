@@ -19,13 +19,15 @@ Snapshot snapshot(const std::vector<std::uint64_t>& identities,
 TEST(Snapshot, knows_objects_that_moved_in_the_order) {
   const Snapshot then = snapshot({7, 1, 9, 3}, {70, 10, 90, 30});
   const Snapshot now = snapshot({3, 2, 7, 9}, {30, 20, 71, 90});
-  EXPECT_EQ(unchanged(then, now, {}).value(), (std::vector<std::uint32_t>{kGone, kGone, 3, 0}));
+  EXPECT_EQ(unchanged(then, now, {}).value(),
+            (std::vector<std::uint32_t>{model::kNoObject, model::kNoObject, 3, 0}));
 }
 
 TEST(Snapshot, takes_no_object_for_one_of_several_with_its_identity) {
   const Snapshot twice = snapshot({5, 5, 6}, {1, 1, 2}), once = snapshot({5, 6}, {1, 2});
-  EXPECT_EQ(unchanged(twice, once, {}).value(), (std::vector<std::uint32_t>{kGone, kGone, 1}));
-  EXPECT_EQ(unchanged(once, twice, {}).value(), (std::vector<std::uint32_t>{kGone, 2}));
+  EXPECT_EQ(unchanged(twice, once, {}).value(),
+            (std::vector<std::uint32_t>{model::kNoObject, model::kNoObject, 1}));
+  EXPECT_EQ(unchanged(once, twice, {}).value(), (std::vector<std::uint32_t>{model::kNoObject, 2}));
 }
 
 TEST(Snapshot, refuses_one_that_lacks_signatures) {
@@ -48,7 +50,7 @@ TEST(Snapshot, maps_many_as_a_plain_search_does) {
   }
   const std::vector<std::uint32_t> mapped = unchanged(then, now, {}).value();
   for (std::size_t i = 0; i < then.identities.size(); ++i) {
-    std::uint32_t expected = kGone;
+    std::uint32_t expected = model::kNoObject;
     for (std::uint32_t o = 0; o < now.identities.size(); ++o)
       if (now.identities[o] == then.identities[i] && now.signatures[o] == then.signatures[i])
         expected = o;
