@@ -215,13 +215,15 @@ class Engine {
 
   Status finish(Report& report) const {
     if (const Status s = rules_.finish_report(context_, report); !s) return s.error();
-    const ElementHashes elements(*scene_.model);
-    if (report.kept)
-      if (const Status s = keep_elements(elements, *report.kept); !s) return s;
-    const auto sum = sum_of_hashes(report, elements, context_);
+    auto elements = hash_elements();
+    if (!elements) return elements.error();
+    const auto sum = sum_of_hashes(report, *elements, context_);
     if (!sum) return sum.error();
     report.hash = result_hash(*sum, report.pairs.size());
-    if (report.kept) report.kept->hash_sum = *sum;
+    if (report.kept) {
+      report.kept->hash_sum = *sum;
+      report.kept->elements = std::move(*elements);
+    }
     if (const Status s = fill_counters(evaluated(), objects_, rules_, context_, report); !s)
       return s.error();
     const auto widest = pair_tolerances_.widest_band(list_.parts, context_);
@@ -237,17 +239,20 @@ class Engine {
                                                        : Status{};
   }
 
-  /// Fills KeptForChanges::elements, but for objects that the run does not ask about.
-  Status keep_elements(const ElementHashes& elements, KeptForChanges& kept) const {
+  /// Returns KeptForChanges::elements, without those of objects that the run does not ask about.
+  [[nodiscard]] Result<std::vector<std::uint64_t>> hash_elements() const {
     constexpr std::size_t kGrain = 4096;
-    kept.elements.resize(scene_.model->objects.size());
-    const std::size_t n = changed_ == nullptr ? kept.elements.size() : changed_->asked.size();
-    return parallel::for_each(
+    const ElementHashes elements(*scene_.model);
+    std::vector<std::uint64_t> low(scene_.model->objects.size());
+    const std::size_t n = changed_ == nullptr ? low.size() : changed_->asked.size();
+    const Status hashed = parallel::for_each(
         context_, {.name = "hashes of ids", .n = n, .grain = kGrain}, [&](std::size_t i) {
           const std::uint32_t o =
               changed_ == nullptr ? static_cast<std::uint32_t>(i) : changed_->asked[i];
-          kept.elements[o] = elements.of(o).low;
+          low[o] = elements.of(o).low;
         });
+    if (!hashed) return hashed.error();
+    return low;
   }
 
   const model::Scene& scene_;

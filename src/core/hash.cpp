@@ -13,31 +13,37 @@
 namespace strake {
 
 struct Hasher::State {
-  XXH3_state_t xxh;    // holds its own alignment, which operator new obeys
-  bool begun = false;  ///< whether anything went into it: most hashes are of less than waits here
   /// What has been added last: XXH3 takes long runs several times faster than single numbers.
   std::array<std::byte, 1024> waiting;
   std::size_t size = 0;
-
-  State() {}  // NOLINT(modernize-use-equals-default): that would fill a kilobyte with zeros
+  /// What came before it. Most sequences are short and never need it: it is large, and aligned so
+  /// that an allocation of it costs more than hashing two names.
+  std::unique_ptr<XXH3_state_t> before;
 
   void add(std::span<const std::byte> bytes) {
     if (bytes.size() > waiting.size() - size) {
-      if (!begun) XXH3_128bits_reset(&xxh);
-      begun = true;
-      XXH3_128bits_update(&xxh, waiting.data(), size);
+      take(std::span(waiting).first(size));
       size = 0;
     }
     if (bytes.size() > waiting.size()) {
-      XXH3_128bits_update(&xxh, bytes.data(), bytes.size());
+      take(bytes);
     } else {
       std::ranges::copy(bytes, waiting.begin() + static_cast<std::ptrdiff_t>(size));
       size += bytes.size();
     }
   }
+
+ private:
+  void take(std::span<const std::byte> bytes) {
+    if (before == nullptr) {
+      before = std::make_unique<XXH3_state_t>();
+      XXH3_128bits_reset(before.get());
+    }
+    XXH3_128bits_update(before.get(), bytes.data(), bytes.size());
+  }
 };
 
-Hasher::Hasher() : state_(std::make_unique<State>()) {}
+Hasher::Hasher() : state_(std::make_unique_for_overwrite<State>()) {}
 Hasher::~Hasher() = default;
 Hasher::Hasher(Hasher&&) noexcept = default;
 Hasher& Hasher::operator=(Hasher&&) noexcept = default;
@@ -66,10 +72,11 @@ Hasher& Hasher::add(std::span<const std::byte> bytes) {
 }
 
 Hash128 Hasher::value() const {
-  if (!state_->begun) return hash_bytes(std::span(state_->waiting).first(state_->size));
-  State all = *state_;
-  XXH3_128bits_update(&all.xxh, all.waiting.data(), all.size);
-  const XXH128_hash_t hash = XXH3_128bits_digest(&all.xxh);
+  const auto waiting = std::span(state_->waiting).first(state_->size);
+  if (state_->before == nullptr) return hash_bytes(waiting);
+  XXH3_state_t all = *state_->before;
+  XXH3_128bits_update(&all, waiting.data(), waiting.size());
+  const XXH128_hash_t hash = XXH3_128bits_digest(&all);
   return {hash.high64, hash.low64};
 }
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "strake/parallel/detail/large_pages.hpp"
+#include "strake/parallel/detail/first_touch.hpp"
 
 namespace strake::parallel {
 

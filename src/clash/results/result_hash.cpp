@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,15 +71,15 @@ Hash128 sum(const Hash128& x, const Hash128& y) { return {x.high + y.high, x.low
 
 Hash128 difference(const Hash128& x, const Hash128& y) { return {x.high - y.high, x.low - y.low}; }
 
-Result<Hash128> sum_of_hashes(const Report& report, const ElementHashes& elements,
+Result<Hash128> sum_of_hashes(const Report& report, std::span<const std::uint64_t> elements,
                               const parallel::Context& context) {
   return parallel::reduce(
       context, {.name = "hash of results", .n = report.pairs.size(), .grain = kHashGrain},
       Hash128{},
       [&](Hash128& partial, std::size_t i) {
         const Pair& pair = report.pairs[i];
-        partial = sum(partial, hash_of(pair, report, elements.of(index(pair.a)).low,
-                                       elements.of(index(pair.b)).low));
+        partial =
+            sum(partial, hash_of(pair, report, elements[index(pair.a)], elements[index(pair.b)]));
       },
       [](Hash128& into, const Hash128& partial) { into = sum(into, partial); });
 }

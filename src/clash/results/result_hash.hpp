@@ -4,6 +4,7 @@
 // Decision 0070 says why the hash of a result is a sum over its pairs.
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,8 +36,10 @@ class ElementHashes {
 [[nodiscard]] Hash128 sum(const Hash128& x, const Hash128& y);
 [[nodiscard]] Hash128 difference(const Hash128& x, const Hash128& y);
 
-/// Returns the sum of the hashes of all pairs of a report. Errors: cancelled.
-[[nodiscard]] Result<Hash128> sum_of_hashes(const Report& report, const ElementHashes& elements,
+/// Returns the sum of the hashes of all pairs of a report; `elements` are the low words of the
+/// ElementHashes of its objects. Errors: cancelled.
+[[nodiscard]] Result<Hash128> sum_of_hashes(const Report& report,
+                                            std::span<const std::uint64_t> elements,
                                             const parallel::Context& context);
 
 /// Returns the hexadecimal hash of a result from that sum, and the number of pairs in it.

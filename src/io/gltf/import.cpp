@@ -19,6 +19,7 @@
 #include "io/source/reader_support.hpp"
 #include "io/source/units_and_axes.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/marks.hpp"
 
 namespace strake::io::gltf {
 namespace {
@@ -122,13 +123,17 @@ Status Importer::visit_nodes() {
     return error;
   }
   visits_ = std::move(*order);
-  std::vector<bool> used(meshes_.size());
-  for (const VisitedNode& visit : visits_) {
-    const GltfNode& node = nodes_[visit.node];
-    if (node.mesh && *node.mesh < meshes_.size()) used[*node.mesh] = true;
-  }
+  constexpr std::size_t kGrain = 4096;
+  parallel::Marks used(meshes_.size());
+  const Status marked = parallel::for_each(
+      input_.context, {.name = "meshes of glTF nodes", .n = visits_.size(), .grain = kGrain},
+      [&](std::size_t i) {
+        const GltfNode& node = nodes_[visits_[i].node];
+        if (node.mesh && *node.mesh < meshes_.size()) used.set(*node.mesh);
+      });
+  if (!marked) return marked;
   for (std::size_t i = 0; i < used.size(); ++i)
-    if (used[i]) used_.push_back(static_cast<std::uint32_t>(i));
+    if (used.is_set(i)) used_.push_back(static_cast<std::uint32_t>(i));
   return {};
 }
 
@@ -148,6 +153,7 @@ Status Importer::check_amount() const {
     if (corners > 64 * bytes + (1U << 20U)) return refuse("vertices");
   }
   for (const VisitedNode& visit : visits_) {
+    if (nodes_.is_usual(visit.node)) continue;
     const GltfNode& node = nodes_[visit.node];
     if (!node.mesh || !node.instancing().exists()) continue;
     const std::uint64_t more = stated_instances(node, accessors_);
@@ -185,10 +191,12 @@ void Importer::note_meshes() {
 void Importer::note_nodes() {
   std::vector<bool> visited(nodes_.size()), displaced(meshes_.size());
   for (const std::uint32_t mesh : used_) displaced[mesh] = any_weight(meshes_[mesh]["weights"]);
+  const bool any_displaced = std::ranges::count(displaced, true) != 0;
   bool skinned = false, morphed = false;
   for (const VisitedNode& visit : visits_) {
-    const GltfNode& node = nodes_[visit.node];
     visited[visit.node] = true;
+    if (!any_displaced && nodes_.is_usual(visit.node)) continue;
+    const GltfNode& node = nodes_[visit.node];
     skinned = skinned || node.skinned;
     if (node.mesh && *node.mesh < meshes_.size())
       morphed = morphed || (node.weights().exists() ? any_weight(node.weights().parse().root())
@@ -205,7 +213,7 @@ void Importer::note_nodes() {
                            place_text("/meshes"));
   std::size_t outside = 0;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (!visited[i] && nodes_[i].mesh) ++outside;
+    if (!visited[i] && nodes_.has_mesh(i)) ++outside;
   if (outside != 0)
     model_.diagnostics.add(
         Severity::warning, "gltf-other-scene",

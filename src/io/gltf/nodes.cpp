@@ -166,24 +166,37 @@ std::vector<GltfNode> parse_nodes(const ArrayPiece& piece,
 
 }  // namespace
 
+void NodeTable::enter(std::size_t node, GltfNode& place) {
+  at_[node] = &place;
+  traits_[node] =
+      static_cast<std::uint8_t>((place.children.empty() ? 0 : kInner) | (place.mesh ? kMesh : 0) |
+                                (place.skinned || place.unusual ? kUnusual : 0));
+}
+
 Result<std::optional<NodeTable>> NodeTable::read(std::span<const ArrayPiece> pieces,
                                                  const std::vector<JsonValue>& mesh_names,
                                                  const parallel::Context& context) {
   NodeTable table;
-  Result<std::vector<std::vector<GltfNode>>> read =
-      parallel::transform(context, {.name = "read glTF nodes", .n = pieces.size()},
-                          [&](std::size_t k) { return parse_nodes(pieces[k], mesh_names); });
+  const std::size_t count = pieces.empty() ? 0 : pieces.back().first + pieces.back().count;
+  table.at_.resize(count);
+  table.traits_.resize(count);
+  Result<std::vector<std::vector<GltfNode>>> read = parallel::transform(
+      context, {.name = "read glTF nodes", .n = pieces.size()}, [&](std::size_t k) {
+        std::vector<GltfNode> nodes = parse_nodes(pieces[k], mesh_names);
+        if (nodes.size() == pieces[k].count)
+          for (std::size_t i = 0; i < nodes.size(); ++i) table.enter(pieces[k].first + i, nodes[i]);
+        return nodes;
+      });
   if (!read) return read.error();
   table.pieces_ = std::move(*read);
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
+  for (std::size_t k = 0; k < pieces.size(); ++k)
     if (table.pieces_[k].size() != pieces[k].count) return std::optional<NodeTable>();
-    for (GltfNode& node : table.pieces_[k]) table.at_.push_back(&node);
-  }
   return std::optional<NodeTable>(std::move(table));
 }
 
 Status NodeTable::clear(const parallel::Context& context) {
   at_.clear();
+  traits_.clear();
   return parallel::for_each(context, {.name = "forget glTF nodes", .n = pieces_.size()},
                             [&](std::size_t k) { std::vector<GltfNode>().swap(pieces_[k]); });
 }
@@ -286,7 +299,7 @@ Error refused(std::string pointer, std::string message,
 Result<std::vector<std::uint32_t>> parents_of(const NodeTable& nodes) {
   std::vector<std::uint32_t> parents(nodes.size(), kNoParent);
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (const std::uint64_t child : nodes[i].children) {
+    for (const std::uint64_t child : nodes.children(i)) {
       const auto pointer = [i] { return fmt::format("/nodes/{}/children", i); };
       if (child >= nodes.size()) return refused(pointer(), "names a node that does not exist");
       if (parents[child] != kNoParent)
@@ -307,7 +320,7 @@ Status check_cycles(const NodeTable& nodes, const std::vector<std::uint32_t>& pa
     const std::uint32_t node = open.back();
     open.pop_back();
     reached[node] = true;
-    for (const std::uint64_t child : nodes[node].children)
+    for (const std::uint64_t child : nodes.children(node))
       open.push_back(static_cast<std::uint32_t>(child));
   }
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -368,7 +381,7 @@ Result<std::vector<VisitedNode>> visit_order(const JsonValue& root, const NodeTa
                      "export the model with a flatter hierarchy");
     const auto self = static_cast<std::uint32_t>(order.size());
     order.push_back(next.visit);
-    const std::vector<std::uint64_t>& children = nodes[next.visit.node].children;
+    const std::span<const std::uint64_t> children = nodes.children(next.visit.node);
     for (auto child = children.rbegin(); child != children.rend(); ++child)
       open.push_back({{static_cast<std::uint32_t>(*child), self}, next.depth + 1});
   }

@@ -66,6 +66,13 @@ class NodeTable {
       const parallel::Context& context);
 
   [[nodiscard]] std::size_t size() const { return at_.size(); }
+  [[nodiscard]] std::span<const std::uint64_t> children(std::size_t node) const {
+    if ((traits_[node] & kInner) == 0) return {};
+    return at_[node]->children;
+  }
+  [[nodiscard]] bool has_mesh(std::size_t node) const { return (traits_[node] & kMesh) != 0; }
+  /// Whether the node has neither a skin nor anything unusual.
+  [[nodiscard]] bool is_usual(std::size_t node) const { return (traits_[node] & kUnusual) == 0; }
   [[nodiscard]] const GltfNode& operator[](std::size_t node) const { return *at_[node]; }
   [[nodiscard]] GltfNode& operator[](std::size_t node) { return *at_[node]; }
 
@@ -73,8 +80,14 @@ class NodeTable {
   [[nodiscard]] Status clear(const parallel::Context& context);
 
  private:
+  static constexpr std::uint8_t kInner = 1, kMesh = 2, kUnusual = 4;
+
+  void enter(std::size_t node, GltfNode& place);
+
   std::vector<std::vector<GltfNode>> pieces_;
   std::vector<GltfNode*> at_;
+  /// What loops over all nodes ask of each: the nodes themselves are hundreds of megabytes.
+  std::vector<std::uint8_t> traits_;
 };
 
 /// The instances of a node, in the node's frame.

@@ -14,6 +14,7 @@
 #include "io/source/precision.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::io::gltf {
 namespace {
@@ -153,7 +154,7 @@ NodePlace Placer::place_of(std::size_t visit) const {
 void Placer::place_inner_nodes() {
   inner_of_.assign(input_.visits.size(), kLeaf);
   for (std::size_t visit = 0; visit < input_.visits.size(); ++visit) {
-    if (node_of(visit).children.empty()) continue;
+    if (input_.nodes.children(input_.visits[visit].node).empty()) continue;
     inner_.push_back(compute_place(visit));
     inner_of_[visit] = static_cast<std::uint32_t>(inner_.size() - 1);
   }
@@ -243,7 +244,7 @@ Amount Placer::amount_of(std::size_t visit) const {
 
 /// Makes of each amount where in the model it begins; the model gets its objects and bodies.
 Status Placer::number_all() {
-  std::size_t objects = model_.objects.size(), bodies = model_.bodies.size();
+  std::size_t objects = 0, bodies = 0;
   for (Amount& amount : amounts_) {
     objects += std::exchange(amount.objects, objects);
     bodies += std::exchange(amount.bodies, bodies);
@@ -251,8 +252,12 @@ Status Placer::number_all() {
   if (std::max(objects, bodies) > std::numeric_limits<std::uint32_t>::max())
     return Error{ErrorCode::input, "has more bodies than can be numbered", input_.file,
                  "split the model"};
-  model_.objects.resize(objects);
-  model_.bodies.resize(bodies);
+  auto empty_objects = parallel::slots<model::Object>(objects, input_.context);
+  if (!empty_objects) return empty_objects.error();
+  auto empty_bodies = parallel::slots<model::Body>(bodies, input_.context);
+  if (!empty_bodies) return empty_bodies.error();
+  model_.objects = std::move(*empty_objects);
+  model_.bodies = std::move(*empty_bodies);
   return {};
 }
 

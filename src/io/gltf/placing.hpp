@@ -39,8 +39,8 @@ struct PlacingInput {
   const parallel::Context& context;
 };
 
-/// Appends groups, objects and bodies to the model, in the order of the visits, and says what is
-/// skipped. Errors: cancelled, out of memory, more bodies than can be numbered.
+/// Gives a model that has none its groups, objects and bodies, in the order of the visits, and says
+/// what is skipped. Errors: cancelled, out of memory, more bodies than can be numbered.
 [[nodiscard]] Status place_nodes(const PlacingInput& input, model::Model& model);
 
 }  // namespace strake::io::gltf

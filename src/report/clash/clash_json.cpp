@@ -219,7 +219,7 @@ Status write_clash_json(const ClashContents& contents, Sink sink,
     rules(out, *contents.rules);
     out += ",\n";
   }
-  append_tests(out, findings, contents.model);
+  if (Status s = append_tests(out, findings, contents.model, context); !s) return s;
   out += ",\n\"hash\": ";
   append_json(out, hash_of(findings));
   out += ",\n";

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,16 +20,39 @@
 #include "report/clash/attribute_columns.hpp"
 #include "report/json/json_writer.hpp"
 #include "report/text/formatting.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::report {
 
-ElementHashes::ElementHashes(const model::Model& model) {
-  elements_.reserve(model.objects.size());
-  for (std::uint32_t o = 0; o < model.objects.size(); ++o)
-    elements_.push_back({clash::element_hash(model, model::ObjectId{o}), o});
-  std::ranges::sort(elements_, [](const HashedElement& x, const HashedElement& y) {
-    return x.hash != y.hash ? x.hash < y.hash : x.object < y.object;
-  });
+Result<ElementHashes> ElementHashes::of(const model::Model& model,
+                                        const parallel::Context& context) {
+  constexpr std::size_t kGrain = 1024, kBuckets = 256;
+  const auto bucket_of = [](const HashedElement& e) { return std::size_t{e.hash >> 56U}; };
+  const auto hashed = parallel::transform(
+      context, {.name = "hashes of elements", .n = model.objects.size(), .grain = kGrain},
+      [&](std::size_t i) {
+        const auto o = static_cast<std::uint32_t>(i);
+        return HashedElement{clash::element_hash(model, model::ObjectId{o}), o};
+      });
+  if (!hashed) return hashed.error();
+  // Hashes are spread evenly: buckets by their first byte are about equally long.
+  std::array<std::size_t, kBuckets + 1> begin{};
+  for (const HashedElement& e : *hashed) ++begin[bucket_of(e) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  ElementHashes all;
+  all.elements_.resize(hashed->size());
+  std::array<std::size_t, kBuckets + 1> next = begin;
+  for (const HashedElement& e : *hashed) all.elements_[next[bucket_of(e)]++] = e;
+  const Status sorted =
+      parallel::for_each(context, {.name = "sort elements", .n = kBuckets}, [&](std::size_t b) {
+        const auto bucket = std::span(all.elements_).subspan(begin[b], begin[b + 1] - begin[b]);
+        std::ranges::sort(bucket, [](const HashedElement& x, const HashedElement& y) {
+          return x.hash != y.hash ? x.hash < y.hash : x.object < y.object;
+        });
+      });
+  if (!sorted) return sorted.error();
+  return all;
 }
 
 void ElementHashes::append_list(std::string& out) const {
@@ -513,8 +537,11 @@ void test(std::string& out, const Report& report, const ElementHashes& elements)
 
 }  // namespace
 
-void append_tests(std::string& out, const clash::Findings& findings, const model::Model& model) {
-  const ElementHashes elements(model);
+Status append_tests(std::string& out, const clash::Findings& findings, const model::Model& model,
+                    const parallel::Context& context) {
+  const Result<ElementHashes> hashes = ElementHashes::of(model, context);
+  if (!hashes) return hashes.error();
+  const ElementHashes& elements = *hashes;
   out += "\"elements\": \"";
   elements.append_list(out);
   out += "\",\n\"sheets\": \"";
@@ -528,6 +555,7 @@ void append_tests(std::string& out, const clash::Findings& findings, const model
   append_list(
       out, "tests", findings.tests, [&](const Report& report) { test(out, report, elements); },
       "\n  ");
+  return {};
 }
 
 }  // namespace strake::report

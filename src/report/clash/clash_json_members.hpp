@@ -9,7 +9,9 @@
 
 #include "strake/clash/clash.hpp"
 #include "strake/clash/group.hpp"
+#include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
+#include "strake/parallel/context.hpp"
 #include "strake/report/clash.hpp"
 #include "strake/report/decisions.hpp"
 
@@ -20,7 +22,9 @@ namespace strake::report {
 /// 64-bit hashes in ascending order.
 class ElementHashes {
  public:
-  explicit ElementHashes(const model::Model& model);
+  /// Errors: cancelled, out of memory.
+  [[nodiscard]] static Result<ElementHashes> of(const model::Model& model,
+                                                const parallel::Context& context);
 
   /// Appends the hashes, little endian, as base64.
   void append_list(std::string& out) const;
@@ -56,7 +60,8 @@ void append_not_compared(std::string& out, const ClashContents& contents, std::s
                          const clash::NotCompared& what);
 
 /// Appends the members `elements` and `tests` of the clash document: what was checked, by which
-/// rules and tolerances, and how much was found.
-void append_tests(std::string& out, const clash::Findings& findings, const model::Model& model);
+/// rules and tolerances, and how much was found. Errors: cancelled, out of memory.
+[[nodiscard]] Status append_tests(std::string& out, const clash::Findings& findings,
+                                  const model::Model& model, const parallel::Context& context);
 
 }  // namespace strake::report

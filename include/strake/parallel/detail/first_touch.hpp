@@ -10,9 +10,8 @@
 
 namespace strake::parallel::detail {
 
-/// Has the system provide memory that nobody has touched yet: in large pages where it has them, and
-/// by all workers at once, since clearing gigabytes takes one of them seconds. Does nothing where
-/// the memory is small. Errors: cancelled.
+/// Has the system provide memory that nobody has touched yet, by all workers at once: clearing
+/// gigabytes takes one of them seconds. Does nothing where the memory is small. Errors: cancelled.
 [[nodiscard]] Status provide_pages(const Context& context, void* memory, std::size_t bytes);
 
 }  // namespace strake::parallel::detail
