@@ -15,6 +15,8 @@ from strake.importers.scene_writer import encoded
 
 _OWN = ("PredefinedType", "ObjectType", "Tag", "Description", "LongName")
 _MOST_DEPTH = 3
+# So many sets are kept, for products that share one; most sets are of one product.
+_MOST_SETS = 10_000
 _QUANTITIES = {
     "IfcQuantityLength": ("LengthValue", "LENGTHUNIT"),
     "IfcQuantityArea": ("AreaValue", "AREAUNIT"),
@@ -84,7 +86,7 @@ class AttributeReader:
                 if definition.Name or not definition.is_a("IfcPropertySetDefinition"):
                     merged.setdefault(definition.Name or definition.is_a(), {}).update(self._set(definition))
             known = {name: encoded(values) for name, values in merged.items() if values}
-            # Sets of a single product are not looked for again; those of a type are.
+            # Those of a type alone are asked for again and again.
             if not definitions:
                 self._shared[key] = known
         return known
@@ -109,6 +111,8 @@ class AttributeReader:
                 known = self._properties(definition.HasProperties, 0)
             else:
                 known = self._predefined(definition)
+            if len(self._sets) >= _MOST_SETS:
+                self._sets.clear()
             self._sets[definition.id()] = known
         return known
 

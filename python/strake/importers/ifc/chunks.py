@@ -18,6 +18,8 @@ from strake.importers.ifc.entity import Model
 from strake.importers.ifc.kernels import geometry_settings
 from strake.importers.shapes import Color, Part, PreparedShape, prepare_shape
 
+# The fault of a shape without a triangle.
+EMPTY = "nothing is left of it"
 _MM_PER_M = 1000.0
 
 
@@ -84,6 +86,8 @@ def _converted(element: Any, known: dict[str, PreparedShape | str], kernel: str)
     first = name not in known
     if first:
         try:
+            if len(element.geometry.faces_buffer) == 0:
+                raise ValueError(EMPTY)
             known[name] = prepare_shape(_parts(element.geometry))
         except ValueError as fault:
             known[name] = str(fault)

@@ -16,7 +16,7 @@ import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
-from strake.importers.ifc.chunks import Chunk, Converted, Remark
+from strake.importers.ifc.chunks import EMPTY, Chunk, Converted, Remark
 from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.kernels import EXACT, FAST, geometry_settings, kernels_for
 from strake.importers.ifc.products import CircleFinder
@@ -76,6 +76,7 @@ class Conversion:
     shapes: ShapeStore
     placed: dict[int, Placed] = field(default_factory=dict)
     failed: dict[int, str] = field(default_factory=dict)
+    empty: set[int] = field(default_factory=set)  # of those that failed: all kernels find that nothing is left
     remarks: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
     bodyless: list[int] = field(default_factory=list)
 
@@ -161,12 +162,16 @@ def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Worker
                 workers.add(Chunk(part, chunk.kernel, chunk.attempt))
         return
     for number in missing:
-        result.remarks.setdefault(number, []).append((chunk.kernel, ended.fault or "no shape"))
+        said = result.remarks.setdefault(number, [])
+        if ended.fault or not any(kernel == chunk.kernel for kernel, _ in said):
+            said.append((chunk.kernel, ended.fault or "no shape"))
         following = kernels_of[number][chunk.attempt + 1 :]
         if following:
             workers.add(Chunk((number,), following[0], chunk.attempt + 1))
         else:
-            result.failed[number] = "; ".join(f"{kernel}: {text}" for kernel, text in dict.fromkeys(result.remarks[number]))
+            result.failed[number] = "; ".join(f"{kernel}: {text}" for kernel, text in dict.fromkeys(said))
+            if all(text == EMPTY for _, text in said):
+                result.empty.add(number)
     if chunk.kernel == FAST and not ended.fault:
         # Where it says that something went wrong the exact one may do better.
         for number in sorted({n for n in chunk.products if n in result.placed and result.remarks_of(n)}):

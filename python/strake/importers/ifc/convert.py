@@ -23,7 +23,7 @@ from strake.importers.report import Report
 from strake.importers.scene_writer import Group
 
 # The longest text of a kernel that is told of a product.
-_MOST_MESSAGE = 200
+_MOST_MESSAGE = 400
 
 
 def convert(job: Job) -> None:
@@ -55,8 +55,7 @@ def _write(job: Job, model: Model, units: Units, products: Products, conversion:
                 continue
             object_id = ids.of(product)
             if placed is None:
-                message = f"{product.is_a()} '{product.Name or ''}' is left out: {conversion.failed[number][:_MOST_MESSAGE]}"
-                report.skipped("ifc-no-shape", message, object_id)
+                _tell_of_missing(product, object_id, conversion, report)
                 continue
             shape = scene.known_shape(placed.key, placed.middle) or scene.add_shape(conversion.shapes.get(placed.key))
             if shape.middle != placed.middle:
@@ -71,6 +70,14 @@ def _write(job: Job, model: Model, units: Units, products: Products, conversion:
         message = f"the place on the map (east {east}, north {north}) is an attribute of the site: coordinates are those of the project"
         report.note("ifc-map-conversion", message)
     tell_of_left_out(products, len(conversion.bodyless), report)
+
+
+def _tell_of_missing(product: Entity, object_id: str, conversion: Conversion, report: Report) -> None:
+    name = f"{product.is_a()} '{product.Name or ''}'"
+    if product.id() in conversion.empty and getattr(product, "HasOpenings", None):
+        report.warning("ifc-cut-away", f"{name} is left out: its openings leave nothing of it", object_id)
+    else:
+        report.skipped("ifc-no-shape", f"{name} is left out: {conversion.failed[product.id()]}"[:_MOST_MESSAGE], object_id)
 
 
 def _read(
