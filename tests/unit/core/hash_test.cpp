@@ -64,6 +64,20 @@ TEST(Hash, does_not_depend_on_how_bytes_arrive) {
   EXPECT_EQ(whole.value(), again.value());
 }
 
+TEST(Hash, of_a_sequence_does_not_depend_on_how_long_it_is) {
+  // Short sequences are hashed at once, longer ones piece by piece: there is no seam between them.
+  for (std::uint64_t words = 120; words < 140; ++words) {
+    Hasher hasher;
+    std::string spelled;
+    for (std::uint64_t word = 0; word < words; ++word) {
+      hasher.add(word);
+      spelled += static_cast<char>(word);
+      spelled.append(7, '\0');
+      EXPECT_EQ(hasher.value(), of(spelled)) << words << ' ' << word;
+    }
+  }
+}
+
 TEST(Hash, text_has_leading_zeros) {
   EXPECT_EQ((Hash128{0, 0xabc}).text(), "00000000000000000000000000000abc");
 }
