@@ -79,7 +79,9 @@ void add_distribution_option(CLI::App& command, CommonOptions& options) {
 }
 
 void add_input_options(CLI::App& command, InputOptions& options) {
-  command.add_option("files", options.files, "RVM, glTF, GLB, OBJ or STL files, or projects, which stand for theirs")
+  command
+      .add_option("files", options.files,
+                  "RVM, glTF, GLB, OBJ or STL files, or projects, which stand for theirs")
       ->required()
       ->type_name("FILE");
   command
