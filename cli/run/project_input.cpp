@@ -39,13 +39,12 @@ void add_wait_option(CLI::App& command, std::string& wait) {
       ->group("Running");
 }
 
-void add_project_options(CLI::App& command, ProjectOptions& options) {
-  command
-      .add_option("-p,--project", options.file,
-                  "Work on the model of this project (docs/project.md), in place of files, and "
-                  "remember the result in it")
-      ->type_name("FILE")
-      ->group("Input");
+void add_project_option(CLI::App& command, std::string& file, const std::string& what) {
+  command.add_option("-p,--project", file, what)->type_name("FILE")->group("Input");
+}
+
+void add_project_options(CLI::App& command, ProjectOptions& options, const std::string& what) {
+  add_project_option(command, options.file, what);
   add_wait_option(command, options.wait);
 }
 
@@ -57,13 +56,10 @@ void add_compared_options(CLI::App& command, ComparedOptions& options, const std
   };
   add("old", options.before, "older", "OLD");
   add("new", options.after, "newer", "NEW");
-  command
-      .add_option("-p,--project", options.project,
-                  "Compare with what this project remembers (docs/project.md), as if it stood "
-                  "behind the files; alone: " +
-                      alone)
-      ->type_name("FILE")
-      ->group("Input");
+  add_project_option(command, options.project,
+                     "Compare with what this project remembers (docs/project.md), as if it stood "
+                     "behind the files; alone: " +
+                         alone);
 }
 
 Result<std::vector<std::string>> compared_files(const ComparedOptions& options,

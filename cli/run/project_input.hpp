@@ -22,8 +22,16 @@ struct ProjectOptions {
 void add_wait_option(CLI::App& command, std::string& wait);
 /// Parses --wait as seconds; none is 0.
 [[nodiscard]] Result<double> wait_seconds(const std::string& wait);
-/// Adds -p,--project FILE, in place of model files, and --wait.
-void add_project_options(CLI::App& command, ProjectOptions& options);
+/// The help of -p where a verb works on the model of a project.
+inline constexpr const char* kWorkOnProject =
+    "Work on the model of this project (docs/project.md), in place of files, and remember the "
+    "result "
+    "in it";
+
+/// Adds -p,--project FILE alone, for verbs that only read; `what` is its help.
+void add_project_option(CLI::App& command, std::string& file, const std::string& what);
+/// Adds -p,--project FILE and --wait.
+void add_project_options(CLI::App& command, ProjectOptions& options, const std::string& what);
 
 /// Checks that -p stands in place of model files, and that no option speaks of files beside it.
 /// Errors: usage. All is well without -p.

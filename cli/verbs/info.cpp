@@ -15,6 +15,7 @@
 #include "cli/output/attribute_list.hpp"
 #include "cli/output/object_list.hpp"
 #include "cli/run/load.hpp"
+#include "cli/run/project_input.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/number.hpp"
 #include "io/importer/find_importer.hpp"
@@ -209,10 +210,23 @@ std::string formats_text() {
 
 struct InfoOptions {
   InputOptions input;
+  ProjectOptions project;
   SceneInput scene;
   std::string objects;
   bool attributes = false;
 };
+
+/// Loads the files, or the project of -p.
+Result<Loaded> load_input(Session& session, const InfoOptions& options,
+                          const model::SceneOptions& scene) {
+  if (const Status s = check_project_options(options.project, options.input); !s) return s.error();
+  if (options.project.file.empty() && options.input.files.empty())
+    return Error{ErrorCode::usage, "no model file is given", {}, "'strake info --help' tells more"};
+  if (options.project.file.empty()) return load(session, options.input, scene);
+  Result<OpenedProject> opened = open_project(session, options.project, project::Access::read);
+  if (!opened) return opened.error();
+  return load_project(session, *opened, scene);
+}
 
 Result<ExitCode> run_info(Session& session, const InfoOptions& options) {
   const Result<model::SceneOptions> scene_settings = scene_options(options.scene, kInfoSagMm);
@@ -221,7 +235,7 @@ Result<ExitCode> run_info(Session& session, const InfoOptions& options) {
   if (!options.objects.empty())
     if (const Status s = whole_number(lists.objects.emplace(), options.objects, "--objects"); !s)
       return s.error();
-  const Result<Loaded> loaded = load(session, options.input, *scene_settings);
+  const Result<Loaded> loaded = load_input(session, options, *scene_settings);
   if (!loaded) return loaded.error();
   const model::Model& model = *loaded->model;
   const model::Scene& scene = loaded->scene;
@@ -238,6 +252,9 @@ Verb add_info(CLI::App& program, CommonOptions& common) {
   CLI::App* const command =
       program.add_subcommand("info", "What model files hold, and what was skipped and why");
   add_input_options(*command, options->input);
+  command->get_option("files")->required(false);  // a project may stand in their place
+  add_project_option(*command, options->project.file,
+                     "Read the model of this project (docs/project.md), in place of files");
   add_scene_options(*command, options->scene, "0.5mm");
   command
       ->add_option(
@@ -258,6 +275,7 @@ Examples:
   strake info platform.rvm
   strake info platform.rvm --attributes
   strake info platform.rvm --objects 20
+  strake info -p ship.strake
   strake info hvac.rvm steel.glb --json)");
   return {command, [options](Session& session) { return run_info(session, *options); }};
 }

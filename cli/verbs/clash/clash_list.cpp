@@ -90,7 +90,8 @@ Result<ExitCode> run_history(Session& session, const ClashListOptions& given) {
 }
 
 void add_list_options(CLI::App& command, ClashListOptions& options, CommonOptions& common) {
-  add_project_options(command, options.project);
+  add_project_options(command, options.project,
+                      "The project whose clashes and runs are told (docs/project.md)");
   add_output_option(command, options.outputs, "The list", kFormats);
   add_common_options(command, common);
 }

@@ -65,7 +65,7 @@ std::uint64_t count_kept(const clash::Report& report, const std::vector<std::uin
 }  // namespace
 
 void add_clash_project_options(CLI::App& command, ClashProjectInput& options) {
-  add_project_options(command, options.project);
+  add_project_options(command, options.project, kWorkOnProject);
   CLI::Option* const project = command.get_option("--project");
   command
       .add_flag("--full", options.full,

@@ -153,7 +153,8 @@ Verb add_clash_set(CLI::App& clash, CommonOptions& common) {
       "set", "Decide about clashes of a project: their status, a comment, who sees to them");
   command->add_option("keys", options->keys, "Keys of clashes, as results have them")
       ->type_name("KEY");
-  add_project_options(*command, options->project);
+  add_project_options(*command, options->project,
+                      "The project whose clashes are decided about (docs/project.md)");
   command
       ->add_option("--select", options->select,
                    "The clashes of the objects that this selection picks (docs/selection.md)")

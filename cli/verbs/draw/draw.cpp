@@ -227,7 +227,7 @@ void add_lines(CLI::App& command, DrawOptions& options) {
 
 /// Adds -p and what a project remembers of drawings.
 void add_stored(CLI::App& command, DrawOptions& options) {
-  add_project_options(command, options.project);
+  add_project_options(command, options.project, kWorkOnProject);
   CLI::Option* const project = command.get_option("--project");
   CLI::Option* const save =
       command

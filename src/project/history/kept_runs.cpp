@@ -139,7 +139,8 @@ Status check_test_name(Database& database, const std::string& name) {
 
 Result<std::pair<KeptRun, KeptRun>> runs_to_compare(Database& database, const ComparedRuns& asked) {
   if (asked.test)
-    if (const Status status = check_test_name(database, *asked.test); !status) return status.error();
+    if (const Status status = check_test_name(database, *asked.test); !status)
+      return status.error();
   const Result<KeptRuns> kept = KeptRuns::read(database, asked.test);
   if (!kept) return kept.error();
   if (!asked.runs) return kept->last_two();

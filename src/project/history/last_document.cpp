@@ -34,7 +34,7 @@ Error no_names(const Database& database) {
 }
 
 Result<std::vector<std::string>> tests_to_tell(Database& database,
-                                          const std::optional<std::string>& test) {
+                                               const std::optional<std::string>& test) {
   if (!test) return last_tests(database);
   const Result<std::vector<std::string>> names = test_names(database);
   if (!names) return names.error();

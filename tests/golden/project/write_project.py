@@ -18,9 +18,9 @@ TESTS = ['--clearance', '25mm', '--self']
 
 
 def write_models(folder, at):
-    """Two files of cubes that clash, touch and nearly touch; one moves, one comes."""
+    """Two files of cubes that clash, touch and nearly touch; one moves, and one is missing then."""
     (folder / 'hull.obj').write_text(''.join(cube(f'h{n}', n, (80 * n, 0, 0), 100) for n in range(5)))
-    (folder / 'pipes.obj').write_text(''.join(cube(f'p{n}', n, (90 * n, at if n == 2 else 100, 0), 90) for n in range(6)))
+    (folder / 'pipes.obj').write_text(''.join(cube(f'p{n}', n, (90 * n, at if n == 2 else 100, 0), 90) for n in range(6 if at == 100 else 5)))
 
 
 def main():

@@ -214,11 +214,15 @@ class Drawings(Projects):
         self.write('row.obj', cubes(places))
         self.done('project', 'update', 'ship.strake')
 
+    def unnamed(self, told):
+        for run in ('before', 'after'):
+            told[run].pop('file', None)
+        return told
+
     def test_what_a_change_does_to_a_view(self):
         self.draw('--save', 'deck', '--view', 'top')
         before = (self.folder / 'ship.strake').read_bytes()
-        told = self.diff('ship.strake', '--view', 'deck', verb='draw')
-        self.assertEqual(sum(told['counts'][which] for which in told['counts'] if which != 'same'), 0, told['counts'])
+        self.diff('ship.strake', '--view', 'deck', verb='draw')
         self.done('draw', 'diff', 'ship.strake', '--view', 'deck', '--fail-on', 'any')
         self.done('draw', '-p', 'ship.strake', '--stored', 'deck', '-o', 'monday.json')
         # One moves, one comes and one goes: what is gone is told by its name of then.
@@ -231,10 +235,10 @@ class Drawings(Projects):
         self.assertEqual(self.diff('ship.strake', verb='draw'), told)
         self.done('draw', 'row.obj', '--unit', 'mm', '--view', 'top', '-o', 'tuesday.json')
         files = self.diff('monday.json', 'tuesday.json', verb='draw')
-        self.assertEqual({**told, 'old': None, 'new': None}, {**files, 'old': None, 'new': None})
+        self.assertEqual(self.unnamed(told), self.unnamed(files))
         self.draw('--stored', 'deck')
         told = self.diff('monday.json', 'ship.strake', verb='draw')
-        self.assertEqual({**told, 'old': None, 'new': None}, {**files, 'old': None, 'new': None})
+        self.assertEqual(self.unnamed(told), self.unnamed(files))
         self.assertNotEqual((self.folder / 'ship.strake').read_bytes(), before)
 
     def test_stored_views_of_two_projects(self):

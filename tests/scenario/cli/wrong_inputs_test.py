@@ -167,6 +167,10 @@ USAGE = [
     ('clash diff c.json c.json c.json', "'c.json'", 'one word too many'),
     ('clash diff c.json c.json -o x.csv', '-o', '.json'),
     ('clash diff c.json c.json -o c.json', '-o', 'overwritten'),
+    ('clash diff c.json c.json --test all', '--test', 'leave it out'), ('clash diff c.json c.json --runs 1 2', '--runs', 'leave it out'),
+    ('clash diff c.json c.json -p p.strake', '-p', 'out'), ('draw diff v.view v.view --view deck', '--view', 'leave it out'),
+    ('clash diff c.json c.json --runs 1', '--runs', ''), ('info a.obj -p p.strake', "'a.obj'", "'strake project add'"),
+    *behind(['clash diff p.strake --runs 1', 'clash diff p.strake --runs'], [('x', '--runs', '')]),
     ('draw a.obj', '-o', 'write -o FILE.svg'), ('draw a.obj -o x.pdf', '-o', '.svg or .json'),
     ('draw a.obj -o x.dxf', '-o', '.svg'),
     ('draw a.obj -o x.svg --view top --direction 1,1,1', '--direction', 'leave one of them out'),
@@ -194,7 +198,7 @@ USAGE = [
 
 OUTPUT = [
     ('clash --project p.strake', 'p.strake', 'cannot be read'), ('draw --project p.strake -o x.svg', 'p.strake', 'cannot be read'),
-    ('clash --project a.obj', 'a.obj', 'is no project'), ('draw --project a.obj -o x.svg', 'a.obj', 'is no project'),
+    ('info --project a.obj', 'a.obj', 'is no project'), ('clash --project a.obj', 'a.obj', 'is no project'), ('draw --project a.obj -o x.svg', 'a.obj', 'is no project'),
     ('clash a.obj -o no/x.json', 'no/x.json', 'make the folder first'),
     ('clash a.obj -o d.json', 'd.json', 'give the name of a file'),
     ('clash a.obj --log-pairs no/x.csv', 'no/x.csv', 'make the folder first'),
