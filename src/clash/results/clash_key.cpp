@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clash/results/clash_key.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
+#include <span>
 #include <utility>
 
 #include "core/text_encoding.hpp"
@@ -27,6 +30,26 @@ constexpr std::array<std::uint8_t, 256> kValues = [] {
 ElementName element(const model::Model& model, model::ObjectId id) {
   const model::Object& object = model.object(id);
   return {model.files[object.file].label, object.id};
+}
+
+/// Returns the hash that Hasher has of texts, without memory from the heap where they are as short
+/// as names are.
+Hash128 hash_of_texts(std::initializer_list<std::string_view> texts) {
+  std::array<std::byte, 512> bytes{};
+  std::size_t size = 0;
+  for (const std::string_view text : texts) size += sizeof(std::uint64_t) + text.size();
+  if (size > bytes.size()) {
+    Hasher hasher;
+    for (const std::string_view text : texts) hasher.add(text);
+    return hasher.value();
+  }
+  auto* end = bytes.data();
+  for (const std::string_view text : texts) {
+    for (unsigned shift = 0; shift < 64; shift += 8)
+      *end++ = static_cast<std::byte>(std::uint64_t{text.size()} >> shift & 0xffU);
+    end = std::ranges::copy(std::as_bytes(std::span(text)), end).out;
+  }
+  return hash_bytes(std::span(bytes).first(size));
 }
 
 }  // namespace
@@ -55,10 +78,8 @@ std::optional<Hash128> parse_key(std::string_view text) {
 }
 
 std::uint64_t element_hash(std::string_view file_label, std::string_view id) {
-  std::string room;
-  Hasher hasher;
-  for (const std::string_view text : {file_label, id}) hasher.add(valid_utf8(text, room));
-  return hasher.value().low;
+  std::array<std::string, 2> rooms;
+  return hash_of_texts({valid_utf8(file_label, rooms[0]), valid_utf8(id, rooms[1])}).low;
 }
 
 std::uint64_t element_hash(const model::Model& model, model::ObjectId id) {
@@ -72,10 +93,8 @@ Hash128 pair_hash(std::string_view test, const ElementName& a, const ElementName
   std::pair first(valid_utf8(a.file_label, rooms[0]), valid_utf8(a.id, rooms[1])),
       second(valid_utf8(b.file_label, rooms[2]), valid_utf8(b.id, rooms[3]));
   if (second < first) std::swap(first, second);
-  Hasher hasher;
-  hasher.add(valid_utf8(test, rooms[4]));
-  for (const auto& [file_label, id] : {first, second}) hasher.add(file_label).add(id);
-  return hasher.value();
+  return hash_of_texts(
+      {valid_utf8(test, rooms[4]), first.first, first.second, second.first, second.second});
 }
 
 Hash128 pair_hash(std::string_view test, const model::Model& model, model::ObjectId a,

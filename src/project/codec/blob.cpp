@@ -59,18 +59,27 @@ std::optional<BlobHead> head_of(std::span<const std::byte> blob) {
 }
 
 /// Puts all first bytes before all second ones, and so on: neighbours are alike in their high
-/// bytes, and numbers that come from floats have zeros in the low ones.
-void to_planes(std::span<const std::byte> values, std::span<std::byte> planes, std::size_t width) {
-  const std::size_t n = values.size() / width;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t b = 0; b < width; ++b) planes[b * n + i] = values[i * width + b];
+/// bytes, and numbers that come from floats have zeros in the low ones. Word is as wide as a value.
+template <class Word>
+void to_planes(std::span<const std::byte> values, std::span<std::byte> planes) {
+  const std::size_t n = values.size() / sizeof(Word);
+  for (std::size_t i = 0; i < n; ++i) {
+    Word word = 0;
+    std::memcpy(&word, values.data() + i * sizeof word, sizeof word);
+    for (std::size_t b = 0; b < sizeof word; ++b)
+      planes[b * n + i] = static_cast<std::byte>(word >> (8 * b) & 0xffU);
+  }
 }
 
-void from_planes(std::span<const std::byte> planes, std::span<std::byte> values,
-                 std::size_t width) {
-  const std::size_t n = values.size() / width;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t b = 0; b < width; ++b) values[i * width + b] = planes[b * n + i];
+template <class Word>
+void from_planes(std::span<const std::byte> planes, std::span<std::byte> values) {
+  const std::size_t n = values.size() / sizeof(Word);
+  for (std::size_t i = 0; i < n; ++i) {
+    Word word = 0;
+    for (std::size_t b = 0; b < sizeof word; ++b)
+      word |= static_cast<Word>(std::to_integer<Word>(planes[b * n + i]) << (8 * b));
+    std::memcpy(values.data() + i * sizeof word, &word, sizeof word);
+  }
 }
 
 }  // namespace
@@ -116,7 +125,9 @@ void BlobWriter::planes(std::span<const std::uint32_t> values) {
 void BlobWriter::raw_planes(std::span<const std::byte> values, std::size_t width) {
   const std::size_t at = bytes_.size();
   bytes_.resize(at + values.size());
-  to_planes(values, std::as_writable_bytes(std::span(bytes_).subspan(at)), width);
+  const auto planes = std::as_writable_bytes(std::span(bytes_).subspan(at));
+  width == sizeof(std::uint64_t) ? to_planes<std::uint64_t>(values, planes)
+                                 : to_planes<std::uint32_t>(values, planes);
 }
 
 void BlobWriter::flags(const std::vector<bool>& values) {
@@ -241,7 +252,9 @@ Hash128 BlobReader::hash() {
 
 void BlobReader::copy_planes(std::span<std::byte> into, std::size_t width) {
   // count() has seen to it that they are there.
-  from_planes(std::span(bytes_).subspan(at_, into.size()), into, width);
+  const std::span<const std::byte> planes = std::span(bytes_).subspan(at_, into.size());
+  width == sizeof(std::uint64_t) ? from_planes<std::uint64_t>(planes, into)
+                                 : from_planes<std::uint32_t>(planes, into);
   at_ += into.size();
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
+#include "strake/core/hash.hpp"
 #include "support/clash_model.hpp"
 
 namespace strake::clash {
@@ -284,6 +285,15 @@ TEST(Keys, DependOnIdsFilesAndTestAlone) {
   EXPECT_NE(pair_key("t", model, id(0), id(1)), key);
   model.objects[1].file = 1;
   EXPECT_NE(pair_key("t", model, id(2), id(1)), key);
+}
+
+TEST(Keys, AreThoseOfAllBytesHoweverLongNamesAre) {
+  for (const std::size_t length : {0U, 1U, 400U, 488U, 489U, 2000U}) {
+    const std::string file(7, 'f'), id(length, 'i');
+    EXPECT_EQ(element_hash(file, id),
+              Hasher().add(std::string_view(file)).add(std::string_view(id)).value().low)
+        << length;
+  }
 }
 
 TEST(Keys, StayTheSameInEveryVersion) {

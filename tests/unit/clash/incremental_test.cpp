@@ -110,6 +110,28 @@ TEST(ClashSignatures, EveryInputOfAnObjectShowsInItsSignature) {
   }
 }
 
+TEST(ClashSignatures, HashesThatSomebodyHasOfShapesTakeThePlaceOfTheirPoints) {
+  const RuledCubes cubes;
+  const model::Scene scene = cubes.scene();
+  const auto signed_by = [&](const std::vector<Hash128>& hashes) {
+    return clash::signatures(scene, cubes.sets, cubes.options, cubes.policy, {}, hashes);
+  };
+  std::vector<Hash128> hashes(scene.model->shapes.size());
+  EXPECT_EQ(signed_by(hashes).value().objects, cubes.signatures().objects);
+  for (std::uint64_t s = 0; s < hashes.size(); ++s) hashes[s] = {1, s};
+  const Signatures before = signed_by(hashes).value();
+  const std::uint32_t shape = model::index(scene.model->bodies[0].shape);
+  hashes[shape].high = 2;
+  const Signatures now = signed_by(hashes).value();
+  EXPECT_EQ(now.rules, before.rules);
+  for (std::size_t o = 0; o < before.objects.size(); ++o) {
+    const bool has_it = model::index(scene.model->bodies[o].shape) == shape;
+    EXPECT_EQ(now.objects[o] != before.objects[o], has_it) << o;
+  }
+  hashes.pop_back();
+  EXPECT_EQ(signed_by(hashes).error().code, ErrorCode::usage);
+}
+
 TEST(ClashSignatures, EverySettingShowsInTheRules) {
   const std::vector<Mutation> mutations{
       {"clearance", [](RuledCubes& t) { t.options.tolerances.clearance_mm = 5; }},

@@ -34,6 +34,14 @@ TEST(Text, valid_utf8_keeps_all_else) {
   EXPECT_EQ(valid_utf8("bad\xFF\xC3("), "bad\xEF\xBF\xBD\xEF\xBF\xBD(");
 }
 
+TEST(Text, valid_utf8_copies_only_what_is_not) {
+  std::string room = "before";
+  const std::string valid = "tab\tä\n";
+  EXPECT_EQ(valid_utf8(valid, room).data(), valid.data());
+  EXPECT_EQ(room, "before");
+  EXPECT_EQ(valid_utf8("bad\xFF\xC3(", room), "bad\xEF\xBF\xBD\xEF\xBF\xBD(");
+}
+
 TEST(Text, json_strings) {
   const auto quoted = [](std::string_view text) {
     std::string out;

@@ -284,6 +284,7 @@ TEST(HostileProject, RowsThatCannotBeAreErrors) {
         "UPDATE shape_pack SET hashes = zeroblob(15)",
         "UPDATE shape_pack SET hashes = zeroblob(16)",
         "UPDATE shape_pack SET hashes = zeroblob(length(hashes))",
+        "UPDATE shape_pack SET hashes = CAST(substr(hashes, 17) || substr(hashes, 1, 16) AS BLOB)",
         "UPDATE shape_pack SET data = zeroblob(50)",
         "INSERT INTO file (position, path, given, name, label, format, unit, up_axis, bytes, "
         "precision_mm, folders, ends_early, content, objects, bodies, shapes, groups, "

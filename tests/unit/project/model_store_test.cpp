@@ -6,6 +6,8 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -247,6 +249,37 @@ TEST_F(ModelStoreTest, AShapeThatFilesShareIsStoredOnce) {
   expect_stored(project, {paths[1]});
   EXPECT_EQ(test::number(project, "SELECT sum(shapes) FROM shape_pack"), once);
   expect_model_of(paths);
+}
+
+TEST_F(ModelStoreTest, HashesOfShapesAreThoseOfWhatTheyAreNow) {
+  const fs::path path = write_ship("a.obj", {.objects = 300}, true);
+  Project project = make();
+  expect_stored(project, {path});
+  const auto hashes_of = [&] {
+    const auto stored = project.signed_model({});
+    EXPECT_TRUE(stored);
+    std::vector<Hash128> expected;
+    for (const model::Shape& shape : stored->model.shapes)
+      expected.push_back(is_shared(shape) ? shape_hash(shape) : Hash128());
+    EXPECT_EQ(stored->shape_hashes, expected);
+    return stored->shape_hashes;
+  };
+  const std::vector<Hash128> before = hashes_of();
+  // One vertex in the middle moves by less than the grid has, and nothing else.
+  std::ifstream in(path);
+  std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  in.close();
+  const std::size_t line = text.find("\nv ", text.size() / 2);
+  const std::size_t point = text.find('.', line);
+  ASSERT_NE(point, std::string::npos);
+  const std::size_t end = text.find_first_not_of("0123456789", point + 1);
+  text.insert(end, end - point > 4 ? "7" : "000007");
+  expect_stored(project, {write("a.obj", text)});
+  const std::vector<Hash128> now = hashes_of();
+  ASSERT_EQ(now.size(), before.size());
+  std::size_t changed = 0;
+  for (std::size_t s = 0; s < now.size(); ++s) changed += now[s] == before[s] ? 0U : 1U;
+  EXPECT_EQ(changed, 1U);
 }
 
 TEST_F(ModelStoreTest, WhatNoFileUsesGoes) {

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "project/results/clash_queries.hpp"
 #include "project/update/rename_files.hpp"
 #include "strake/clash/incremental.hpp"
+#include "strake/parallel/team.hpp"
 #include "support/clash_model.hpp"
 
 namespace strake::project {
@@ -46,13 +48,15 @@ class Remembered : public ::testing::Test {
                     const clash::Options& options = {}) {
     const auto scene = make_scene(m.model, clash::scene_options(options), {}).value();
     const clash::Sets sets = clash::one_set(scene);
-    const clash::Signatures signed_by = clash::signatures(scene, sets, options, policy, {}).value();
-    const Snapshot snapshot{signed_by.rules, identities(m.model, {}).value(), signed_by.objects};
-    const clash::Report report = clash::detect(scene, sets, options, policy, {}).value();
-    const std::optional<StoredTest> before = read_test(*database_, "", {}).value();
+    const clash::Signatures signed_by =
+        clash::signatures(scene, sets, options, policy, context_).value();
+    const Snapshot snapshot{signed_by.rules, identities(m.model, context_).value(),
+                            signed_by.objects};
+    const clash::Report report = clash::detect(scene, sets, options, policy, context_).value();
+    const std::optional<StoredTest> before = read_test(*database_, "", context_).value();
     const TestedTest tested{&report, &snapshot, &sets, &policy, before ? &*before : nullptr, {}};
     Result<RememberedRun> run = remember(
-        *database_, m.model, {"2026-01-01T00:00:00Z", "ann", 1, deeper_mm}, {&tested, 1}, {});
+        *database_, m.model, {"2026-01-01T00:00:00Z", "ann", 1, deeper_mm}, {&tested, 1}, context_);
     EXPECT_TRUE(run) << run.error().text();
     return std::move(run).value();
   }
@@ -77,6 +81,7 @@ class Remembered : public ::testing::Test {
     EXPECT_EQ(project::decide(*database_, keys, decision).value(), 1U);
   }
   std::unique_ptr<Database> database_;
+  parallel::Context context_;
 };
 
 using Statuses = std::vector<std::string>;
@@ -91,6 +96,22 @@ TEST_F(Remembered, clashes_are_new_once_and_active_then_without_a_row_written) {
   EXPECT_EQ(second.trends[0].written, 0U);
   EXPECT_EQ(second.decided.counts[1], 3U);
   EXPECT_EQ(statuses(), (Statuses{"active", "active", "active"}));
+}
+
+TEST_F(Remembered, bytes_do_not_depend_on_the_number_of_workers) {
+  // Two parts of 1,024 objects, and a change after it.
+  const ClashModel before = row(1500), now = row(1501, 20, 1);
+  std::set<std::string> seen;
+  for (const unsigned workers : {1U, 2U, 3U, 8U, 64U}) {
+    SetUp();
+    parallel::Team team(workers);
+    context_.team = &team;
+    EXPECT_EQ(run(before).trends[0].appeared, 1499U);
+    run(now);
+    seen.insert(database_->serialized().value());
+    context_ = {};
+  }
+  EXPECT_EQ(seen.size(), 1U);
 }
 
 TEST_F(Remembered, results_that_are_not_all_there_are_damage_and_not_less_clashes) {

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// What it costs to remember a run of a clash test, and to have it again.
+//
+//     bench_project_remember [objects]  a generated ship at a clearance of 25 mm; default 100,000
+//
+// "first" writes the run that found everything; "again" reads it, finds that nothing changed and
+// remembers that; "one moved" does the same after an object moved, whose pairs are tested again.
+// Each is up to the end of the commit, with signatures, without loading and placing the model. A
+// run that follows a change must come to the result of a full one, and its rows to its count.
+#include "project/results/remember.hpp"
+
+#include <fmt/core.h>
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clocks.hpp"
+#include "peer_support/work_folder.hpp"
+#include "strake/clash/incremental.hpp"
+#include "strake/generate/ship.hpp"
+#include "strake/parallel/team.hpp"
+#include "strake/project/project.hpp"
+
+namespace {
+
+using namespace strake;
+
+clash::Options options_of_run() {
+  clash::Options options;
+  options.tolerances.clearance_mm = 25;
+  options.engine.keep_for_changes = true;
+  return options;
+}
+
+/// Tests a model as `strake clash -p` does, and prints what each step took.
+class Night {
+ public:
+  Night(project::Project& project, const parallel::Context& context)
+      : project_(project), context_(context) {}
+
+  /// Returns how many clashes appeared.
+  Result<std::uint64_t> run(const char* what, const model::Model& model) {
+    const Result<model::Scene> scene = make_scene(model, clash::scene_options(options_), context_);
+    if (!scene) return scene.error();
+    const clash::Sets sets = clash::one_set(*scene);
+    fmt::print("{}\n", what);
+    clock_ = {};
+    Result<std::optional<project::StoredTest>> before =
+        project::read_test(project_.database(), "", context_);
+    if (!before) return before.error();
+    tell("read earlier result");
+    const auto identities = project::identities(model, context_);
+    if (!identities) return identities.error();
+    Result<clash::Signatures> now = clash::signatures(*scene, sets, options_, {}, context_);
+    if (!now) return now.error();
+    const project::Snapshot snapshot{now->rules, *identities, std::move(now->objects)};
+    tell("signatures");
+    project::TestWork work;
+    const Result<clash::Report> report = test(*scene, sets, *before, snapshot, work);
+    if (!report) return report.error();
+    tell("clash");
+    const clash::Policy policy;
+    const project::TestedTest tested{
+        &*report, &snapshot, &sets, &policy, *before ? &**before : nullptr, work};
+    Result<project::Transaction> transaction = project::Transaction::begin(project_.database());
+    if (!transaction) return transaction.error();
+    const project::RunFacts facts{"2026-01-31T00:00:00Z", "bench", 1, 1};
+    const Result<project::RememberedRun> remembered =
+        project::remember(project_.database(), model, facts, {&tested, 1}, context_);
+    if (!remembered) return remembered.error();
+    tell("remember");
+    if (const Status done = transaction->commit(); !done) return done.error();
+    tell("commit");
+    return remembered->trends.front().appeared;
+  }
+
+ private:
+  Result<clash::Report> test(const model::Scene& scene, const clash::Sets& sets,
+                             std::optional<project::StoredTest>& before,
+                             const project::Snapshot& snapshot, project::TestWork& work) {
+    if (!before) return clash::detect(scene, sets, options_, {}, context_);
+    const auto now_of = project::unchanged(before->snapshot, snapshot, context_);
+    if (!now_of) return now_of.error();
+    work.how =
+        before->snapshot == snapshot ? project::Retested::nothing : project::Retested::changes;
+    if (work.how == project::Retested::nothing) return std::move(before->results.report);
+    return clash::detect_changes(scene, sets, options_, {}, {before->results.report, *now_of},
+                                 context_);
+  }
+  void tell(const char* step) { fmt::print("  {:<20} {}\n", step, clock_.text()); }
+
+  project::Project& project_;
+  const parallel::Context& context_;
+  clash::Options options_ = options_of_run();
+  bench::Clock clock_;
+};
+
+int fail(const Error& error) {
+  fmt::print(stderr, "{}\n", error.text());
+  return EXIT_FAILURE;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  generate::ShipOptions options;
+  options.objects = argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 100'000;
+  parallel::Team team(parallel::default_workers());
+  const parallel::Context context{.team = &team};
+  const Result<generate::Ship> ship = generate::generate_ship(options, context);
+  if (!ship) return fail(ship.error());
+  const bench::WorkFolder folder({}, "bench_project_remember");
+  Result<project::Project> project = project::Project::create(folder.path() / "ship.strake");
+  if (!project) return fail(project.error());
+  Night night(*project, context);
+  const auto first = night.run("first", ship->model);
+  const auto again = night.run("again", ship->model);
+  model::Model moved = ship->model;
+  const model::Object& object = moved.objects[moved.objects.size() / 2];
+  for (std::uint32_t b = object.first_body; b < object.first_body + object.body_count; ++b)
+    moved.bodies[b].placement.translation.x += 20;
+  const auto after = night.run("one moved", moved);
+  for (const auto* const result : {&first, &again, &after})
+    if (!*result) return fail(result->error());
+  fmt::print("{} objects, {} clashes\n", ship->model.objects.size(), *first);
+  const bool right = *first > 0 && *again == 0;
+  if (!right) fmt::print(stderr, "not the clashes that there are\n");
+  return right ? EXIT_SUCCESS : EXIT_FAILURE;
+}
