@@ -78,7 +78,7 @@ def convert_chunk(model: Model, chunk: Chunk) -> Iterator[Answer]:
         element = iterator.get()
         yield _converted(element, known, chunk.kernel)
         going = bool(iterator.next())
-    yield from _remarks(log, chunk.kernel)
+    yield from _remarks(log, chunk)
 
 
 def _converted(element: Any, known: dict[str, PreparedShape | str], kernel: str) -> Converted:
@@ -126,9 +126,10 @@ def _color(style: Any) -> Color:
     return (red, green, blue, max(alpha, 0.05))
 
 
-def _remarks(log: Any, kernel: str) -> Iterator[Remark]:
+def _remarks(log: Any, chunk: Chunk) -> Iterator[Remark]:
+    alone = chunk.products[0] if len(chunk.products) == 1 else 0
     for message in log.log_messages():
         if message.severity_string != "ERROR":
             continue
         number = re.match(r"#(\d+)=", message.product)
-        yield Remark(int(number[1]) if number else 0, kernel, message.message.strip())
+        yield Remark(int(number[1]) if number else alone, chunk.kernel, " ".join(message.message.split()))

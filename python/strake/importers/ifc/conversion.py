@@ -169,7 +169,9 @@ def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Worker
         if following:
             workers.add(Chunk((number,), following[0], chunk.attempt + 1))
         else:
-            result.failed[number] = "; ".join(f"{kernel}: {text}" for kernel, text in dict.fromkeys(said))
+            # A kernel says the same thing several times, each time with more around it.
+            longest = dict(sorted(said, key=lambda remark: len(remark[1])))
+            result.failed[number] = "; ".join(f"{kernel}: {longest[kernel]}" for kernel in dict.fromkeys(k for k, _ in said))
             if all(text == EMPTY for _, text in said):
                 result.empty.add(number)
     if chunk.kernel == FAST and not ended.fault:
