@@ -62,8 +62,10 @@ Result<report::ClashDiff> compare(Session& session, const ClashDiffOptions& give
 }
 
 Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given) {
-  if (const Status status = check_outputs(given.outputs, formats_of(report::clash_diff_writers()),
-                                          {given.before, given.after});
+  if (const Status status = session.files().add_inputs({given.before, given.after}); !status)
+    return status.error();
+  if (const Status status =
+          session.files().add_outputs(given.outputs, formats_of(report::clash_diff_writers()));
       !status)
     return status.error();
   const Result<std::vector<report::ClashDocument>> documents = read(session, given);

@@ -54,8 +54,10 @@ Status write(Session& session, const DrawDiffOptions& given, const report::ViewD
 }
 
 Result<ExitCode> run_diff(Session& session, const DrawDiffOptions& given) {
-  if (const Status status = check_outputs(given.outputs, formats_of(report::view_diff_writers()),
-                                          {given.before, given.after});
+  if (const Status status = session.files().add_inputs({given.before, given.after}); !status)
+    return status.error();
+  if (const Status status =
+          session.files().add_outputs(given.outputs, formats_of(report::view_diff_writers()));
       !status)
     return status.error();
   report::ViewDiffOptions options;
