@@ -10,9 +10,9 @@
 
 #include "cli/options/options.hpp"
 #include "cli/output/console.hpp"
+#include "cli/output/run_files.hpp"
 #include "cli/output/stats.hpp"
 #include "cli/run/interrupts.hpp"
-#include "cli/run/run_files.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 #include "strake/parallel/detail/function_ref.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/run/run_files.hpp"
+#include "cli/output/run_files.hpp"
 
 #include <sys/stat.h>
 
