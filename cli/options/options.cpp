@@ -15,7 +15,6 @@
 
 #include "core/number.hpp"
 #include "core/units.hpp"
-#include "strake/core/atomic_file.hpp"
 #include "strake/parallel/team.hpp"
 
 namespace strake::cli {
@@ -24,31 +23,6 @@ namespace {
 
 Error usage(std::string message, std::string option, std::string mend) {
   return {ErrorCode::usage, std::move(message), std::move(option), std::move(mend)};
-}
-
-/// Whether two names lead to one file, which need not be there yet: a link to nowhere leads to the
-/// file that writing through it makes.
-bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code error;
-  if (std::filesystem::equivalent(a, b, error) && !error) return true;
-  const auto full = [&](const std::filesystem::path& path) {
-    const auto whole = std::filesystem::absolute(resolve_links(path), error);
-    return error ? path : std::filesystem::weakly_canonical(whole, error);
-  };
-  return full(a) == full(b);
-}
-
-Status check_place(const std::string& file) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::path folder = fs::path(file).parent_path();
-  if (!folder.empty() && !fs::is_directory(folder, error))
-    return Error{ErrorCode::output, "cannot be written: there is no such folder", file,
-                 "make the folder first"};
-  if (fs::is_directory(file, error))
-    return Error{ErrorCode::output, "cannot be written: it is a folder", file,
-                 "give the name of a file"};
-  return {};
 }
 
 }  // namespace
@@ -288,55 +262,6 @@ Result<std::vector<double>> coordinates_option(const std::string& text, std::siz
     at = comma + 1;
   }
   return coordinates;
-}
-
-namespace {
-
-Status check_output(const std::string& option, const std::string& file,
-                    std::span<const OutputFormat> formats, const std::vector<std::string>& inputs) {
-  if (const auto number = format_number(formats, file); !number) {
-    Error error = number.error();
-    error.where = option;
-    return error;
-  }
-  return check_spares_inputs(option, {file}, inputs);
-}
-
-}  // namespace
-
-Status check_spares_inputs(const std::string& option, const std::vector<std::string>& files,
-                           const std::vector<std::string>& inputs) {
-  for (const std::string& file : files)
-    for (const std::string& input : inputs)
-      if (same_file(file, input))
-        return usage("'" + file + "' is one of the inputs and would be overwritten", option,
-                     "give another name");
-  return {};
-}
-
-Status check_outputs(const std::vector<std::string>& files, std::span<const OutputFormat> formats,
-                     const std::vector<std::string>& inputs) {
-  for (std::size_t f = 0; f < files.size(); ++f) {
-    const std::string& file = files[f];
-    if (Status status = check_output("-o", file, formats, inputs); !status) return status;
-    for (std::size_t g = 0; g < f; ++g)
-      if (same_file(file, files[g]))
-        return usage("'" + file + "' is given twice", "-o", "give each output its own name");
-    if (Status status = check_place(file); !status) return status;
-  }
-  return {};
-}
-
-Status check_other_output(const std::string& option, const std::string& file,
-                          const OutputFormat& format, const std::vector<std::string>& inputs,
-                          const std::vector<std::string>& outputs) {
-  if (Status status = check_output(option, file, std::span(&format, 1), inputs); !status)
-    return status;
-  for (const std::string& output : outputs)
-    if (same_file(file, output))
-      return usage("'" + file + "' is the output of -o already", option,
-                   "give each output its own name");
-  return check_place(file);
 }
 
 Status length_option(double& value, const std::string& text, const std::string& option) {

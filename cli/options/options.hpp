@@ -66,21 +66,6 @@ inline constexpr std::string_view kOrEmpty = "|''";
                                                              std::size_t count,
                                                              const std::string& option,
                                                              const std::string& example);
-/// Checks that every file of -o is of one of the formats and can be written where it is to be, and
-/// is neither one of `inputs` nor named twice.
-[[nodiscard]] Status check_outputs(const std::vector<std::string>& files,
-                                   std::span<const OutputFormat> formats,
-                                   const std::vector<std::string>& inputs);
-/// Checks that no file of an option is one of `inputs`, of which some are known late: the model
-/// files of a project are.
-[[nodiscard]] Status check_spares_inputs(const std::string& option,
-                                         const std::vector<std::string>& files,
-                                         const std::vector<std::string>& inputs);
-/// Checks a file that another option names in the same way: it is none of those of -o either.
-[[nodiscard]] Status check_other_output(const std::string& option, const std::string& file,
-                                        const OutputFormat& format,
-                                        const std::vector<std::string>& inputs,
-                                        const std::vector<std::string>& outputs);
 /// Parses a distance that is an option of the command line; overwrites `value` where it was given.
 [[nodiscard]] Status length_option(double& value, const std::string& text,
                                    const std::string& option);

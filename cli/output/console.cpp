@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-#include "core/text_encoding.hpp"
+#include "cli/output/shown_text.hpp"
 
 namespace strake::cli {
 
@@ -50,7 +50,7 @@ void Console::put(std::string_view line) {
 
 void Console::note(std::string_view line) {
   const std::lock_guard lock(mutex_);
-  if (!quiet_) put(printable(line));
+  if (!quiet_) put(shown_line(line));
 }
 
 void Console::print(std::string_view line) {
@@ -60,20 +60,22 @@ void Console::print(std::string_view line) {
 
 void Console::warn(std::string_view line) {
   const std::lock_guard lock(mutex_);
-  put("strake: " + printable(line));
+  put("strake: " + shown_line(line));
 }
 
 void Console::error(std::string_view line) {
   const std::lock_guard lock(mutex_);
-  put("strake: error: " + printable(line));
+  put("strake: error: " + shown_line(line));
 }
 
 void Console::show_status(std::string_view line) {
   const std::lock_guard lock(mutex_);
-  if (!terminal_ || quiet_ || line == status_) return;
+  if (!terminal_ || quiet_) return;
+  std::string shown = shown_line(line);
+  if (shown == status_) return;
   std::string text(kEraseLine);
-  text += line;
-  status_ = line;
+  text += shown;
+  status_ = std::move(shown);
   (void)write_all(STDERR_FILENO, text);
 }
 

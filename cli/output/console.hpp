@@ -15,7 +15,7 @@
 namespace strake::cli {
 
 /// Standard error, shared by narration, errors and the progress line; thread-safe. What is printed
-/// may hold names out of files: characters that command a terminal are shown as '?'.
+/// is shown as shown_line() returns it.
 class Console {
  public:
   Console();

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/text_encoding.hpp"
+#include "cli/output/shown_text.hpp"
 #include "model/attributes.hpp"
 
 namespace strake::cli {
@@ -24,16 +24,16 @@ std::string object_list_text(const model::Model& model, std::uint64_t most) {
   for (std::uint32_t o = 0; o < shown; ++o) {
     const model::Object& object = model.objects[o];
     const model::SelectableProperties of = model::selectable_properties(model, model::ObjectId{o});
-    out += printable(fmt::format("name = '{}'", object.name)) + '\n';
+    out += shown_line(fmt::format("name = '{}'", object.name)) + '\n';
     for (const auto& [property, value] :
          {std::pair("id", object.id), std::pair("path", of.path),
           std::pair("file", model.files[object.file].label),
           std::pair("type", fmt::format("{}", fmt::join(of.types, ", "))),
           std::pair("category", fmt::format("{}", fmt::join(of.categories, ", "))),
           std::pair("color", fmt::format("{}", fmt::join(of.colors, ", ")))})
-      out += printable(fmt::format("  {:<10}{}", property, value)) + '\n';
+      out += shown_line(fmt::format("  {:<10}{}", property, value)) + '\n';
     for (const auto& [attribute, value] : of.attributes)
-      out += printable(fmt::format("  @{} = {}", attribute, value)) + '\n';
+      out += shown_line(fmt::format("  @{} = {}", attribute, value)) + '\n';
   }
   if (shown < model.objects.size())
     out += fmt::format("… and {} objects more (--objects)\n", model.objects.size() - shown);

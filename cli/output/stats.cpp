@@ -7,6 +7,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 
+#include "cli/output/shown_text.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::cli {
@@ -42,7 +43,8 @@ void Stats::costly(std::string_view a, std::string_view b, std::string_view wher
 std::string Stats::text(const parallel::RunReport& report) const {
   std::string out = fmt::format("{:<28}{:>10}{:>10}\n", "phase", "wall s", "cpu s");
   for (const Phase& phase : phases_)
-    out += fmt::format("{:<28}{:>10.3f}{:>10.3f}\n", phase.name, phase.wall_s, phase.cpu_s);
+    out += fmt::format("{:<28}{:>10.3f}{:>10.3f}\n", shown_line(phase.name), phase.wall_s,
+                       phase.cpu_s);
   for (const parallel::StageReport& stage : report.stages())
     out += fmt::format("  {:<26}{:>10.3f}{:>10.3f}\n", stage.name, stage.wall_s, stage.cpu_s);
   const std::vector<parallel::RegionReport> regions = report.regions();
@@ -62,11 +64,13 @@ std::string Stats::text(const parallel::RunReport& report) const {
           region.nested_cpu_s, shared ? "" : std::to_string(region.items),
           region.nested_runs == 1 ? "once" : fmt::format("{} times", region.nested_runs));
   }
-  for (const auto& [name, words] : words_) out += fmt::format("{:<28}  {}\n", name, words);
-  for (const auto& [name, value] : counters_) out += fmt::format("{:<28}{:>10}\n", name, value);
+  for (const auto& [name, words] : words_)
+    out += fmt::format("{:<28}  {}\n", shown_line(name), shown_line(words));
+  for (const auto& [name, value] : counters_)
+    out += fmt::format("{:<28}{:>10}\n", shown_line(name), value);
   for (const Costly& pair : costly_)
-    out += fmt::format("{:<28}{:>10}   {} and {}{}\n", "costly pair", pair.cost, printable(pair.a),
-                       printable(pair.b), printable(pair.where));
+    out += fmt::format("{:<28}{:>10}   {} and {}{}\n", "costly pair", pair.cost, shown_cell(pair.a),
+                       shown_cell(pair.b), shown_line(pair.where));
   out += fmt::format("{:<28}{:>10.1f} MiB", "peak memory",
                      static_cast<double>(peak_memory_bytes()) / (1024.0 * 1024.0));
   return out;
@@ -77,7 +81,8 @@ std::string Stats::json(const parallel::RunReport& report) const {
   Json phases = Json::array(), stages = Json::array(), parts = Json::array(),
        words = Json::object(), counters = Json::object(), costly = Json::array();
   for (const Phase& phase : phases_)
-    phases.push_back({{"name", phase.name}, {"wall_s", phase.wall_s}, {"cpu_s", phase.cpu_s}});
+    phases.push_back(
+        {{"name", valid_utf8(phase.name)}, {"wall_s", phase.wall_s}, {"cpu_s", phase.cpu_s}});
   for (const parallel::StageReport& stage : report.stages())
     stages.push_back({{"name", stage.name}, {"wall_s", stage.wall_s}, {"cpu_s", stage.cpu_s}});
   for (const parallel::RegionReport& region : report.regions())
@@ -91,8 +96,8 @@ std::string Stats::json(const parallel::RunReport& report) const {
                      {"longest_s", region.longest_s},
                      {"load_balance", region.load_balance()},
                      {"bound", region.bound()}});
-  for (const auto& [name, text] : words_) words[name] = text;
-  for (const auto& [name, value] : counters_) counters[name] = value;
+  for (const auto& [name, text] : words_) words[valid_utf8(name)] = valid_utf8(text);
+  for (const auto& [name, value] : counters_) counters[valid_utf8(name)] = value;
   for (const Costly& pair : costly_)
     costly.push_back({{"a", valid_utf8(pair.a)},
                       {"b", valid_utf8(pair.b)},

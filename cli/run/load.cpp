@@ -271,8 +271,10 @@ Result<model::Model> join_inputs(Session& session, const InputFiles& files,
                                  std::vector<std::filesystem::path>& sources) {
   std::vector<model::Model> models;
   for (const std::filesystem::path& file : files.projects) {
+    if (const Status status = session.files().add_project(file); !status) return status.error();
     Result<project::Project> project = project::Project::open(file, {});
     if (!project) return project.error();
+    if (const Status status = add_model_files(session, *project); !status) return status.error();
     Result<std::vector<std::filesystem::path>> of_project =
         model_files(*project, file.string(), said_of_files);
     if (!of_project) return of_project.error();
@@ -281,7 +283,11 @@ Result<model::Model> join_inputs(Session& session, const InputFiles& files,
     if (!model) return model;
     models.push_back(std::move(*model));
   }
-  for (const io::FileToRead& file : files.models) sources.push_back(file.path);
+  for (const io::FileToRead& file : files.models) {
+    if (const Status status = session.files().add_model(file.path, session.context()); !status)
+      return status.error();
+    sources.push_back(file.path);
+  }
   if (!files.models.empty() || models.empty()) {
     Result<model::Model> model = io::read_models(files.models, session.context());
     if (!model || models.empty()) return model;

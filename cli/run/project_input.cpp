@@ -111,10 +111,13 @@ Result<OpenedProject> open_project(Session& session, const ProjectOptions& optio
                                    project::Access access) {
   const Result<double> wait = wait_seconds(options.wait);
   if (!wait) return wait.error();
+  if (const Status status = session.files().add_project(options.file); !status)
+    return status.error();
   const auto timer = session.step("open");
   Result<project::Project> project =
       project::Project::open(options.file, {.access = access, .wait_s = *wait});
   if (!project) return project.error();
+  if (const Status status = add_model_files(session, *project); !status) return status.error();
   return OpenedProject{options.file, std::move(*project)};
 }
 
@@ -122,14 +125,13 @@ Result<OpenedProject> open_project(Session& session, const std::string& file) {
   return open_project(session, ProjectOptions{file, {}}, project::Access::read);
 }
 
-Status check_spares_model_files(project::Project& project, const std::string& option,
-                                const std::vector<std::string>& outputs) {
-  if (outputs.empty()) return {};
+Status add_model_files(Session& session, project::Project& project) {
   const Result<std::vector<project::StoredFile>> files = project.files();
   if (!files) return files.error();
-  std::vector<std::string> inputs;
-  for (const project::StoredFile& file : *files) inputs.push_back(file.path.string());
-  return check_spares_inputs(option, outputs, inputs);
+  for (const project::StoredFile& file : *files)
+    if (Status status = session.files().add_later_model(file.path, session.context()); !status)
+      return status;
+  return {};
 }
 
 Result<model::Model> project_model(Session& session, project::Project& project) {

@@ -60,17 +60,16 @@ struct OpenedProject {
   project::Project project;
 };
 
-/// Opens the project that the options name. Errors: usage for --wait; those of
-/// project::Project::open().
+/// Opens the project that the options name. Errors: usage for --wait, and where an output is the
+/// project or one of its model files; those of project::Project::open().
 [[nodiscard]] Result<OpenedProject> open_project(Session& session, const ProjectOptions& options,
                                                  project::Access access);
 /// Opens a project to be read. Errors: those of project::Project::open().
 [[nodiscard]] Result<OpenedProject> open_project(Session& session, const std::string& file);
 
-/// Checks that no file that an option names is one that the project reads again: an update could
-/// not. Errors: usage; those of project::Project::files().
-[[nodiscard]] Status check_spares_model_files(project::Project& project, const std::string& option,
-                                              const std::vector<std::string>& outputs);
+/// Makes known to the run which files an update of the project reads again. Errors: usage where an
+/// output is one of them; those of project::Project::files().
+[[nodiscard]] Status add_model_files(Session& session, project::Project& project);
 
 /// Takes the model out of a project. Errors: input for a project without files; those of
 /// project::Project::model().

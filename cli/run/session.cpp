@@ -38,11 +38,17 @@ const parallel::RunReport& Session::measured() {
   return report_;
 }
 
+Status Session::will_write(const std::filesystem::path& target) {
+  if (Status status = files_.check(target); !status) return status;
+  interrupts_.guard(target);
+  return {};
+}
+
 Status Session::write(const std::filesystem::path& target, Producer producer) {
   // Between computing and writing a run may have been cancelled: then there is no output at all.
   if (interrupts_.token().stop_requested()) return Error{ErrorCode::cancelled, "cancelled", {}, {}};
   const auto timer = step("write " + target.filename().string());
-  will_write(target);
+  if (Status status = will_write(target); !status) return status;
   Result<AtomicFile> file = AtomicFile::create(target);
   if (!file) return file.error();
   if (Status status = producer([&](std::string_view text) { file->write(text); }); !status)

@@ -10,6 +10,7 @@
 
 #include "cli/options/options.hpp"
 #include "cli/output/console.hpp"
+#include "cli/output/run_files.hpp"
 #include "cli/output/stats.hpp"
 #include "cli/run/interrupts.hpp"
 #include "strake/core/result.hpp"
@@ -31,14 +32,16 @@ class Session {
   [[nodiscard]] const parallel::RunReport& measured();
   [[nodiscard]] Console& console() { return console_; }
   [[nodiscard]] Stats& stats() { return stats_; }
+  [[nodiscard]] RunFiles& files() { return files_; }
   /// Begins a step of the run, which is timed for --stats until the value dies, and shown as
   /// progress while nothing more precise is known.
   [[nodiscard]] Stats::Timer step(std::string_view name);
   [[nodiscard]] bool json() const { return options_.json; }
   [[nodiscard]] bool has_stats_option() const { return options_.stats; }
 
-  /// Names a file that the run will write, so that a cancellation cleans up after it.
-  void will_write(const std::filesystem::path& target) { interrupts_.guard(target); }
+  /// Names a file that the run writes now, so that a cancellation cleans up after it. Errors: usage
+  /// where the run reads it.
+  [[nodiscard]] Status will_write(const std::filesystem::path& target);
   /// Takes text piece by piece.
   using Sink = parallel::FunctionRef<void(std::string_view)>;
   /// Gives all the text, or the error that prevented it.
@@ -60,6 +63,7 @@ class Session {
   parallel::RunReport report_;
   bool measures_ = false;
   Stats stats_;
+  RunFiles files_;
   std::mutex step_mutex_;
   std::string step_;
   std::optional<ProgressLine> line_;

@@ -199,14 +199,20 @@ Result<EvaluationRecord> begun_record(const EvaluateOptions& given, const fs::pa
 }
 
 /// Returns the evaluation to compare with, if one is named.
-Result<std::optional<EvaluationRecord>> earlier_record(const EvaluateOptions& given,
+Result<std::optional<EvaluationRecord>> earlier_record(Session& session,
+                                                       const EvaluateOptions& given,
                                                        const fs::path& state,
                                                        const EvaluationSettings& settings) {
   if (given.compare.empty()) return std::optional<EvaluationRecord>();
   std::error_code failure;
-  if (!given.fresh && fs::equivalent(given.compare, state, failure))
+  const bool is_replaced = fs::equivalent(given.compare, state, failure);
+  if (is_replaced && !given.fresh)
     return Error{ErrorCode::usage, "it is the evaluation that is gone on with", given.compare,
                  "keep a copy of the earlier one, or give another -o"};
+  // With --fresh it may be what this run replaces, as asked, once it is read.
+  if (!is_replaced)
+    if (const Status status = session.files().add_input(given.compare); !status)
+      return status.error();
   Result<EvaluationRecord> record = read_evaluation(given.compare);
   if (!record) return record.error();
   if (const Status status = check_comparable(record->settings, settings); !status)
@@ -224,7 +230,7 @@ Status write_pages(Session& session, const fs::path& folder, const EvaluationRec
   for (const Section& section : sections_of(record))
     for (std::size_t n = 0; n < section.charts.size(); ++n) {
       const fs::path file = folder / chart_file(section, n);
-      session.will_write(file);
+      if (const Status status = session.will_write(file); !status) return status;
       if (const Status status = write_file(file, bar_chart_svg(section.charts[n])); !status)
         return status;
     }
@@ -266,7 +272,8 @@ Result<ExitCode> run_evaluate(Session& session, const EvaluateOptions& given) {
   const Result<std::optional<PeerPrograms>> peers = peer_programs(given, *settings, folder);
   if (!peers) return peers.error();
   const fs::path state = folder / "evaluation.json";
-  const Result<std::optional<EvaluationRecord>> before = earlier_record(given, state, *settings);
+  const Result<std::optional<EvaluationRecord>> before =
+      earlier_record(session, given, state, *settings);
   if (!before) return before.error();
   std::error_code failure;
   fs::create_directories(folder, failure);
@@ -281,7 +288,7 @@ Result<ExitCode> run_evaluate(Session& session, const EvaluateOptions& given) {
   const EvaluationHooks hooks{[&](const std::string& what) { (void)session.step(what); },
                               [&](const std::string& done, const EvaluationRecord& now) {
                                 session.console().note(done);
-                                session.will_write(state);
+                                if (Status s = session.will_write(state); !s) return s;
                                 return write_file(state, evaluation_json(now));
                               },
                               *peers};

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <ostream>
 #include <streambuf>
@@ -43,10 +44,12 @@ class SinkBuffer : public std::streambuf {
   Session::Sink sink_;
 };
 
+constexpr std::array<OutputFormat, 1> kTruthFormats{{{".json"}}};
+
 Status write_model(Session& session, const model::Model& model, const std::string& file) {
   const Result<io::ModelWriter> writer = find_writer(io::model_writers(), file);
   if (!writer) return writer.error();
-  session.will_write(file);
+  if (const Status status = session.will_write(file); !status) return status;
   const auto timer = session.step("write " + file);
   const Status status = writer->write(model, file, {}, session.context());
   if (status) session.console().note("wrote " + file);
@@ -70,11 +73,11 @@ Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
                                     "--imported-triangles");
       !s)
     return s.error();
-  if (const Status s = check_outputs({given.output}, formats_of(io::model_writers()), {}); !s)
+  if (const Status s = session.files().add_outputs({given.output}, formats_of(io::model_writers()));
+      !s)
     return s.error();
   if (!given.truth.empty())
-    if (const Status s = check_other_output("--truth", given.truth, {".json"}, {}, {given.output});
-        !s)
+    if (const Status s = session.files().add_output("--truth", given.truth, kTruthFormats); !s)
       return s.error();
   const Result<generate::Ship> ship = [&] {
     const auto timer = session.step("generate");

@@ -18,6 +18,7 @@
 #include "cli/run/project_input.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/number.hpp"
+#include "core/text_encoding.hpp"
 #include "io/importer/find_importer.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/geometry/grid.hpp"
@@ -171,8 +172,8 @@ std::string info_text(const model::Model& model, const model::Scene& scene, cons
   std::string out;
   for (std::size_t f = 0; f < model.files.size(); ++f) {
     const model::SourceFile& file = model.files[f];
-    out += fmt::format("{}\n  format      {}, {} bytes, unit {}, {} up\n", file.label, file.format,
-                       file.bytes, file.unit, file.up_axis);
+    out += fmt::format("{}\n  format      {}, {} bytes, unit {}, {} up\n", printable(file.label),
+                       file.format, file.bytes, file.unit, file.up_axis);
     out += content_text(content_of(model, scene, f, f + 1));
     if (lists.attributes) out += attribute_list_text(model, f);
   }

@@ -300,28 +300,28 @@ Result<clash::Findings> findings_of(Session& session, const Loaded& loaded,
   return find(session, loaded, std::move(*plan), list_exempted);
 }
 
-/// Checks every file that the run writes, each once.
-Status check_files(const ClashOptions& given) {
+/// Makes known to the run all files that options name.
+Status name_files(Session& session, const ClashOptions& given) {
   if (const Status status = check_project_options(given.project.project, given.input); !status)
     return status;
   if (given.input.files.empty() && !given.project.is_given())
     return Error{
         ErrorCode::usage, "no model file is given", {}, "'strake clash --help' tells more"};
-  std::vector<std::string> others = given.input.files;
-  if (given.project.is_given()) others.push_back(given.project.project.file);
-  if (!given.rules.empty()) others.push_back(given.rules);
-  if (given.decisions.write)
-    if (const Status status = check_other_output("--decisions", given.decisions.file, {".csv"},
-                                                 others, given.outputs);
-        !status)
-      return status;
-  if (!given.decisions.file.empty()) others.push_back(given.decisions.file);
-  if (const Status status =
-          check_outputs(given.outputs, formats_of(report::clash_writers()), others);
+  RunFiles& files = session.files();
+  if (Status status = files.add_inputs(given.input.files); !status) return status;
+  if (!given.rules.empty())
+    if (Status status = files.add_input(given.rules); !status) return status;
+  if (!given.decisions.file.empty() && !given.decisions.write)
+    if (Status status = files.add_input(given.decisions.file); !status) return status;
+  constexpr std::array<OutputFormat, 1> kTables{{{".csv"}}};
+  if (Status status = files.add_outputs(given.outputs, formats_of(report::clash_writers()));
       !status)
     return status;
+  if (given.decisions.write)
+    if (Status status = files.add_output("--decisions", given.decisions.file, kTables); !status)
+      return status;
   if (given.result.log_pairs.empty()) return {};
-  return check_other_output("--log-pairs", given.result.log_pairs, {".csv"}, others, given.outputs);
+  return files.add_output("--log-pairs", given.result.log_pairs, kTables);
 }
 
 /// Returns an error for options that contradict each other.
@@ -404,7 +404,7 @@ Result<ClashSource> source_of(Session& session, const ClashOptions& given,
     if (!loaded) return loaded.error();
     return ClashSource{{}, std::move(*loaded)};
   }
-  Result<ProjectClashes> project = ProjectClashes::open(session, given.project, given.outputs);
+  Result<ProjectClashes> project = ProjectClashes::open(session, given.project);
   if (!project) return project.error();
   Result<Loaded> loaded = project->load(session, request.scene, files_of(request));
   if (!loaded) return loaded.error();
@@ -444,7 +444,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
       !given.result.log_pairs.empty() || (session.has_stats_option() && !given.project.is_given());
   if (const Status status = check(given.result); !status) return status.error();
   if (const Status status = check_contacts(given, request->output); !status) return status.error();
-  if (const Status status = check_files(given); !status) return status.error();
+  if (const Status status = name_files(session, given); !status) return status.error();
   Result<ClashSource> source = source_of(session, given, *request);
   if (!source) return source.error();
   const Loaded& loaded = source->loaded;

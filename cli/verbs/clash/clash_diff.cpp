@@ -53,7 +53,8 @@ void print_maybe_new(Session& session, const report::ClashDiff& diff, const std:
 }
 
 /// Errors: usage for options that need a project, or a project alone.
-Status check(const ClashDiffOptions& given, const std::vector<std::string>& files) {
+Status check(Session& session, const ClashDiffOptions& given,
+             const std::vector<std::string>& files) {
   const bool any_project =
       std::ranges::any_of(files, [](const std::string& file) { return project::is_project(file); });
   if (given.test && !any_project)
@@ -64,7 +65,8 @@ Status check(const ClashDiffOptions& given, const std::vector<std::string>& file
   if (!given.match_files.empty() && files.size() == 1)
     return Error{ErrorCode::usage, "a project follows its files itself", "--match-files",
                  "leave it out; 'strake project update' takes it"};
-  return check_outputs(given.outputs, formats_of(report::clash_diff_writers()), files);
+  if (Status status = session.files().add_inputs(files); !status) return status;
+  return session.files().add_outputs(given.outputs, formats_of(report::clash_diff_writers()));
 }
 
 /// A comparison, and what it refers to.
@@ -130,7 +132,7 @@ Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given,
                           const CLI::App& command) {
   const Result<std::vector<std::string>> files = compared_files(given.compared, command);
   if (!files) return files.error();
-  if (const Status status = check(given, *files); !status) return status.error();
+  if (const Status status = check(session, given, *files); !status) return status.error();
   const Result<Compared> compared = files->size() == 1
                                         ? compare_runs(session, given, files->front())
                                         : compare_files(session, given, *files);

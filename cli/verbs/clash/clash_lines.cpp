@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <map>
 
-#include "core/text_encoding.hpp"
+#include "cli/output/shown_text.hpp"
 #include "report/json/json_writer.hpp"
 #include "report/text/columns.hpp"
 #include "report/text/csv.hpp"
@@ -24,7 +24,7 @@ Cell text_or_nothing(const std::string& text) { return text.empty() ? Cell() : C
 Cell count(std::uint64_t n) { return static_cast<std::int64_t>(n); }
 
 std::string cell_text(const Cell& cell) {
-  if (const auto* const text = std::get_if<std::string>(&cell)) return printable(*text);
+  if (const auto* const text = std::get_if<std::string>(&cell)) return shown_cell(*text);
   if (const auto* const whole = std::get_if<std::int64_t>(&cell)) return std::to_string(*whole);
   if (const auto* const real = std::get_if<double>(&cell)) return fmt::format("{:.3f}", *real);
   return {};

@@ -35,7 +35,7 @@ struct ClashListOptions {
 Result<OpenedProject> open(Session& session, const ClashListOptions& given) {
   if (given.project.file.empty())
     return Error{ErrorCode::usage, "no project is given", "-p", "write -p FILE"};
-  if (const Status status = check_outputs(given.outputs, kFormats, {given.project.file}); !status)
+  if (const Status status = session.files().add_outputs(given.outputs, kFormats); !status)
     return status.error();
   return open_project(session, given.project, project::Access::read);
 }

@@ -87,12 +87,9 @@ void add_clash_project_options(CLI::App& command, ClashProjectInput& options) {
 ProjectClashes::ProjectClashes(OpenedProject opened, const ClashProjectInput& input)
     : opened_(std::move(opened)), input_(input), started_(utc_time()), started_s_(now_s()) {}
 
-Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProjectInput& input,
-                                            const std::vector<std::string>& outputs) {
+Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProjectInput& input) {
   Result<OpenedProject> opened = open_project(session, input.project, project::Access::write);
   if (!opened) return opened.error();
-  if (const Status s = check_spares_model_files(opened->project, "-o", outputs); !s)
-    return s.error();
   return ProjectClashes(std::move(*opened), input);
 }
 

@@ -45,10 +45,9 @@ void add_clash_project_options(CLI::App& command, ClashProjectInput& options);
 /// in which nobody else could write to the project.
 class ProjectClashes {
  public:
-  /// Opens the project that is given, of whose model files none may be one of -o. Errors: those of
-  /// open_project() and check_spares_model_files().
-  [[nodiscard]] static Result<ProjectClashes> open(Session& session, const ClashProjectInput& input,
-                                                   const std::vector<std::string>& outputs);
+  /// Opens the project that is given. Errors: those of open_project().
+  [[nodiscard]] static Result<ProjectClashes> open(Session& session,
+                                                   const ClashProjectInput& input);
 
   [[nodiscard]] Result<Loaded> load(Session& session, const model::SceneOptions& options,
                                     std::span<const rules::FileSettings> said_of_files);

@@ -49,14 +49,13 @@ Status check_view_name(const DrawOptions& given) {
   return {};
 }
 
-Status check_drawing_outputs(Session& session, const DrawOptions& given,
-                             const std::vector<std::string>& inputs) {
+Status check_drawing_outputs(Session& session, const DrawOptions& given) {
   const bool remembers = !given.save.empty() || !given.stored.empty();
   if (given.outputs.empty() && !session.json() && !remembers)
     return Error{ErrorCode::usage, "nowhere to draw to", "-o",
                  fmt::format("write -o FILE{}, or --json",
                              formats_of(drawing::drawing_writers()).front().suffix)};
-  return check_outputs(given.outputs, formats_of(drawing::drawing_writers()), inputs);
+  return session.files().add_outputs(given.outputs, formats_of(drawing::drawing_writers()));
 }
 
 /// Draws the model files, or a project as if its model came from them.
@@ -66,8 +65,6 @@ Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
     if (given.project.file.empty()) return load(session, given.input, request.scene);
     Result<OpenedProject> opened = open_project(session, given.project, project::Access::read);
     if (!opened) return opened.error();
-    if (const Status s = check_spares_model_files(opened->project, "-o", given.outputs); !s)
-      return s.error();
     return load_project(session, *opened, request.scene);
   }();
   if (!loaded) return loaded.error();
@@ -93,11 +90,10 @@ Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
                  "leave it out, or name the view: --stored NAME"};
   if (given.input.files.empty() && given.project.file.empty())
     return Error{ErrorCode::usage, "no model file is given", {}, "'strake draw --help' tells more"};
-  std::vector<std::string> inputs = given.input.files;
-  if (!given.project.file.empty()) inputs.push_back(given.project.file);
+  if (const Status status = session.files().add_inputs(given.input.files); !status)
+    return status.error();
   if (given.sheet.empty())
-    if (const Status status = check_drawing_outputs(session, given, inputs); !status)
-      return status.error();
+    if (const Status status = check_drawing_outputs(session, given); !status) return status.error();
   if (!given.save.empty() || !given.stored.empty()) return draw_stored(session, given);
   if (holds_drawing(given.input)) return draw_again(session, given);
   const Result<DrawRequest> request = request_of(given, session, session.json());

@@ -120,8 +120,9 @@ Result<ExitCode> run_diff(Session& session, const DrawDiffOptions& given, const 
   if (!given.view.empty() &&
       std::ranges::none_of(*files, [](const auto& file) { return project::is_project(file); }))
     return Error{ErrorCode::usage, "neither of the two is a project", "--view", "leave it out"};
+  if (const Status status = session.files().add_inputs(*files); !status) return status.error();
   if (const Status status =
-          check_outputs(given.outputs, formats_of(report::view_diff_writers()), *files);
+          session.files().add_outputs(given.outputs, formats_of(report::view_diff_writers()));
       !status)
     return status.error();
   report::ViewDiffOptions options;

@@ -66,16 +66,14 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
     return Error{ErrorCode::usage, fmt::format("a sheet is written as {} only", format_names()),
                  "--json", "leave --json out, and " + mend};
   if (request.outputs.empty()) return Error{ErrorCode::usage, "nowhere to draw to", "-o", mend};
-  std::vector<std::string> inputs = input.files;
-  inputs.push_back(request.file);
-  if (const Status status = check_outputs(request.outputs, formats, inputs); !status)
+  if (const Status status = session.files().add_input(request.file); !status) return status.error();
+  if (const Status status = session.files().add_outputs(request.outputs, formats); !status)
     return status.error();
   const Result<sheets::SheetFile> file = sheets::SheetFile::read(request.file);
   if (!file) return file.error();
   if (!file->template_name().empty()) {
     const auto beside = std::filesystem::path(request.file).parent_path() / file->template_name();
-    if (const Status status = check_outputs(request.outputs, formats, {beside.string()}); !status)
-      return status.error();
+    if (const Status status = session.files().add_input(beside); !status) return status.error();
   }
   const Result<Loaded> loaded = load(session, input, scene);
   if (!loaded) return loaded.error();

@@ -97,8 +97,6 @@ void count_lines(SolvedView& solved) {
 }
 
 Result<ViewOfProject> view_to_draw(const DrawOptions& given, OpenedProject& opened) {
-  if (const Status s = check_spares_model_files(opened.project, "-o", given.outputs); !s)
-    return s.error();
   if (!given.save.empty()) return ViewOfProject{given.save, given, given};
   if (const std::string option = first_option_of_lines(given); !option.empty())
     return Error{ErrorCode::usage, "the view '" + given.stored + "' is drawn as it was saved",

@@ -51,7 +51,7 @@ Status write_models(Session& session, project::Project& project,
   for (const std::string& file : files) {
     const Result<io::ModelWriter> writer = find_writer(io::model_writers(), file);
     if (!writer) return writer.error();
-    session.will_write(file);
+    if (const Status status = session.will_write(file); !status) return status;
     const auto timer = session.step("write " + file);
     if (const Status status = writer->write(*model, file, {}, session.context()); !status)
       return status;
@@ -65,12 +65,10 @@ Result<ExitCode> run_export(Session& session, const ExportOptions& given) {
   if (given.outputs.empty())
     return Error{ErrorCode::usage, "nowhere to export to", "-o",
                  "write -o FILE" + std::string(formats.front().suffix)};
-  if (const Status status = check_outputs(given.outputs, formats, {given.project.file}); !status)
+  if (const Status status = session.files().add_outputs(given.outputs, formats); !status)
     return status.error();
   Result<project::Project> project = open_argument(session, given.project, project::Access::read);
   if (!project) return project.error();
-  if (const Status spares = check_spares_model_files(*project, "-o", given.outputs); !spares)
-    return spares.error();
   std::vector<std::string> models;
   for (const std::string& file : given.outputs) {
     if (suffix_of(file) != kDecisions) {

@@ -71,13 +71,6 @@ Result<ExitCode> tell(Session& session, const FileOptions& given, project::Proje
 
 project::RevisionNote note_of_now() { return {.when = utc_time()}; }
 
-/// Checks -o against all that is read.
-Status check_change_outputs(const FileOptions& given) {
-  std::vector<std::string> inputs = given.input.files;
-  inputs.push_back(given.project.file);
-  return check_outputs(given.outputs, formats_of(project::change_writers()), inputs);
-}
-
 /// Refuses projects among model files: they are no source of a project.
 Status check_model_files(const std::vector<std::string>& files) {
   for (const std::string& file : files)
@@ -87,8 +80,16 @@ Status check_model_files(const std::vector<std::string>& files) {
   return {};
 }
 
-Result<std::vector<io::FileToRead>> model_files(const FileOptions& given) {
+/// Returns the files to read, which no output may be.
+Result<std::vector<io::FileToRead>> model_files(Session& session, const FileOptions& given) {
   if (const Status status = check_model_files(given.input.files); !status) return status.error();
+  if (const Status status =
+          session.files().add_outputs(given.outputs, formats_of(project::change_writers()));
+      !status)
+    return status.error();
+  for (const std::string& file : given.input.files)
+    if (const Status status = session.files().add_model(file, session.context()); !status)
+      return status.error();
   return files_to_read(given.input);
 }
 
@@ -106,7 +107,7 @@ void remove_project(const std::string& file) {
 }
 
 Result<ExitCode> run_new(Session& session, const FileOptions& given) {
-  const Result<std::vector<io::FileToRead>> files = model_files(given);
+  const Result<std::vector<io::FileToRead>> files = model_files(session, given);
   if (!files) return files.error();
   std::optional<Result<project::Project>> project(project::Project::create(given.project.file));
   if (!*project) return project->error();
@@ -130,7 +131,7 @@ Result<ExitCode> run_add(Session& session, const FileOptions& given) {
                  "no model file is given",
                  {},
                  "'strake project add --help' tells what there is"};
-  const Result<std::vector<io::FileToRead>> files = model_files(given);
+  const Result<std::vector<io::FileToRead>> files = model_files(session, given);
   if (!files) return files.error();
   Result<project::Project> project = open_argument(session, given.project, project::Access::write);
   if (!project) return project.error();
@@ -140,9 +141,8 @@ Result<ExitCode> run_add(Session& session, const FileOptions& given) {
 }
 
 Result<ExitCode> run_update(Session& session, const FileOptions& given) {
-  const Result<std::vector<io::FileToRead>> files = model_files(given);
+  const Result<std::vector<io::FileToRead>> files = model_files(session, given);
   if (!files) return files.error();
-  if (const Status status = check_change_outputs(given); !status) return status.error();
   Result<project::Project> project = open_argument(session, given.project, project::Access::write);
   if (!project) return project.error();
   const Result<project::Update> done = [&] {

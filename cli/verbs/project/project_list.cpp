@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "cli/output/shown_text.hpp"
 #include "cli/verbs/project/project_verbs.hpp"
 #include "core/number.hpp"
 #include "core/text_encoding.hpp"
@@ -36,7 +37,7 @@ bool is_number(const Cell& cell) {
 std::string cell_text(const Cell& cell) {
   if (const auto* const integer = std::get_if<std::int64_t>(&cell)) return std::to_string(*integer);
   if (const auto* const real = std::get_if<double>(&cell)) return fixed(*real, 3);
-  if (const auto* const text = std::get_if<std::string>(&cell)) return printable(*text);
+  if (const auto* const text = std::get_if<std::string>(&cell)) return shown_cell(*text);
   return "-";
 }
 

@@ -63,6 +63,14 @@ bool needs_a_folder_to_write(int code) {
   return (code & 0xff) == SQLITE_CANTOPEN || (code & 0xff) == SQLITE_READONLY;
 }
 
+/// Whether opening the database, whose file may only be read, would leave a write log or its index
+/// beside it: SQLite makes both, owned by whoever reads, and cannot take them away again.
+bool would_leave_files(sqlite3* handle, const fs::path& file) {
+  std::error_code failed;
+  return sqlite3_db_readonly(handle, "main") == 1 &&
+         !(fs::exists(beside(file, "-wal"), failed) && fs::exists(beside(file, "-shm"), failed));
+}
+
 /// Makes the connection safe with tables of which nothing is known.
 void distrust(sqlite3* handle) {
   struct Setting {
@@ -163,6 +171,7 @@ class Opening {
     int code = sqlite3_open_v2(name.c_str(), &database.handle_, flags, nullptr);
     if (code != SQLITE_OK) return code;
     distrust(database.handle_);
+    if (!is_immutable && would_leave_files(database.handle_, file_)) return SQLITE_READONLY;
     sqlite3_busy_timeout(database.handle_, kRecoveryMs);
     // A file that is mapped and shortened by somebody would end this program.
     code = run_plain(database.handle_,
@@ -210,6 +219,11 @@ Status make_project_file(const fs::path& file) {
                      "choose another name, or add model files to it: strake project add"};
   std::error_code failed;
   if (fs::exists(fs::symlink_status(file, failed))) return exists;
+  // SQLite would put what it finds there into the new project, and somebody may miss it.
+  for (const char* const ending : {"-wal", "-shm", "-journal"})
+    if (const fs::path left = beside(file, ending); fs::exists(left, failed))
+      return Error{ErrorCode::output, "belongs to another project that lay here", left.string(),
+                   "move it to where that project is, or remove it"};
   const Result<std::string> bytes = empty_project();
   if (!bytes) return bytes.error();
   fs::path written = file;
