@@ -112,7 +112,7 @@ Status Sights::each(std::int64_t test, const std::pair<std::int64_t, std::int64_
 Result<std::string> Sights::allowed_by(std::int64_t clash, std::int64_t run) {
   const Result<bool> there = allowed_.bind(1, clash).bind(2, run).step();
   if (!there) return there.error();
-  std::string cause(*there ? allowed_.text(0) : std::string_view());
+  const std::string cause(*there ? allowed_.text(0) : std::string_view());
   allowed_.reset();
   return cause.starts_with("allowed by rule") ? cause : std::string();
 }
