@@ -10,6 +10,9 @@ import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 
+# The status of a process whose function did not come to an end.
+_NO_STATUS = 70
+
 
 @dataclass(frozen=True)
 class Crash:
@@ -26,7 +29,7 @@ def crash_of(function: Callable[[], int]) -> Crash:
     parent = os.getpid()
     child = os.fork()
     if child == 0:
-        status = 70
+        status = _NO_STATUS
         try:
             end_with_parent(parent)
             status = function()
@@ -37,7 +40,8 @@ def crash_of(function: Callable[[], int]) -> Crash:
     _, state = os.waitpid(child, 0)
     if os.WIFSIGNALED(state):
         return Crash(1, signal_name(os.WTERMSIG(state)))
-    return Crash(os.WEXITSTATUS(state), "an unknown fault" if os.WEXITSTATUS(state) == 70 else "")
+    status = os.WEXITSTATUS(state)
+    return Crash(1, "an unknown fault") if status == _NO_STATUS else Crash(status)
 
 
 def signal_name(number: int) -> str:

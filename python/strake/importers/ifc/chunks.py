@@ -47,7 +47,7 @@ class Converted:
 
 @dataclass(frozen=True)
 class Remark:
-    """A fault that IfcOpenShell found; product 0: of none in particular."""
+    """A fault that IfcOpenShell found of a product; product 0: of the chunk."""
 
     product: int
     kernel: str
@@ -127,9 +127,14 @@ def _color(style: Any) -> Color:
 
 
 def _remarks(log: Any, chunk: Chunk) -> Iterator[Remark]:
-    alone = chunk.products[0] if len(chunk.products) == 1 else 0
     for message in log.log_messages():
         if message.severity_string != "ERROR":
             continue
-        number = re.match(r"#(\d+)=", message.product)
-        yield Remark(int(number[1]) if number else alone, chunk.kernel, " ".join(message.message.split()))
+        text = " ".join(message.message.split())
+        # Many messages name their product in the text alone, as a line of the file.
+        named = [int(number) for number in re.findall(r"#(\d+)=", f"{message.product} {text}")]
+        about = [number for number in named if number in chunk.products]
+        if not about and len(chunk.products) == 1:
+            about = [chunk.products[0]]
+        if about:
+            yield Remark(about[0], chunk.kernel, re.sub(r":? *(Failed to convert:)? *(#\d+=.*)?$", "", text))

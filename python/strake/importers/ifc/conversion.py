@@ -161,21 +161,32 @@ def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Worker
             if part:
                 workers.add(Chunk(part, chunk.kernel, chunk.attempt))
         return
+    onward: dict[str, list[int]] = {}
     for number in missing:
         said = result.remarks.setdefault(number, [])
         if ended.fault or not any(kernel == chunk.kernel for kernel, _ in said):
             said.append((chunk.kernel, ended.fault or "no shape"))
         following = kernels_of[number][chunk.attempt + 1 :]
         if following:
-            workers.add(Chunk((number,), following[0], chunk.attempt + 1))
+            onward.setdefault(following[0], []).append(number)
         else:
-            # A kernel says the same thing several times, each time with more around it.
-            longest = dict(sorted(said, key=lambda remark: len(remark[1])))
-            result.failed[number] = "; ".join(f"{kernel}: {longest[kernel]}" for kernel in dict.fromkeys(k for k, _ in said))
-            if all(text == EMPTY for _, text in said):
-                result.empty.add(number)
-    if chunk.kernel == FAST and not ended.fault:
+            _fail(number, result)
+    if chunk.kernel == FAST and chunk.attempt == 0 and not ended.fault:
         # Where it says that something went wrong the exact one may do better.
-        for number in sorted({n for n in chunk.products if n in result.placed and result.remarks_of(n)}):
+        doubtful = [number for number in chunk.products if number in result.placed and result.remarks_of(number)]
+        for number in doubtful:
             del result.placed[number]
-            workers.add(Chunk((number,), EXACT, max(1, chunk.attempt + 1)))
+        onward.setdefault(EXACT, []).extend(doubtful)
+    for kernel, numbers in onward.items():
+        # They stay together, since they may share shapes.
+        if numbers:
+            workers.add(Chunk(tuple(sorted(numbers)), kernel, chunk.attempt + 1))
+
+
+def _fail(number: int, result: Conversion) -> None:
+    said = result.remarks[number]
+    # A kernel says the same thing several times, each time with more around it.
+    longest = dict(sorted(said, key=lambda remark: len(remark[1])))
+    result.failed[number] = "; ".join(f"{kernel}: {longest[kernel]}" for kernel in dict.fromkeys(k for k, _ in said))
+    if all(text == EMPTY for _, text in said):
+        result.empty.add(number)
