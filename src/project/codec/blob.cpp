@@ -258,6 +258,13 @@ void BlobReader::copy_planes(std::span<std::byte> into, std::size_t width) {
   at_ += into.size();
 }
 
+std::span<const std::uint8_t> BlobReader::bytes() {
+  const std::size_t n = count(1);
+  const auto* const first = reinterpret_cast<const std::uint8_t*>(bytes_.data()) + at_;
+  at_ += n;
+  return {first, n};
+}
+
 std::vector<bool> BlobReader::flags() {
   const std::uint64_t n = number();
   const std::size_t left = bytes_.size() - at_;

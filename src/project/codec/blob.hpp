@@ -83,6 +83,8 @@ class BlobReader {
     copy_planes(std::as_writable_bytes(std::span(values)), sizeof(T));
     return values;
   }
+  /// Returns a column of bytes where it lies, for as long as the reader does.
+  [[nodiscard]] std::span<const std::uint8_t> bytes();
   [[nodiscard]] std::vector<bool> flags();
   [[nodiscard]] std::vector<std::string> texts();
   /// Reports a value that cannot be, found by who knows its meaning.

@@ -69,45 +69,49 @@ class DecidedBuilder {
   }
 
   void add_test(const clash::Report& report, const TestMemory& memory) {
-    std::vector<Entry>& entries = tests_.emplace_back();
-    entries.reserve(report.pairs.size());
+    std::vector<report::DecidedResult>& results = run_.decided.tests.emplace_back();
+    results.reserve(report.pairs.size());
+    const std::size_t test = run_.decided.tests.size() - 1;
     auto at = memory.told().begin();
     for (std::size_t i = 0; i < report.pairs.size(); ++i) {
       const clash::Pair& pair = report.pairs[i];
-      if (at != memory.told().end() && at->first == i) {
+      const bool is_told = at != memory.told().end() && at->first == i;
+      const bool is_active = pair.allowed < 0 && !memory.is_new(i);
+      if (is_told || is_active)
+        results.push_back(
+            {pair.a, pair.b, pair.cls, pair.allowed >= 0, report::Reopened::no, false, nullptr});
+      DecisionStatus status = is_active ? DecisionStatus::active : DecisionStatus::undecided;
+      if (is_told) {
         const ToldClash& told = (at++)->second;
-        entries.push_back({&pair, told.reopened, add(told_of(told, memory.is_new(i), report))});
-      } else if (pair.allowed < 0 && !memory.is_new(i)) {
-        entries.push_back({&pair, report::Reopened::no, 0});
+        results.back().reopened = told.reopened;
+        told_.push_back({test, results.size() - 1, add(told_of(told, memory.is_new(i), report))});
+        status = decisions_.back().status;
       }
+      if (pair.allowed < 0) ++run_.decided.counts[static_cast<std::size_t>(status)];
     }
     for (const ClashRow& row : memory.not_found())
       not_found_.push_back(add(decision_of(row, report.name)));
-    count(report, entries);
   }
 
   void finish(const std::string& name, double deeper_mm) {
     run_.file = std::make_unique<report::DecisionFile>();
     run_.file->name = name;
     run_.file->decisions = std::move(decisions_);
+    const std::vector<report::Decision>& decisions = run_.file->decisions;
     report::DecidedResults& decided = run_.decided;
     decided.file = run_.file.get();
     decided.deeper_mm = deeper_mm;
-    for (const std::vector<Entry>& entries : tests_) {
-      std::vector<report::DecidedResult>& of_test = decided.tests.emplace_back();
-      of_test.reserve(entries.size());
-      for (const Entry& e : entries)
-        of_test.push_back({e.pair->a, e.pair->b, e.pair->cls, e.pair->allowed >= 0, e.reopened,
-                           false, &run_.file->decisions[e.decision]});
-    }
-    for (const std::size_t at : not_found_) decided.not_found.push_back(&run_.file->decisions[at]);
+    for (std::vector<report::DecidedResult>& of_test : decided.tests)
+      for (report::DecidedResult& result : of_test) result.decision = decisions.data();
+    for (const Told& told : told_)
+      decided.tests[told.test][told.result].decision = &decisions[told.decision];
+    for (const std::size_t at : not_found_) decided.not_found.push_back(&decisions[at]);
   }
 
  private:
-  struct Entry {
-    const clash::Pair* pair = nullptr;
-    report::Reopened reopened = report::Reopened::no;
-    std::size_t decision = 0;
+  /// A result that has a decision of its own, which get their places in the end.
+  struct Told {
+    std::size_t test = 0, result = 0, decision = 0;
   };
 
   std::size_t add(report::Decision decision) {
@@ -123,21 +127,9 @@ class DecidedBuilder {
     return decision;
   }
 
-  void count(const clash::Report& report, const std::vector<Entry>& entries) {
-    const auto counted = static_cast<std::uint64_t>(
-        std::ranges::count_if(report.pairs, [](const clash::Pair& p) { return p.allowed < 0; }));
-    std::uint64_t decided = 0;
-    for (const Entry& e : entries) {
-      if (e.pair->allowed >= 0) continue;
-      ++run_.decided.counts[static_cast<std::size_t>(decisions_[e.decision].status)];
-      ++decided;
-    }
-    run_.decided.counts[static_cast<std::size_t>(DecisionStatus::undecided)] += counted - decided;
-  }
-
   RememberedRun& run_;
   std::vector<report::Decision> decisions_;
-  std::vector<std::vector<Entry>> tests_;
+  std::vector<Told> told_;
   std::vector<std::size_t> not_found_;
 };
 

@@ -62,15 +62,22 @@ Result<Bytes> encode_snapshot(const Snapshot& snapshot) {
 }
 
 /// Returns the numbers of the parts that differ from those stored.
-std::vector<std::size_t> changed_parts(const TestToWrite& test, const StoredTest* before,
-                                       const std::vector<PartRange>& parts) {
+Result<std::vector<std::size_t>> changed_parts(const TestToWrite& test, const StoredTest* before,
+                                               const std::vector<PartRange>& parts,
+                                               const parallel::Context& context) {
   const std::vector<PartRange> stored =
       before == nullptr ? std::vector<PartRange>()
                         : parts_of(before->results.report, before->snapshot.identities.size());
+  const Result<std::vector<std::uint8_t>> differs = parallel::transform(
+      context, {.name = "compare results", .n = parts.size()}, [&](std::size_t k) -> std::uint8_t {
+        const bool same =
+            k < stored.size() && is_same_part(before->results, stored[k], test.results, parts[k]);
+        return same ? 0 : 1;
+      });
+  if (!differs) return differs.error();
   std::vector<std::size_t> changed;
   for (std::size_t k = 0; k < parts.size(); ++k)
-    if (k >= stored.size() || !is_same_part(before->results, stored[k], test.results, parts[k]))
-      changed.push_back(k);
+    if ((*differs)[k] != 0) changed.push_back(k);
   return changed;
 }
 
@@ -129,11 +136,12 @@ Status write_result(Database& database, const TestToWrite& test, const StoredTes
                     const parallel::Context& context) {
   const std::vector<PartRange> parts =
       parts_of(test.results.report, test.snapshot.identities.size());
-  const std::vector<std::size_t> changed = changed_parts(test, before, parts);
-  const Result<EncodedResult> encoded = encode(test, parts, changed, context);
+  const Result<std::vector<std::size_t>> changed = changed_parts(test, before, parts, context);
+  if (!changed) return changed.error();
+  const Result<EncodedResult> encoded = encode(test, parts, *changed, context);
   if (!encoded) return encoded.error();
   const Result<std::vector<Hash128>> hashes =
-      write_parts(database, test.id, parts.size(), changed, *encoded, before);
+      write_parts(database, test.id, parts.size(), *changed, *encoded, before);
   if (!hashes) return hashes.error();
   Result<Statement> update = database.prepare(
       "UPDATE report SET snapshot = ?2, head = ?3, kept = ?4, seal = ?5 WHERE test = ?1");

@@ -80,10 +80,9 @@ void write_numbers(BlobWriter& out, std::span<const std::int64_t> values) {
 }
 
 std::vector<std::int64_t> read_numbers(BlobReader& in, std::size_t size) {
-  const std::vector<std::uint8_t> bytes = in.column<std::uint8_t>();
+  std::span<const std::uint8_t> rest = in.bytes();
   if (in.failed()) return {};
   std::vector<std::int64_t> values(size);
-  std::span<const std::uint8_t> rest = bytes;
   if (take_numbers(rest, values) && rest.empty()) return values;
   in.refuse("columns are not of one length");
   return {};

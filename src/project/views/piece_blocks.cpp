@@ -133,10 +133,10 @@ void write_pieces(BlobWriter& out, std::span<const EdgePiece> pieces) {
 Result<std::vector<EdgePiece>> read_pieces(BlobReader& in, std::size_t objects,
                                            const parallel::Context& context) {
   const std::uint64_t count = in.number();
-  std::vector<std::vector<std::uint8_t>> blocks;
+  std::vector<std::span<const std::uint8_t>> blocks;
   std::uint64_t pieces_there = 0;
   while (!in.failed() && pieces_there < count) {
-    blocks.push_back(in.column<std::uint8_t>());
+    blocks.push_back(in.bytes());
     const std::uint64_t here = std::min<std::uint64_t>(kBlock, count - pieces_there);
     // A piece has two bytes at least, so that a count claims no more memory than there are bytes.
     if (!in.failed() && blocks.back().size() < 2 * here) in.refuse("a block of lines is too short");
