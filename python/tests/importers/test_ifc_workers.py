@@ -39,7 +39,7 @@ def test_crashes_and_hangs_are_told_with_what_is_missing(count: int) -> None:
     ended = {event.chunk.products[0]: event for event in events if isinstance(event, Ended)}
     assert got == set(range(30)) - {13, 14, 17, 18, 19}
     assert ended[10].missing == (13, 14) and ended[10].fault == "SIGKILL"
-    assert ended[15].missing == (17, 18, 19) and "no answer for 1 s" in ended[15].fault
+    assert ended[15].missing == (17, 18, 19) and "no answer for 1 s" in ended[15].fault and ended[15].hung
     assert ended[0].missing == () and ended[0].fault == ""
 
 

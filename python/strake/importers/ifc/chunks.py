@@ -131,10 +131,10 @@ def _remarks(log: Any, chunk: Chunk) -> Iterator[Remark]:
         if message.severity_string != "ERROR":
             continue
         text = " ".join(message.message.split())
-        # Many messages name their product in the text alone, as a line of the file.
-        named = [int(number) for number in re.findall(r"#(\d+)=", f"{message.product} {text}")]
+        # Some messages name their product as the instance they are about.
+        named = [int(number) for number in re.findall(r"#(\d+)=", f"{message.product} {message.instance}")]
         about = [number for number in named if number in chunk.products]
         if not about and len(chunk.products) == 1:
             about = [chunk.products[0]]
         if about:
-            yield Remark(about[0], chunk.kernel, re.sub(r":? *(Failed to convert:)? *(#\d+=.*)?$", "", text))
+            yield Remark(about[0], chunk.kernel, text.removesuffix(" Failed to convert:"))

@@ -157,10 +157,13 @@ def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Worker
     chunk, missing = ended.chunk, ended.missing
     if ended.fault and len(chunk.products) > 1 and missing:
         # Products are converted in their order, so that the first one that is missing is to be suspected.
-        for part in (missing[:1], missing[1:]):
-            if part:
-                workers.add(Chunk(part, chunk.kernel, chunk.attempt))
-        return
+        suspect, rest = missing[:1], missing[1:]
+        if rest:
+            workers.add(Chunk(rest, chunk.kernel, chunk.attempt))
+        if not ended.hung:
+            workers.add(Chunk(suspect, chunk.kernel, chunk.attempt))
+            return
+        missing = suspect  # what hung for so long does not get the same again
     onward: dict[str, list[int]] = {}
     for number in missing:
         said = result.remarks.setdefault(number, [])

@@ -8,7 +8,7 @@ import os
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Any
@@ -20,6 +20,8 @@ from strake.importers.supervision import end_with_parent, signal_name
 # How long a worker may be silent before it counts as hung, in seconds: one product takes longer than this only where
 # its cuts have no end.
 MOST_SILENT_S = 60.0
+# After each that hung it is half as long, down to this.
+LEAST_SILENT_S = 8.0
 _TICK_S = 0.5
 
 
@@ -30,6 +32,7 @@ class Ended:
     chunk: Chunk
     missing: tuple[int, ...]
     fault: str = ""
+    hung: bool = False
 
 
 Event = Converted | Remark | Ended
@@ -80,7 +83,7 @@ class Workers:
             if not ready:
                 yield None
             for worker in [w for w in self._workers if w.chunk and time.monotonic() - w.heard_at > self._silent_s]:
-                yield self._lost(worker, f"no answer for {self._silent_s:g} s")
+                yield self._hung(worker)
 
     def _hand_out(self) -> None:
         idle = [worker for worker in self._workers if worker.chunk is None]
@@ -124,6 +127,12 @@ class Workers:
         assert chunk is not None
         worker.chunk = None
         return Ended(chunk, _missing(chunk, worker.got))
+
+    def _hung(self, worker: _Worker) -> Ended:
+        ended = self._lost(worker, f"no answer for {self._silent_s:g} s")
+        # Where one product has no end others have none either, and a hundred of them must not take hours.
+        self._silent_s = max(min(self._silent_s, LEAST_SILENT_S), self._silent_s / 2)
+        return replace(ended, hung=True)
 
     def _lost(self, worker: _Worker, fault: str) -> Ended:
         chunk = worker.chunk
