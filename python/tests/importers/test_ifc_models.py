@@ -72,7 +72,7 @@ def test_units_of_length(tmp_path: Path, prefix: str | None, foot: bool, millime
     model = IfcModel(prefix=prefix, foot=foot)
     beam = model.product("IfcBeam", "b", model.body(model.extrusion((2500, 10, 10))))
     values = {"Length": ("IfcPositiveLengthMeasure", 2500.0000000001), "Area": ("IfcAreaMeasure", 2.5), "N": ("IfcInteger", 3)}
-    model.properties(beam, "Qto_BeamBaseQuantities", {name: value for name, value in values.items()})
+    model.properties(beam, "Qto_BeamBaseQuantities", values)
     outcome = convert(model.write(tmp_path / "a.ifc"))
     low, high = outcome.glb.box(beam.GlobalId)
     assert high[0] - low[0] == pytest.approx(2500 * millimetres, rel=1e-6)

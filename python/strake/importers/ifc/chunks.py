@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -121,7 +122,7 @@ def _parts(geometry: Any) -> Sequence[Part]:
 def _color(style: Any) -> Color:
     red, green, blue = (round(min(max(float(x), 0.0), 1.0), 4) for x in style.diffuse.components)
     clear = float(style.transparency) if style.has_transparency() else 0.0
-    alpha = round(1.0 - min(max(clear, 0.0), 1.0), 4) if clear == clear else 1.0
+    alpha = 1.0 if math.isnan(clear) else round(1.0 - min(max(clear, 0.0), 1.0), 4)
     # What cannot be seen at all is a body all the same.
     return (red, green, blue, max(alpha, 0.05))
 
