@@ -204,3 +204,23 @@ def test_bytes_are_the_same_for_any_number_of_threads(tmp_path: Path) -> None:
     assert len(outcomes[0].glb.ids) == 60
     told = [[line for line in outcome.lines if "progress" not in line] for outcome in outcomes]
     assert told[0] == told[1] == told[2]
+
+
+def test_a_box_around_a_product_is_no_body(tmp_path: Path) -> None:
+    model = IfcModel()
+    make = model.file.create_entity
+    corner = make("IfcCartesianPoint", (0.0, 0.0, 0.0))
+    box = make("IfcShapeRepresentation", model.context, "Box", "BoundingBox", [make("IfcBoundingBox", corner, 1.0, 1.0, 1.0)])
+    model.product("IfcWall", "w", box)
+    outcome = convert(model.write(tmp_path / "a.ifc"))
+    assert outcome.glb.ids == [] and outcome.told("skipped") == []
+    assert [line["code"] for line in outcome.told("note")][-1] == "ifc-no-shape-stated"
+
+
+def test_walls_of_which_openings_leave_nothing(tmp_path: Path) -> None:
+    model = IfcModel()
+    wall = model.product("IfcWall", "w", model.body(model.extrusion((1000, 100, 1000))))
+    model.void(wall, model.body(model.extrusion((2000, 200, 2000), (0, 0, -500))))
+    outcome = convert(model.write(tmp_path / "a.ifc"))
+    assert outcome.glb.ids == [] and outcome.told("skipped") == []
+    assert [line["code"] for line in outcome.told("warning")] == ["ifc-cut-away"]

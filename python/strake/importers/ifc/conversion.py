@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from strake.importers.ifc.chunks import EMPTY, Chunk, Converted, Remark
 from strake.importers.ifc.entity import Entity, Model
-from strake.importers.ifc.kernels import EXACT, FAST, geometry_settings, kernels_for
+from strake.importers.ifc.kernels import EXACT, FAST, geometry_settings, has_body, kernels_for
 from strake.importers.ifc.products import CircleFinder
 from strake.importers.ifc.workers import Ended, Workers
 from strake.importers.report import Report
@@ -139,6 +139,10 @@ def convert_products(model: Model, products: Sequence[Entity], threads: int, rep
                 _go_on(event, task_of, workers, result)
             else:
                 report.alive()
+    for product in products:
+        if product.id() in result.failed and not has_body(product):
+            del result.failed[product.id()]
+            result.bodyless.append(product.id())
     return result
 
 

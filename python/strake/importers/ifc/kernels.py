@@ -47,6 +47,8 @@ def geometry_settings() -> ifcopenshell.geom.settings:
     settings = ifcopenshell.geom.settings()
     settings.set("mesher-linear-deflection", SAG_M)
     settings.set("mesher-angular-deflection", ANGLE)
+    # The short cut of opencascade leaves a wall whole that lies in its opening.
+    settings.set("boolean-attempt-2d", False)
     settings.set("weld-vertices", True)
     settings.set("no-normals", True)
     settings.set("use-world-coords", False)
@@ -64,6 +66,11 @@ def items_of(product: Entity) -> set[str]:
             continue
         _add_items(representation.Items or (), result, 0)
     return result
+
+
+def has_body(product: Entity) -> bool:
+    """Whether a product states more than axes, outlines and boxes around it."""
+    return bool(items_of(product) - {"opening", "IfcBoundingBox"})
 
 
 def _add_items(items: Iterable[Entity], result: set[str], depth: int) -> None:
