@@ -170,7 +170,7 @@ USAGE = [
     ('clash diff c.json c.json --test all', '--test', 'leave it out'), ('clash diff c.json c.json --runs 1 2', '--runs', 'leave it out'),
     ('clash diff c.json c.json -p p.strake', '-p', 'out'), ('draw diff v.view v.view --view deck', '--view', 'leave it out'),
     ('clash diff c.json c.json --runs 1', '--runs', ''), ('info a.obj -p p.strake', "'a.obj'", "'strake project add'"),
-    *behind(['clash diff p.strake --runs 1', 'clash diff p.strake --runs'], [('x', '--runs', '')]),
+    ('clash diff p.strake --runs 1 x', '--runs', ''), ('clash diff p.strake --runs x', '--runs', ''),
     ('draw a.obj', '-o', 'write -o FILE.svg'), ('draw a.obj -o x.pdf', '-o', '.svg or .json'),
     ('draw a.obj -o x.dxf', '-o', '.svg'),
     ('draw a.obj -o x.svg --view top --direction 1,1,1', '--direction', 'leave one of them out'),
