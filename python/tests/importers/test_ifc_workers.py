@@ -15,14 +15,16 @@ pytest.importorskip("ifcopenshell")
 from strake.importers.ifc.chunks import Answer, Chunk, Converted
 from strake.importers.ifc.workers import Ended, Workers
 
-CRASHES, HANGS, RAISES = 13, 17, 19
+CRASHES, HANGS, RAISES, WAITS = 13, 17, 19, 99
 
 
 def fake(_: object, chunk: Chunk) -> Iterator[Answer]:
     for number in chunk.products:
         if number == CRASHES:
             os.kill(os.getpid(), signal.SIGKILL)
-        if number == HANGS:
+        while number == HANGS:
+            pass
+        if number == WAITS:
             time.sleep(1000)
         if number == RAISES:
             raise RuntimeError("bad product")
@@ -41,6 +43,14 @@ def test_crashes_and_hangs_are_told_with_what_is_missing(count: int) -> None:
     assert ended[10].missing == (13, 14) and ended[10].fault == "SIGKILL"
     assert ended[15].missing == (17, 18, 19) and "no answer for 1 s" in ended[15].fault and ended[15].hung
     assert ended[0].missing == () and ended[0].fault == ""
+
+
+def test_a_worker_that_only_waits_has_longer_and_no_end() -> None:
+    began = time.monotonic()
+    with Workers(None, 1, silent_s=0.3, convert=fake) as workers:
+        workers.add(Chunk((WAITS,), "k"))
+        ended = [event for event in workers.answers() if isinstance(event, Ended)]
+    assert ended[0].hung and time.monotonic() - began > 1.4
 
 
 def test_an_exception_ends_the_chunk_and_not_the_worker() -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 import multiprocessing
 import os
 import time
@@ -11,15 +12,17 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
+from pathlib import Path
 from typing import Any
 
 from strake.importers.ifc.chunks import Answer, Chunk, Converted, Remark, convert_chunk
 from strake.importers.ifc.entity import Model
 from strake.importers.supervision import end_with_parent, signal_name
 
-# How long a worker may be silent before it counts as hung, in seconds: one product takes longer than this only where
-# its cuts have no end.
+# How long a worker may work in silence before it counts as hung, in seconds of CPU time: one product takes longer than
+# this only where its cuts have no end. Where the machine is busy, or the worker only waits, it is so many times as long.
 MOST_SILENT_S = 60.0
+_MOST_WAITING = 5.0
 # After each that hung it is half as long, down to this.
 LEAST_SILENT_S = 8.0
 _TICK_S = 0.5
@@ -46,6 +49,20 @@ class _Worker:
     chunk: Chunk | None = None
     got: set[int] = field(default_factory=set)
     heard_at: float = 0.0
+    cpu_then_s: float = 0.0
+
+    def heard(self) -> None:
+        """Notes that it said something now."""
+        self.heard_at = time.monotonic()
+        self.cpu_then_s = _cpu_seconds(self.process.pid)
+
+    def is_silent_for(self, limit_s: float) -> bool:
+        """Whether it worked, or at any rate waited, for too long since."""
+        silent_s = time.monotonic() - self.heard_at
+        if silent_s <= limit_s:
+            return False
+        cpu_s = _cpu_seconds(self.process.pid)
+        return cpu_s == math.inf or cpu_s - self.cpu_then_s > limit_s or silent_s > _MOST_WAITING * limit_s
 
 
 class Workers:
@@ -82,7 +99,7 @@ class Workers:
                 yield self._heard(worker)
             if not ready:
                 yield None
-            for worker in [w for w in self._workers if w.chunk and time.monotonic() - w.heard_at > self._silent_s]:
+            for worker in [w for w in self._workers if w.chunk and w.is_silent_for(self._silent_s)]:
                 yield self._hung(worker)
 
     def _hand_out(self) -> None:
@@ -90,7 +107,8 @@ class Workers:
         while self._queue and (idle or len(self._workers) < self._count):
             worker = idle.pop() if idle else self._started()
             chunk = self._queue.popleft()
-            worker.chunk, worker.got, worker.heard_at = chunk, set(), time.monotonic()
+            worker.chunk, worker.got = chunk, set()
+            worker.heard()
             try:
                 worker.connection.send(chunk)
             except OSError:
@@ -116,7 +134,7 @@ class Workers:
             worker.process.join(5)
             code = worker.process.exitcode
             return self._lost(worker, signal_name(-code) if code is not None and code < 0 else f"exit status {code}")
-        worker.heard_at = time.monotonic()
+        worker.heard()
         if isinstance(answer, Converted):
             if not answer.fault:
                 worker.got.add(answer.product)
@@ -143,6 +161,17 @@ class Workers:
     def _forget(self, worker: _Worker) -> None:
         _end(worker)
         self._workers.remove(worker)
+
+
+def _cpu_seconds(process: int | None) -> float:
+    """Returns the CPU time of a process; infinity where the system does not say it, so that the clock decides."""
+    try:
+        text = Path(f"/proc/{process}/stat").read_text()
+    except OSError:
+        return math.inf
+    # The name stands in brackets and may have blanks in it.
+    user, system = text.rpartition(")")[2].split()[11:13]
+    return (int(user) + int(system)) / os.sysconf("SC_CLK_TCK")
 
 
 def _missing(chunk: Chunk, got: set[int]) -> tuple[int, ...]:
