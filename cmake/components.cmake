@@ -68,6 +68,7 @@ set(manual
   docs/drawing.md
   docs/evaluation.md
   docs/first-run.md
+  docs/formats/ifc.md
   docs/formats/importers.md
   docs/hidden-line-algorithms.md
   docs/hlr.md
@@ -81,7 +82,9 @@ set(manual
   docs/statuses.md
   examples/nightly.sh
   examples/ship_rules.toml
-  examples/ship_sheet.toml)
+  examples/ship_sheet.toml
+  python/README.md
+  python/examples)
 strake_component(model
   MODULES model io settings
   DEPENDS parallel geometry

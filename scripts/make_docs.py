@@ -287,7 +287,7 @@ def index_pages(site):
         names.append(name)
         pages = sorted(page for page in site.pages if posixpath.dirname(page) == folder.strip('.') and page != 'README.md')
         if name == 'guide':
-            pages += ['docs/formats/primitives.md', 'docs/pictures/README.md', *sorted(site.listings)]
+            pages += [*(page for page in site.pages if page.startswith('docs/formats/')), 'python/README.md', 'docs/pictures/README.md', *sorted(site.listings)]
         if name == 'sources':
             pages += ['tests/fuzz/README.md']
         pages.sort(key=lambda page: order.index(Path(page).stem) if Path(page).stem in order else len(order))
