@@ -239,6 +239,7 @@ class Engine {
 
   /// Fills KeptForChanges::elements, but for objects that the run does not ask about.
   Status keep_elements(const ElementHashes& elements, KeptForChanges& kept) const {
+    // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
     constexpr std::size_t kGrain = 4096;
     kept.elements.resize(scene_.model->objects.size());
     const std::size_t n = changed_ == nullptr ? kept.elements.size() : changed_->asked.size();
