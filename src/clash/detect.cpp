@@ -241,6 +241,7 @@ class Engine {
 
   /// Returns KeptForChanges::elements, without those of objects that the run does not ask about.
   [[nodiscard]] Result<std::vector<std::uint64_t>> hash_elements() const {
+    // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
     constexpr std::size_t kGrain = 4096;
     const ElementHashes elements(*scene_.model);
     std::vector<std::uint64_t> low(scene_.model->objects.size());

@@ -30,6 +30,7 @@ struct Chunk {
 };
 
 /// A worker hands over what it has when a block has made it so large: then less is moved to grow.
+/// Between 1 MiB and 16 MiB no difference can be seen (decision 0073).
 inline constexpr std::size_t kChunkBytes = std::size_t{4} << 20U;
 
 /// Puts chunks together. `first`: by block, the index of its first result, and one more.

@@ -35,7 +35,8 @@ namespace detail {
 
 /// Items are told apart in so many lots, each by one worker, whatever the team.
 inline constexpr std::size_t kDistinctLots = 64;
-/// Items that a worker takes at once, at most.
+/// Items that a worker takes at once, at most. Between 1024 and 16'384 no difference can be seen
+/// (decision 0073).
 inline constexpr std::size_t kDistinctGrain = 4096;
 
 /// The item at which a lot had to end.

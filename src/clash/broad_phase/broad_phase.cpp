@@ -20,6 +20,7 @@
 namespace strake::clash {
 namespace {
 
+// Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
 constexpr std::size_t kItemsPerBlock = 4096;
 
 geometry::BoxItem item_of(const ScenePart& ref, const Sets& sets, const SearchReach& reach) {

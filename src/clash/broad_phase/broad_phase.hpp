@@ -126,6 +126,7 @@ template <class List, class Same>
 [[nodiscard]] Result<std::vector<std::size_t>> find_runs(const List& list, std::string_view name,
                                                          const Same& same,
                                                          const parallel::Context& context) {
+  /// Only shares the work out: between 4096 and 65'536 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 16384;
   auto begin =
       parallel::collect<std::size_t>(context, {.name = name, .n = list.size(), .grain = kGrain},

@@ -22,6 +22,7 @@ using geometry::Part;
 using geometry::Vec3d;
 using geometry::Vec3i;
 
+// Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
 constexpr std::size_t kPairsPerBlock = 4096;
 /// How many times smaller a part's own box has to be than that along the coordinate axes.
 constexpr double kGain = 8;

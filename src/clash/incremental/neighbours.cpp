@@ -130,6 +130,7 @@ class NeighbourSearch {
 
   /// Looks at each body once: sets what became of each object, and adds up what is said of all.
   [[nodiscard]] Result<Totals> pass(const SceneBvh& tree, std::vector<Change>& change) const {
+    // Only shares the work out: between 2048 and 32'768 no difference can be seen (decision 0073).
     constexpr std::size_t kGrain = 8192;
     return parallel::reduce(
         context_, {.name = "neighbours of changes", .n = change.size(), .grain = kGrain},

@@ -11,6 +11,7 @@
 namespace strake::clash {
 namespace {
 
+// Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
 constexpr std::size_t kGrain = 4096;
 
 /// Which objects of an earlier run have other names now.

@@ -67,6 +67,7 @@ Hash128 hash_of_source(const model::Shape& shape) {
 
 Result<ShapeSignatures> shape_signatures(const model::Scene& scene, std::span<const Hash128> known,
                                          const parallel::Context& context) {
+  // Only shares the work out: between 4 and 64 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 16;
   auto on_grid = parallel::transform(
       context, {.name = "signatures of shapes", .n = scene.shapes.size(), .grain = kGrain},

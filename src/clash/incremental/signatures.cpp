@@ -61,6 +61,7 @@ class ObjectSignatures {
 Result<Signatures> signatures(const model::Scene& scene, const Sets& sets, const Options& options,
                               const Policy& policy, const parallel::Context& context,
                               std::span<const Hash128> shape_hashes) {
+  // Only shares the work out: between 256 and 4096 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 1024;
   if (const Status s = check_inputs(scene, sets, options, policy); !s) return s.error();
   if (!shape_hashes.empty() && shape_hashes.size() != scene.model->shapes.size())

@@ -81,6 +81,7 @@ PairToleranceKey PairToleranceTable::settings(const ScenePart& a, const ScenePar
 
 Result<double> PairToleranceTable::widest_band(std::span<const ScenePart> parts,
                                                const parallel::Context& context) const {
+  // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 4096;
   return parallel::reduce(
       context, {.name = "widest contact distance", .n = parts.size(), .grain = kGrain},

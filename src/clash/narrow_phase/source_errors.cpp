@@ -73,6 +73,7 @@ Result<SourceErrors> SourceErrors::measure(const model::Model& model,
     const std::size_t shape = index(model.bodies[b].shape);
     if (shape < first.size() && first[shape] == kNoBody) first[shape] = b;
   }
+  // Only shares the work out: between 16 and 256 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 64;
   auto all = parallel::transform(
       context, {.name = "vertices off the grid", .n = first.size(), .grain = kGrain},
@@ -102,6 +103,7 @@ Status set_source_errors(const model::Scene& scene, const Options& options, Scen
   for (const ScenePart& part : list.parts) bodies.push_back(part.body);
   const auto errors = SourceErrors::measure(*scene.model, bodies, context);
   if (!errors) return errors.error();
+  // Only shares the work out: between 256 and 4096 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 1024;
   return parallel::for_each(context,
                             {.name = "errors of sources", .n = list.parts.size(), .grain = kGrain},

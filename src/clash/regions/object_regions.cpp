@@ -196,6 +196,7 @@ void keep_counts(const Pair& pair, const std::vector<Region>& allowed,
 
 Status aggregate_regions(const PartResults& results, const parallel::Context& context,
                          Report& report) {
+  // Only shares the work out: between 64 and 1024 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 256;
   const bool found_regions = report.options.engine.most_regions > 0;
   const RegionsOfPairs regions(results, report.options.engine.most_regions);

@@ -56,6 +56,7 @@ Result<std::vector<RegionDetail>> region_detail_of(const EvaluatedPairs& evaluat
                                                    const ObjectPairs& objects,
                                                    const RuleMatcher& rules, const Options& options,
                                                    const parallel::Context& context) {
+  // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 4096;
   const auto all = parallel::collect<DetailRequest>(
       context, {.name = "places asked for", .n = objects.size(), .grain = kGrain},

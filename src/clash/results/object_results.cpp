@@ -201,6 +201,7 @@ Pair PartResults::pair(std::size_t i) const {
 
 Result<std::vector<Pair>> aggregate_by_object(const PartResults& results,
                                               const parallel::Context& context) {
+  // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 4096;
   auto pairs = parallel::count_fill<Pair>(
       context, {.name = "join by objects", .n = results.found.size(), .grain = kGrain},

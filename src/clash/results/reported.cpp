@@ -68,6 +68,7 @@ std::uint64_t& count_of(NotReported::Counts& counts, Class cls, bool allowed) {
 
 Status keep_reported(const PartResults& results, const Sets& sets, const parallel::Context& context,
                      Report& report) {
+  // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 4096;
   if (!report.options.reporting.leaves_out()) return {};
   const Reported reported(results, sets, report.options.reporting);

@@ -17,6 +17,7 @@
 namespace strake::clash {
 namespace {
 
+// Only shares the work out: between 4096 and 65'536 no difference can be seen (decision 0073).
 constexpr std::size_t kResultsPerBlock = 16384;
 
 Status count_work(const EvaluatedPairs& evaluated, const parallel::Context& context,
@@ -129,6 +130,7 @@ Status fill_counters(const EvaluatedPairs& evaluated, const ObjectPairs& objects
 
 namespace {
 
+// Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
 constexpr std::size_t kLogGrain = 4096;
 
 /// Returns what one pair of objects cost; an earlier pair of parts may have been equal to one of

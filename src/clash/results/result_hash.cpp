@@ -14,6 +14,7 @@
 namespace strake::clash {
 namespace {
 
+// Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
 constexpr std::size_t kHashGrain = 4096;
 
 void add_place(WordHash& hash, const geometry::Vec3d& p) { hash.add(p.x).add(p.y).add(p.z); }

@@ -14,6 +14,7 @@
 namespace strake::clash {
 namespace {
 
+// Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
 constexpr std::size_t kGrain = 4096;
 
 /// Parts side by side: the same sheet twice, or one within the other, is a contact that is seldom

@@ -13,7 +13,8 @@
 namespace strake::clash {
 namespace {
 
-/// Pairs per block where idle rules are looked for.
+/// Pairs per block where idle rules are looked for. Between 4096 and 65'536 no difference can be
+/// seen (decision 0073).
 constexpr std::size_t kShadowGrain = 16384;
 
 /// Finds for each idle rule the first of the rules that did its work before it; kNoLabel if none

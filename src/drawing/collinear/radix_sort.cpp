@@ -18,6 +18,7 @@ namespace {
 
 constexpr unsigned kDigitBits = 11;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+// Only shares the work out: between 65'536 and 1'048'576 no difference can be seen (decision 0073).
 constexpr std::size_t kPiece = 262144;
 using Counts = std::array<std::uint32_t, kDigits>;
 

@@ -179,6 +179,7 @@ Result<std::vector<Line>> make_lines(std::span<const hlr::EdgePiece> pieces,
   Result<std::vector<Line>> lines =
       parallel::slots<Line>(pieces.size() + cut_intervals.size() - firsts.size(), context);
   if (!lines) return lines;
+  // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
   constexpr std::size_t kPieces = 4096;
   const Status status = parallel::for_each(
       context, {.name = "lines on paper", .n = (pieces.size() + kPieces - 1) / kPieces},

@@ -24,6 +24,7 @@ namespace {
 /// item, and the few seconds of each. All blocks are independent of the team.
 class PairSorter {
  public:
+  // Only shares the work out: between 16'384 and 262'144 no difference can be seen (decision 0073).
   static constexpr std::size_t kPairsPerPiece = 65536;
 
   /// All first items are below `items`.
@@ -97,6 +98,7 @@ Error too_many(const parallel::Allowance& allowed) {
 }
 
 Status sort_pairs(std::vector<IndexPair>& pairs, const parallel::Context& context) {
+  // Between 256 and 4096 ships show no difference (decision 0073).
   constexpr std::size_t kFew = 1024;
   if (pairs.size() <= kFew) {
     std::sort(pairs.begin(), pairs.end());

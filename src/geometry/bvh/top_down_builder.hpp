@@ -55,7 +55,8 @@ class TopDownBuilder {
   }
 
  private:
-  /// One worker builds the subtree of a range of at most this many items.
+  /// One worker builds the subtree of a range of at most this many items. Between 2048 and 32'768
+  /// no difference can be seen (decision 0073).
   static constexpr std::uint32_t kPiece = std::uint32_t{1} << 13U;
 
   bool ends_at(std::vector<Node>& nodes, const BuildRange& range) const {

@@ -47,7 +47,7 @@ class TreeJoin {
     std::uint32_t a = 0, b = 0;
   };
   /// How many tasks the root pair is expanded into before they are shared: enough for any team, and
-  /// the same for every team.
+  /// the same for every team. Between 256 and 4096 no difference can be seen (decision 0073).
   static constexpr std::size_t kSubtasks = 1024;
 
   [[nodiscard]] const Node& node_x(std::uint32_t i) const { return x_.nodes()[i]; }
@@ -79,6 +79,7 @@ class TreeJoin {
   /// Returns false when there are too many pairs.
   [[nodiscard]] bool run_task(const Task& task, std::vector<Task>& stack,
                               std::vector<IndexPair>& out, parallel::Allowance& allowance) const {
+    // Only shares the work out: between 4096 and 65'536 no difference can be seen (decision 0073).
     constexpr std::size_t kPairsPerCharge = std::size_t{1} << 14U;
     std::size_t counted = out.size();
     stack.assign(1, task);

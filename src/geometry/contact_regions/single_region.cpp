@@ -27,6 +27,7 @@ namespace strake::geometry {
 namespace {
 
 /// Maximum number of pairs of triangles per triangle of the two: each takes some nanoseconds.
+/// Between 128 and 2048 ships show no difference (decision 0073).
 constexpr std::size_t kPairsPerTriangle = 512;
 
 using Word = std::uint64_t;

@@ -20,7 +20,8 @@ constexpr double kAlike = 0.0224, kMostAlike = 0.25;
 /// Grid units that the triangles of one level may lie apart: each corner is snapped by up to
 /// sqrt(3)/2.
 constexpr double kLevel = 4;
-/// Levels of fewer triangles get no piece of their own.
+/// Levels of fewer triangles get no piece of their own. It is part of results: with 8 the brackets
+/// of four in 8,096 results of a turned ship end up to 0.43 um elsewhere (decision 0073).
 constexpr std::size_t kFewestPieces = 32;
 /// Number of triangles sampled for a direction, and how many of them have to be alike.
 constexpr std::size_t kSlabSamples = 32, kAlikeSamples = 4;

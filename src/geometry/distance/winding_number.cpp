@@ -110,6 +110,7 @@ void WindingNumber::measure(Node& node) const {
 }
 
 void WindingNumber::split(std::size_t n) {
+  // Between 2 and 32 ships show no difference (decision 0073).
   constexpr std::uint32_t kLeaf = 8;
   Node node = nodes_[n];
   measure(node);

@@ -14,7 +14,8 @@
 namespace strake::geometry {
 namespace {
 
-/// Parts with fewer vertices are tested vertex by vertex: cheaper than traversing the tree.
+/// Parts with fewer vertices are tested vertex by vertex: cheaper than traversing the tree. Between
+/// 12 and 192 ships show no difference (decision 0073).
 constexpr std::size_t kFewPlaneVertices = 48;
 
 Vec3d absolute(const Vec3d& v) { return {std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}; }

@@ -76,6 +76,7 @@ NearPoints::NearPoints(std::span<const Vec3i> vertices, std::vector<std::uint32_
 }
 
 void NearPoints::split(std::size_t node) {
+  // Between 2 and 32 ships show no difference (decision 0073).
   constexpr std::uint32_t kLeaf = 8;
   const std::span<std::uint32_t> points =
       std::span(points_).subspan(nodes_[node].first, nodes_[node].count);

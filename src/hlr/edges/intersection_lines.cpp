@@ -33,6 +33,7 @@ using geometry::Segment;
 using geometry::Vec3l;
 using parallel::Region;
 
+// Only shares the work out: between 256 and 4096 no difference can be seen (decision 0073).
 constexpr std::size_t kGrain = 1024;
 /// The most intersection lines, and more of them for each triangle: many times what models have,
 /// and in proportion to the file, where triangles that all cross each other have the square.

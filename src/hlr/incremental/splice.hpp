@@ -56,6 +56,8 @@ template <class T>
   }
   auto all = parallel::slots<T>(total, context);
   if (!all) return all.error();
+  /// Only shares the work out: between 16'384 and 262'144 no difference can be seen (decision
+  /// 0073).
   constexpr std::size_t kBlock = 65536;
   const Status status = parallel::for_each(
       context, {.name = "what stays of a drawing", .n = (total + kBlock - 1) / kBlock},

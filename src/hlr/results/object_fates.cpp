@@ -16,6 +16,7 @@
 namespace strake::hlr {
 namespace {
 
+// Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
 constexpr std::size_t kObjectsPerItem = 4096;
 
 std::uint32_t object_of(const EdgePiece& piece) { return model::index(piece.object); }

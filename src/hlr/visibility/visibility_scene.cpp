@@ -20,6 +20,7 @@ namespace {
 
 using geometry::Box3l;
 
+// Only shares the work out: between 8 and 128 no difference can be seen (decision 0073).
 constexpr std::uint32_t kEdgesPerItem = 32;
 /// For the occlusion buffer: with more tiles painting them costs more than it saves. With so many,
 /// 0.4 faces are tested per edge of 20,000 boxes about 100 deep, 3 to 6 in a ship (docs/hlr.md).

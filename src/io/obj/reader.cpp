@@ -24,7 +24,8 @@ namespace {
 
 using geometry::Vec3d;
 
-/// Large enough that the work per chunk dwarfs its bookkeeping, small enough for any team.
+/// Large enough that the work per chunk dwarfs its bookkeeping, small enough for any team. Between
+/// 256 KiB and 4 MiB no difference can be seen (decision 0073).
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
 constexpr FrameDefault kObjFrame{1.0, UpAxis::z, false};
 

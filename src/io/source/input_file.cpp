@@ -73,6 +73,7 @@ Result<FileContent> FileContent::read(const std::filesystem::path& path,
   const auto size = static_cast<std::size_t>(facts.st_size);
   content.data_.reset(new (std::nothrow) std::byte[size]);
   if (content.data_ == nullptr) return out_of_memory();
+  // Only shares the work out: between 1 MiB and 16 MiB no difference can be seen (decision 0073).
   constexpr std::size_t kPiece = std::size_t{4} << 20U;
   const auto pieces =
       parallel::transform(context, {.name = "read file", .n = (size + kPiece - 1) / kPiece},

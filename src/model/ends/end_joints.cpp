@@ -122,6 +122,7 @@ using Meeting = std::pair<std::size_t, std::size_t>;
 /// Returns which ends meet, of one object too. The ends are sorted by their cells.
 Result<std::vector<Meeting>> meetings(const std::vector<ObjectEnd>& ends, std::int64_t within,
                                       std::int64_t size, const parallel::Context& context) {
+  // Only shares the work out: between 64 and 1024 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 256;
   const auto cell = [&](const ObjectEnd& end) { return cell_of(end.at, size); };
   return parallel::collect<Meeting>(

@@ -260,7 +260,8 @@ Result<std::vector<GridShapeResult>> make_shapes(const SceneAssembly& assembly,
                                                  const std::vector<Use>& uses,
                                                  const parallel::Context& context) {
   const Model& model = assembly.model;
-  // Small shapes go in blocks, the heaviest block first.
+  // Small shapes go in blocks, the heaviest block first. Between 4 and 64 no difference can be seen
+  // (decision 0073).
   constexpr std::size_t kGrain = 16;
   const parallel::Region blocks{.n = uses.size(), .grain = kGrain};
   std::vector<double> costs(blocks.blocks(), 0);

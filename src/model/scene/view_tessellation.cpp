@@ -95,6 +95,7 @@ Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::
                                                  const parallel::Context& context) {
   if (!plan.any) return std::optional<Scene>();
   const std::vector<std::uint32_t> first = first_bodies(scene, drawn);
+  // Only shares the work out: between 4 and 64 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 16;
   auto shapes = parallel::transform_with(
       context, {.name = "shapes of the view", .n = first.size(), .grain = kGrain},

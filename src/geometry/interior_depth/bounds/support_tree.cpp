@@ -15,6 +15,7 @@ namespace {
 
 /// Up to this many points a scan of all is faster.
 constexpr std::size_t kFewVertices = 48;
+// Between 2 and 32 ships show no difference (decision 0073).
 constexpr std::uint32_t kVerticesPerLeaf = 8;
 /// Halving 2^32 points takes 29 levels down to the leaves; a traversal keeps one node per level.
 constexpr std::size_t kDepth = 40;
