@@ -140,7 +140,7 @@ Redrawn draw_nothing(const Request& request, Drawing earlier) {
 }
 
 /// Puts the part that was solved into the earlier drawing.
-Result<Redrawn> put_together(const ChangedView& changed, const Reach& reach, Drawing part,
+Result<Redrawn> put_together(const ChangedView& changed, const Reach& reach, const Drawing& part,
                              Drawing earlier, const parallel::Context& context) {
   Redrawn redrawn{.drawing = std::move(earlier)};
   Drawing& drawing = redrawn.drawing;
@@ -155,7 +155,7 @@ Result<Redrawn> put_together(const ChangedView& changed, const Reach& reach, Dra
   redrawn.objects_solved = static_cast<std::uint64_t>(std::ranges::count(reach.asked, true));
   drawing.counters = part.counters;
   drawing.diagnostics = changed.sections ? changed.sections->diagnostics : Diagnostics();
-  drawing.diagnostics.append(std::move(part.diagnostics));
+  drawing.diagnostics.append(part.diagnostics);
   drawing.counters.uncut_objects = changed.sections ? changed.sections->uncut_objects : 0;
   drawing.hatches = changed.sections ? changed.sections->hatches : std::vector<Hatch>();
   drawing.origin = part.origin;
@@ -215,14 +215,13 @@ Result<Redrawn> draw_what_changed(const Request& request, Earlier earlier,
                             std::move(*sections)};
   const auto reach = find_reach(changed, context);
   if (reach && reach->most) return draw_all(request, kMostOfIt, context);
-  auto part = reach ? draw_part(changed, *reach, context) : Result<Drawing>(reach.error());
+  const auto part = reach ? draw_part(changed, *reach, context) : Result<Drawing>(reach.error());
   if (!part) {
     if (part.error().code == ErrorCode::cancelled) return part.error();
     // Limits of a part are others than those of the whole.
     return draw_all(request, "what changed cannot be drawn alone", context);
   }
-  auto redrawn =
-      put_together(changed, *reach, std::move(*part), std::move(earlier.drawing), context);
+  auto redrawn = put_together(changed, *reach, *part, std::move(earlier.drawing), context);
   if (redrawn)
     redrawn->drawing.contact_distance_mm =
         changed.sections ? changed.sections->contact_distance_mm

@@ -24,7 +24,7 @@ std::optional<double> unit_of_file(const SceneFacts& facts) {
 }
 
 double unit_of_scene(const FileBytes& scene, const parallel::Context& context) {
-  FrameDefault frame{1000.0, UpAxis::y, true};
+  const FrameDefault frame{1000.0, UpAxis::y, true};
   const Result<gltf::Container> container = gltf::open_container(scene);
   if (!container) return frame.unit_mm;
   const Result<gltf::Document> document = gltf::Document::open(container->json, context);
