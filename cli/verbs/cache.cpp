@@ -89,9 +89,10 @@ std::string list_text(const io::ImportSettings& settings, const std::vector<io::
   std::uint64_t bytes = 0;
   for (const io::KeptScene& scene : kept) {
     bytes += scene.bytes;
-    const std::string by = scene.facts.scene.made_by.empty()
-                               ? std::string("is damaged")
-                               : "made by " + scene.facts.scene.made_by;
+    const std::string& maker = scene.facts.scene.made_by;
+    const std::string by = scene.facts.importer.empty() ? std::string("is damaged")
+                           : maker.empty()              ? std::string()
+                                                        : "made by " + maker;
     text += fmt::format("{:>12}  unused for {:<9}  {}  {} {}\n", megabytes(scene.bytes),
                         age_text(scene.unused), printable(scene.facts.file),
                         printable(scene.facts.scene.format), printable(by));

@@ -28,6 +28,7 @@
 #include "python/bindings/run.hpp"
 #include "python/bindings/selection.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/io/importer.hpp"
 #include "strake/io/reader.hpp"
 
 namespace nb = nanobind;
@@ -181,12 +182,19 @@ Array<bool> select(const ModelPointer& loaded, const std::vector<std::string>& s
 }
 
 ModelPointer load(const std::vector<std::filesystem::path>& paths, std::optional<double> unit_mm,
-                  std::optional<int> up_axis, const RunOptions& options) {
+                  std::optional<int> up_axis, const std::filesystem::path& importers,
+                  const RunOptions& options) {
   io::ReadOptions how{.unit_mm = unit_mm, .up_axis = {}, .encoding = {}};
   if (up_axis) how.up_axis = static_cast<io::UpAxis>(*up_axis);
-  return std::make_shared<LoadedModel>(run(options, "read", [&](const parallel::Context& context) {
-    return io::read_models(paths, how, context);
-  }));
+  std::vector<io::FileToRead> files;
+  for (const std::filesystem::path& path : paths) files.push_back({path, how});
+  return std::make_shared<LoadedModel>(
+      run(options, "read", [&](const parallel::Context& context) -> Result<model::Model> {
+        Result<io::ImportSettings> settings = io::import_settings_of_environment();
+        if (!settings) return io::read_models(files, context);  // tells of the fault as needed
+        settings->folders.insert(settings->folders.begin(), importers);
+        return io::read_models(files, *settings, context);
+      }));
 }
 
 void save(const ModelPointer& loaded, const std::filesystem::path& path,
@@ -231,7 +239,7 @@ void bind_model(nb::module_& module) {
                    [](const LoadedModel& m) { return listed(m.model().diagnostics); })
       .def("object", &object_facts, nb::arg("i"));
   module.def("load", &load, nb::arg("paths"), nb::arg("unit_mm").none(), nb::arg("up_axis").none(),
-             nb::arg("options"));
+             nb::arg("importers"), nb::arg("options"));
   module.def("save", &save, nb::arg("model"), nb::arg("path"), nb::arg("options"));
   module.def("placements", &placements, nb::arg("model"));
   module.def("object_of_body", &object_of_body, nb::arg("model"));

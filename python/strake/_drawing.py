@@ -55,11 +55,12 @@ class Lines(NamedTuple):
 class Drawing:
     """A view on paper, as draw() makes it."""
 
-    def __init__(self, model: Model, request: _core.DrawRequest, options: _core.RunOptions) -> None:
+    def __init__(self, model: Model, request: _core.DrawRequest, threads: int | None, progress: Progress | None) -> None:
         self.model = model
         self._request = request
-        self._options = options
-        self._core = _core.draw(model._core, request, options)
+        # Not what tells of progress: it may hold on to this drawing, and its bar is closed later on.
+        self._threads = threads
+        self._core = _core.draw(model._core, request, run_options(threads, progress))
 
     @cached_property
     def _whole(self) -> _core.DrawRun:
@@ -67,7 +68,7 @@ class Drawing:
         if self._request.visible_only or self._request.hidden != "off":
             return self._core
         self._request.keep_hidden = True
-        return _core.draw(self.model._core, self._request, self._options)
+        return _core.draw(self.model._core, self._request, run_options(self._threads, None))
 
     @cached_property
     def svg(self) -> str:
@@ -202,7 +203,7 @@ def draw(
     request.uncut = texts(uncut, "uncut")
     if pens is not None:
         request.pens = _pens(pens)
-    return Drawing(model, request, run_options(threads, progress))
+    return Drawing(model, request, threads, progress)
 
 
 def _set_view(request: _core.DrawRequest, view: str | Mapping[str, Any]) -> None:

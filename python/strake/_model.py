@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import sysconfig
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -110,6 +112,15 @@ def _position(index: int, count: int) -> int:
     return i + count if i < 0 else i
 
 
+_Array = TypeVar("_Array", bound=npt.NDArray[Any])
+
+
+def _kept(array: _Array) -> _Array:
+    """An array of which a model has one: nobody changes it, as results read it."""
+    array.flags.writeable = False
+    return array
+
+
 class Model:
     """Objects of one or several files, as load(), generate() and from_arrays() make them. It never changes."""
 
@@ -141,27 +152,27 @@ class Model:
     @cached_property
     def ids(self) -> npt.NDArray[np.object_]:
         """(N,) ids of the objects."""
-        return np.array(self._core.ids, dtype=object)
+        return _kept(np.array(self._core.ids, dtype=object))
 
     @cached_property
     def names(self) -> npt.NDArray[np.object_]:
         """(N,) names of the objects."""
-        return np.array(self._core.names, dtype=object)
+        return _kept(np.array(self._core.names, dtype=object))
 
     @cached_property
     def placements(self) -> npt.NDArray[np.float64]:
         """(B, 3, 4) from the shape of each body to the model, mm."""
-        return _core.placements(self._core)
+        return _kept(_core.placements(self._core))
 
     @cached_property
     def object_of_body(self) -> npt.NDArray[np.uint32]:
         """(B,) number of the object that each body belongs to."""
-        return _core.object_of_body(self._core)
+        return _kept(_core.object_of_body(self._core))
 
     @cached_property
     def boxes(self) -> npt.NDArray[np.float64]:
         """(N, 2, 3) least and greatest corner of each object, mm; NaN for objects of which nothing could be placed."""
-        return _core.boxes(self._core, run_options(None, None))
+        return _kept(_core.boxes(self._core, run_options(None, None)))
 
     @property
     def diagnostics(self) -> list[Diagnostic]:
@@ -294,6 +305,8 @@ def _placement(given: npt.ArrayLike | None) -> Sequence[float]:
     matrix = np.asarray(given)
     if matrix.dtype.kind not in "fiu" or matrix.shape not in ((3, 4), (4, 4)):
         raise UsageError(f"a placement is {matrix.dtype} of shape {matrix.shape}", mend="give numbers of shape (3, 4)")
+    if matrix.shape == (4, 4) and not np.array_equal(matrix[3], (0, 0, 0, 1)):
+        raise UsageError("the last row of a placement is not 0, 0, 0, 1", mend="transpose the matrix where its last column is")
     flat: list[float] = matrix[:3].astype(np.float64).ravel().tolist()
     return flat
 
@@ -301,9 +314,10 @@ def _placement(given: npt.ArrayLike | None) -> Sequence[float]:
 def _color(given: Sequence[int] | None) -> tuple[int, int, int, int] | None:
     if given is None:
         return None
-    parts = [int(number(part, "color")) for part in given]
-    if len(parts) not in (3, 4) or not all(0 <= part <= 255 for part in parts):
-        raise UsageError(f"{given!r} is no colour", mend="give red, green, blue and perhaps alpha, 0 to 255")
+    values = [number(part, "color") for part in given]
+    parts = [int(value) for value in values]
+    if len(parts) not in (3, 4) or parts != values or not all(0 <= part <= 255 for part in parts):
+        raise UsageError(f"{given!r} is no colour", mend="give red, green, blue and perhaps alpha as whole numbers, 0 to 255")
     red, green, blue = parts[:3]
     return red, green, blue, parts[3] if len(parts) == 4 else 255
 
@@ -315,7 +329,7 @@ def load(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Model:
-    """Reads model files (RVM, glTF, OBJ, STL) into one model.
+    """Reads model files (RVM, glTF, OBJ, STL; IFC and others where an importer is installed) into one model.
 
     Args:
         files: a path, or several.
@@ -338,7 +352,9 @@ def load(
     if up_axis is not None and up_axis not in _AXES:
         raise UsageError(f"{up_axis!r} is no axis", "up_axis", "write x, y or z")
     axis = None if up_axis is None else _AXES[up_axis]
-    return Model(_core.load(paths(files, "files"), unit_mm, axis, run_options(threads, progress)))
+    # An environment that nobody activated has its importers beside this Python, and not in PATH.
+    importers = Path(sysconfig.get_path("scripts"))
+    return Model(_core.load(paths(files, "files"), unit_mm, axis, importers, run_options(threads, progress)))
 
 
 def generate(

@@ -59,6 +59,8 @@ Status check(Session& session, const ClashDiffOptions& given,
       std::ranges::any_of(files, [](const std::string& file) { return project::is_project(file); });
   if (given.test && !any_project)
     return Error{ErrorCode::usage, "neither of the two is a project", "--test", "leave it out"};
+  if (!given.runs.empty() && given.runs.size() != 2)
+    return Error{ErrorCode::usage, "two runs are compared", "--runs", "write it as --runs 3 7"};
   if (!given.runs.empty() && files.size() > 1)
     return Error{ErrorCode::usage, "only runs of one project have numbers", "--runs",
                  "compare the project alone, or leave it out"};
@@ -85,13 +87,23 @@ Result<report::ClashDocument> read(Session& session, const ClashDiffOptions& giv
   if (!project::is_project(file)) return report::read_clash_document(file);
   Result<OpenedProject> opened = open_project(session, file);
   if (!opened) return opened.error();
-  return project::last_document(opened->project.database(), given.test, {});
+  return project::last_document(opened->project.database(), given.test, session.context());
 }
 
-/// Reads both documents, at the same time where there is a team.
+/// Reads both documents; two files at the same time where there is a team.
 Result<std::vector<report::ClashDocument>> read(Session& session, const ClashDiffOptions& given,
                                                 const std::vector<std::string>& files) {
   const auto timer = session.step("read");
+  // Opening a project tells the session which files are read, one at a time.
+  if (std::ranges::any_of(files, [](const std::string& f) { return project::is_project(f); })) {
+    std::vector<report::ClashDocument> documents;
+    for (const std::string& file : files) {
+      Result<report::ClashDocument> document = read(session, given, file);
+      if (!document) return document.error();
+      documents.push_back(std::move(*document));
+    }
+    return documents;
+  }
   return parallel::transform(session.context(), {.name = "read results", .n = 2},
                              [&](std::size_t i) { return read(session, given, files[i]); });
 }
@@ -181,6 +193,7 @@ Verb add_clash_diff(CLI::App& clash, CommonOptions& common) {
                    "their numbers (default: the last two)")
       ->type_name("N")
       ->expected(2)
+      ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   add_choice(
       *command, "--fail-on", options->fail_on, {"new-hit", "new", "worse", "cannot-tell"},

@@ -67,8 +67,10 @@ void ImportReport::take_line() {
   const auto [progress, severity, error, made_by] =
       document->root().pick<4>({"progress", "severity", "error", "made_by"});
   if (error.is_string()) {
-    fault_ = {short_text(error, kLongestMessage),
-              short_text(document->root()["mend"], kLongestMessage)};
+    // What comes after the first reason is what follows from it.
+    if (!fault_ || fault_->message.empty())
+      fault_ = {short_text(error, kLongestMessage),
+                short_text(document->root()["mend"], kLongestMessage)};
   } else if (severity.is_string()) {
     take_diagnostic(document->root(), severity.text_value());
   } else if (made_by.is_string()) {

@@ -203,6 +203,10 @@ std::string entry_trailer(std::span<const std::byte> scene, const EntryFacts& fa
 }
 
 std::optional<EntryFacts> read_entry_facts(const std::filesystem::path& file) {
+  // A pipe in its place would be waited for.
+  std::error_code failed;
+  if (std::filesystem::symlink_status(file, failed).type() != std::filesystem::file_type::regular)
+    return std::nullopt;
   std::ifstream in(file, std::ios::binary | std::ios::ate);
   const std::streamoff bytes = in.tellg();
   if (!in || bytes < static_cast<std::streamoff>(kFoot)) return std::nullopt;

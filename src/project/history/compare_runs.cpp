@@ -92,6 +92,12 @@ class RunComparer {
       const auto then = std::ranges::find(before.tests, now.test, &RunResult::test);
       if (then == before.tests.end()) {
         made_.diff.tests_added.push_back(now.name);
+        const SightAt none{SightAt::Kind::not_known, {}, no_test(now)};
+        const Status status =
+            sights->each(now.test, runs_, [&](const ClashRow& row, const SightPair& seen) {
+              return add(*sights, row, {none, seen.second}, 0, t);
+            });
+        if (!status) return status;
         continue;
       }
       compare_settings(*then, now);
@@ -102,9 +108,18 @@ class RunComparer {
           });
       if (!status) return status;
     }
-    for (const RunResult& then : before.tests)
-      if (std::ranges::find(after.tests, then.test, &RunResult::test) == after.tests.end())
-        made_.diff.tests_gone.push_back(then.name);
+    for (std::uint32_t t = 0; t < before.tests.size(); ++t) {
+      const RunResult& then = before.tests[t];
+      if (std::ranges::find(after.tests, then.test, &RunResult::test) != after.tests.end())
+        continue;
+      made_.diff.tests_gone.push_back(then.name);
+      const SightAt none{SightAt::Kind::cannot_tell, {}, no_test(then)};
+      const Status status =
+          sights->each(then.test, runs_, [&](const ClashRow& row, const SightPair& seen) {
+            return add(*sights, row, {seen.first, none}, t, 0);
+          });
+      if (!status) return status;
+    }
     finish();
     return {};
   }
@@ -116,6 +131,10 @@ class RunComparer {
     std::optional<std::size_t> before, after;
     std::string why;
   };
+
+  static std::string no_test(const RunResult& test) {
+    return "there is no test '" + test.name + "'";
+  }
 
   void compare_settings(const RunResult& then, const RunResult& now) {
     if (then.settings == now.settings) return;
@@ -138,9 +157,9 @@ class RunComparer {
     if (is) entry.after = after_.add(row, now.now, test_after);
     if (was && is) return {};
     const SightAt& other = was ? now : then;
-    if (other.sight == SightAt::Kind::cannot_tell) {
+    if (other.sight != SightAt::Kind::gone) {
       entry.why = other.why;
-    } else if (other.sight == SightAt::Kind::gone) {
+    } else {
       Result<std::string> rule = sights.allowed_by(row.id, was ? runs_.second : runs_.first);
       if (!rule) return rule.error();
       entry.why = std::move(*rule);

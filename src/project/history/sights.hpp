@@ -23,7 +23,7 @@ struct SightAt {
   };
   Kind sight = Kind::not_known;
   Measure now;      ///< where it was found
-  std::string why;  ///< why it cannot tell
+  std::string why;  ///< why it cannot tell, or does not know
 };
 
 using SightPair = std::pair<SightAt, SightAt>;

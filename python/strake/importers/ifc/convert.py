@@ -65,6 +65,9 @@ def _write(job: Job, model: Model, units: Units, products: Products, conversion:
             if remarks := conversion.remarks_of(number):
                 message = f"{product.is_a()} '{product.Name or ''}': {'; '.join(remarks)[:_MOST_MESSAGE]}"
                 report.warning("ifc-remark", message, object_id)
+        if scene.object_count == 0:
+            why = next(iter(conversion.failed.values()), "it has no product with a body")
+            report.fail(f"nothing in it becomes an object: {why}"[:_MOST_MESSAGE], "leave it out, or export it with bodies")
     if on_map := map_conversion(model).get("MapConversion"):
         east, north = on_map.get("Eastings"), on_map.get("Northings")
         message = f"the place on the map (east {east}, north {north}) is an attribute of the site: coordinates are those of the project"

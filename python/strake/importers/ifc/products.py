@@ -115,8 +115,8 @@ class Ids:
 
     def of(self, product: Entity) -> str:
         """Returns the id of a product. To be asked in the order of the file, once for each."""
-        guid = getattr(product, "GlobalId", None) or ""
-        if not guid:
+        guid = getattr(product, "GlobalId", None)
+        if not isinstance(guid, str) or not guid:
             guid = f"#{product.id()}"
             self._report.warning("ifc-no-id", f"{product.is_a()} #{product.id()} has no GlobalId: its number stands for it", guid)
         count = self._used.get(guid, 0) + 1

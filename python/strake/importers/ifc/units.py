@@ -101,8 +101,14 @@ class Units:
         return f"{number} {name}"
 
 
-def unit_name(unit: Entity) -> str:
+# A unit may be derived from itself in a file that somebody made up.
+_DEEPEST_UNIT = 4
+
+
+def unit_name(unit: Entity, depth: int = 0) -> str:
     """Returns the name of a unit as a selection has it where it knows it: mm, ft2, kg."""
+    if depth > _DEEPEST_UNIT:
+        return ""
     if unit.is_a("IfcSIUnit"):
         name = _SI.get(unit.Name, str(unit.Name).lower())
         return _PREFIXES.get(unit.Prefix or "", "") + name
@@ -111,7 +117,7 @@ def unit_name(unit: Entity) -> str:
         return _CONVERTED.get(name.upper().strip("'").replace("_", " "), name.lower())
     if unit.is_a("IfcDerivedUnit"):
         return "".join(
-            f"{'' if i == 0 else '.'}{unit_name(element.Unit)}{'' if element.Exponent == 1 else element.Exponent}"
+            f"{'' if i == 0 else '.'}{unit_name(element.Unit, depth + 1)}{'' if element.Exponent == 1 else element.Exponent}"
             for i, element in enumerate(unit.Elements or ())
         )
     return str(getattr(unit, "Currency", None) or getattr(unit, "Name", None) or "")

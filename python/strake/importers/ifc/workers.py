@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 import multiprocessing
 import os
+import resource
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
@@ -184,8 +185,16 @@ def _end(worker: _Worker) -> None:
     worker.connection.close()
 
 
+def _bound_memory() -> None:
+    """Lets a worker have half of the machine's memory at most: a few lines of a file may ask for any amount."""
+    most = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2
+    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+    resource.setrlimit(resource.RLIMIT_AS, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
+
+
 def _work(model: Model, convert: Convert, connection: Connection, others: list[Connection], parent: int) -> None:
     end_with_parent(parent)
+    _bound_memory()
     for other in others:
         other.close()
     while True:
