@@ -200,10 +200,7 @@ class Clashes(Sequence[Clash]):
 
     def __repr__(self) -> str:
         counts = self.summary
-        return (
-            f"<strake.Clashes: {counts['hit']} hits, {counts['contact']} contacts, "
-            f"{counts['clearance_violation']} clearance violations>"
-        )
+        return f"<strake.Clashes: {counts['hit']} hits, {counts['contact']} contacts, {counts['clearance_violation']} clearance violations>"
 
     def __str__(self) -> str:
         return self.table()

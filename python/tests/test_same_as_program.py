@@ -37,9 +37,7 @@ CLASH_RUNS: list[tuple[list[str], dict[str, Any]]] = [
 
 @pytest.mark.parametrize(("words", "arguments"), CLASH_RUNS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
 @pytest.mark.parametrize("name", ["clashes.json", "clashes.csv"])
-def test_clashes(
-    tmp_path: Path, ship: strake.Model, ship_file: Path, name: str, words: list[str], arguments: dict[str, Any]
-) -> None:
+def test_clashes(tmp_path: Path, ship: strake.Model, ship_file: Path, name: str, words: list[str], arguments: dict[str, Any]) -> None:
     expected = written_by_program(tmp_path, name, "clash", ship_file, *words)
     assert written_by_save(tmp_path, name, strake.clash(ship, **arguments)) == expected
 
@@ -84,9 +82,7 @@ DRAWINGS: list[tuple[list[str], dict[str, Any]]] = [
 
 @pytest.mark.parametrize(("words", "arguments"), DRAWINGS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
 @pytest.mark.parametrize("name", ["view.svg", "view.json"])
-def test_drawings(
-    tmp_path: Path, ship: strake.Model, ship_file: Path, name: str, words: list[str], arguments: dict[str, Any]
-) -> None:
+def test_drawings(tmp_path: Path, ship: strake.Model, ship_file: Path, name: str, words: list[str], arguments: dict[str, Any]) -> None:
     expected = written_by_program(tmp_path, name, "draw", ship_file, *words)
     drawing = strake.draw(ship, **arguments)
     assert written_by_save(tmp_path, name, drawing) == expected

@@ -146,6 +146,19 @@ class Runs(Projects):
         self.refused("run 2 did not run test 'two'", 'clash', 'diff', 'ship.strake', '--test', 'two', '--runs', '2', '3')
         self.assertEqual(self.diff('ship.strake', '--runs', '1', '2')['tests_gone'], ['one', 'two'])
 
+    def test_results_of_a_test_that_came_or_went_are_told(self):
+        for name, tests in (('one.toml', ['one']), ('two.toml', ['one', 'two'])):
+            self.write(name, ''.join(f'[[test]]\nname = "{test}"\n' for test in tests))
+        for rules in ('one.toml', 'two.toml', 'one.toml'):
+            self.night(None, '--rules', rules)
+        came = self.diff('ship.strake', '--runs', '1', '2')
+        self.assertEqual((came['tests_added'], {(e['test'], e['why']) for e in came['added']}), (['two'], {('two', "there is no test 'two'")}))
+        self.assertEqual(len(came['added']), 3)
+        self.done('clash', 'diff', 'ship.strake', '--runs', '1', '2', '--fail-on', 'new', exit_code=1)
+        went = self.diff('--runs', '2', '3', 'ship.strake')
+        self.assertEqual((went['tests_gone'], went['gone'], len(went['cannot_tell'])), (['two'], [], 3))
+        self.refused('two runs', 'clash', 'diff', 'ship.strake', '--runs', '1', '2', '--runs', '2', '3')
+
     def test_runs_of_an_earlier_version_are_refused(self):
         self.night()
         self.night()
