@@ -212,8 +212,10 @@ def test_a_box_around_a_product_is_no_body(tmp_path: Path) -> None:
     corner = make("IfcCartesianPoint", (0.0, 0.0, 0.0))
     box = make("IfcShapeRepresentation", model.context, "Box", "BoundingBox", [make("IfcBoundingBox", corner, 1.0, 1.0, 1.0)])
     model.product("IfcWall", "w", box)
+    assert "no product with a body" in convert(model.write(tmp_path / "a.ifc")).lines[-1]["error"]
+    other = model.product("IfcWall", "o", model.body(model.extrusion((100, 100, 100))))
     outcome = convert(model.write(tmp_path / "a.ifc"))
-    assert outcome.glb.ids == [] and outcome.told("skipped") == []
+    assert outcome.glb.ids == [other.GlobalId] and outcome.told("skipped") == []
     assert [line["code"] for line in outcome.told("note")][-1] == "ifc-no-shape-stated"
 
 
@@ -221,6 +223,7 @@ def test_walls_of_which_openings_leave_nothing(tmp_path: Path) -> None:
     model = IfcModel()
     wall = model.product("IfcWall", "w", model.body(model.extrusion((1000, 100, 1000))))
     model.void(wall, model.body(model.extrusion((2000, 200, 2000), (0, 0, -500))))
+    other = model.product("IfcWall", "o", model.body(model.extrusion((100, 100, 100))))
     outcome = convert(model.write(tmp_path / "a.ifc"))
-    assert outcome.glb.ids == [] and outcome.told("skipped") == []
+    assert outcome.glb.ids == [other.GlobalId] and outcome.told("skipped") == []
     assert [line["code"] for line in outcome.told("warning")] == ["ifc-cut-away"]
