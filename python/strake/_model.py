@@ -241,13 +241,13 @@ class Model:
         scale = _core.unit_mm(unit_name)
         if not hasattr(scene, "graph"):
             name = str(getattr(scene, "metadata", {}).get("name") or "mesh")
-            return cls.from_arrays([Mesh(name, scene.vertices, scene.faces, placement=np.eye(4) * scale)], label)
+            return cls.from_arrays([Mesh(name, scene.vertices, scene.faces, placement=np.eye(3, 4) * scale)], label)
         meshes = []
         for node in scene.graph.nodes_geometry:
             placement, name = scene.graph[node]
             geometry = scene.geometry[name]
             if hasattr(geometry, "faces"):
-                meshes.append(Mesh(str(node), geometry.vertices, geometry.faces, placement=np.asarray(placement) * scale))
+                meshes.append(Mesh(str(node), geometry.vertices, geometry.faces, placement=np.asarray(placement)[:3] * scale))
         return cls.from_arrays(meshes, label)
 
     def to_trimesh(self, sag: Length = 0.5) -> trimesh.Scene:
@@ -305,7 +305,7 @@ def _placement(given: npt.ArrayLike | None) -> Sequence[float]:
     matrix = np.asarray(given)
     if matrix.dtype.kind not in "fiu" or matrix.shape not in ((3, 4), (4, 4)):
         raise UsageError(f"a placement is {matrix.dtype} of shape {matrix.shape}", mend="give numbers of shape (3, 4)")
-    if matrix.shape == (4, 4) and not np.array_equal(matrix[3], (0, 0, 0, 1)):
+    if matrix.shape == (4, 4) and np.isfinite(matrix).all() and not np.array_equal(matrix[3], (0, 0, 0, 1)):
         raise UsageError("the last row of a placement is not 0, 0, 0, 1", mend="transpose the matrix where its last column is")
     flat: list[float] = matrix[:3].astype(np.float64).ravel().tolist()
     return flat

@@ -85,7 +85,7 @@ def prepare_shape(parts: Sequence[Part], unit_mm: float = 1.0) -> PreparedShape:
 
 def around_middle(placement: NDArray[np.float64], middle: Sequence[float]) -> NDArray[np.float64]:
     """Returns the placement of a shape whose corners count from its middle."""
-    result = placement.copy()
+    result: NDArray[np.float64] = placement.copy()
     result[:3, 3] += placement[:3, :3] @ np.asarray(middle)
     return result
 
