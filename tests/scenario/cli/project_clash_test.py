@@ -10,27 +10,11 @@ import signal
 import sqlite3
 import subprocess
 
-from scenario import Scenario, cube, main
-
-ROW = [(0, 0, 0), (80, 0, 0), (160, 0, 0), (240, 0, 0)]
-
-
-def cubes(places):
-    """An OBJ file of cubes c0, c1 and so on, 100 mm wide; in a row each is 20 mm in the next."""
-    return ''.join(cube(f'c{n}', n, at, 100) for n, at in enumerate(places))
+from row_project import ROW, RowProject, cubes
+from scenario import main
 
 
-class ProjectClash(Scenario):
-    def setUp(self):
-        super().setUp()
-        self.write('row.obj', cubes(ROW))
-        self.done('project', 'new', 'ship.strake', 'row.obj', '--unit', 'mm')
-
-    def done(self, *arguments, exit_code=0):
-        done = self.run_strake(*arguments)
-        self.assertEqual(done.returncode, exit_code, done.stderr)
-        return done
-
+class ProjectClash(RowProject):
     def clash(self, *arguments, exit_code=0):
         return self.done('clash', '-p', 'ship.strake', *arguments, exit_code=exit_code)
 
@@ -38,14 +22,8 @@ class ProjectClash(Scenario):
         self.write(name, cubes(places))
         self.done('project', 'update', 'ship.strake')
 
-    def listed(self, *arguments):
-        return json.loads(self.done('clash', 'list', '-p', 'ship.strake', '--json', *arguments).stdout)['clashes']
-
     def statuses(self):
         return [clash['status'] for clash in self.listed()]
-
-    def set(self, *arguments, exit_code=0):
-        return self.done('clash', 'set', '-p', 'ship.strake', *arguments, exit_code=exit_code)
 
     def test_a_week(self):
         # Monday: everything is new.

@@ -9,29 +9,13 @@ from pathlib import Path
 
 import jsonschema
 
-from scenario import Scenario, cube, main
+from row_project import ROW, RowProject, cubes
+from scenario import cube, main
 
-ROW = [(0, 0, 0), (80, 0, 0), (160, 0, 0), (240, 0, 0)]
 SCHEMAS = None
 
 
-def cubes(places):
-    """An OBJ file of cubes c0, c1 and so on, 100 mm wide, but for those whose place is None; in a row each is 20 mm in the next."""
-    there = [(name, at) for name, at in enumerate(places) if at is not None]
-    return ''.join(cube(f'c{name}', n, at, 100) for n, (name, at) in enumerate(there))
-
-
-class Projects(Scenario):
-    def setUp(self):
-        super().setUp()
-        self.write('row.obj', cubes(ROW))
-        self.done('project', 'new', 'ship.strake', 'row.obj', '--unit', 'mm')
-
-    def done(self, *arguments, exit_code=0):
-        done = self.run_strake(*arguments)
-        self.assertEqual(done.returncode, exit_code, done.stderr)
-        return done
-
+class Projects(RowProject):
     def refused(self, said, *arguments):
         done = self.done(*arguments, exit_code=2)
         self.assertIn(said, done.stderr)
@@ -42,14 +26,8 @@ class Projects(Scenario):
             self.done('project', 'update', 'ship.strake')
         return self.done('clash', '-p', 'ship.strake', *options)
 
-    def listed(self, *options):
-        return json.loads(self.done('clash', 'list', '-p', 'ship.strake', '--json', *options).stdout)['clashes']
-
     def keys(self):
         return [clash['key'] for clash in self.listed()]
-
-    def set(self, *options, exit_code=0):
-        return self.done('clash', 'set', '-p', 'ship.strake', *options, exit_code=exit_code)
 
     def diff(self, *arguments, verb='clash'):
         told = json.loads(self.done(verb, 'diff', *arguments, '--json').stdout)
