@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -14,7 +16,14 @@ constexpr float kEndless = std::numeric_limits<float>::infinity();
 constexpr float kNothing = -kEndless;
 constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMostAcross = 4096;
-constexpr std::size_t kBandRows = 64;
+/// Rows whose polygons are listed together, and rows that are painted as one item.
+constexpr std::size_t kListedRows = 64;
+constexpr std::size_t kPaintedRows = 8;
+/// Tiles of a row whose farthest depth is kept, so that what lies behind all of them is passed by.
+constexpr std::size_t kBlockTiles = 8;
+/// Polygons in a row that are passed by together where none reaches into the rows.
+constexpr std::size_t kBlockFaces = 256;
+constexpr std::size_t kDepthClasses = 1024;
 /// Relative margin for rounding: doubles hold view coordinates and what is computed from them far
 /// more exactly, and a whole unit is added where they are compared.
 constexpr double kShare = 1e-12;
@@ -27,14 +36,35 @@ constexpr double kBeside = 1e-6;
 
 double as_double(std::int64_t x) { return static_cast<double>(x); }
 
+std::size_t bands_of(std::size_t count, std::size_t size) { return (count + size - 1) / size; }
+
+/// A stretch of the paper's height; there are millions of these.
+struct RowRange {
+  float lo = kEndless, hi = kNothing;
+
+  [[nodiscard]] bool meets(const RowRange& other) const { return lo < other.hi && hi > other.lo; }
+  void include(const RowRange& other) {
+    lo = std::min(lo, other.lo);
+    hi = std::max(hi, other.hi);
+  }
+};
+
 /// A polygon of a body, or the outline of a convex part of it, whose box holds a tile or more.
 struct Large {
   const OccluderPolygon* polygon = nullptr;
   std::uint32_t body = 0;
   std::uint32_t convex = kNoPart;  ///< the part of the shape, where the polygon is its outline
-  float v0 = 0, v1 = 0;            ///< rounded outwards; there are millions of these
+  RowRange across;                 ///< rounded outwards
+  float nearest = 0;               ///< no tile that it covers gets a depth nearer than this
 
   static constexpr std::uint32_t kNoPart = 0xffffffffU;
+};
+
+/// What decides whether a large polygon changes tiles at all, by itself in memory: few do.
+struct Listed {
+  float nearest = 0;
+  std::uint32_t large = 0;
+  std::uint16_t first_row = 0, last_row = 0, first_column = 0, last_column = 0;  ///< of its box
 };
 
 /// How the depth of a plane changes on paper, and how far behind it a point must lie.
@@ -103,6 +133,53 @@ class Planes {
 
 }  // namespace
 
+/// Rows of an occlusion buffer with the farthest depth of each block of their tiles.
+class OcclusionBuffer::Rows {
+ public:
+  Rows(OcclusionBuffer& buffer, std::size_t first, std::size_t last)
+      : buffer_(buffer),
+        first_(first),
+        last_(last),
+        blocks_((buffer.columns_ + kBlockTiles - 1) / kBlockTiles),
+        farthest_((last - first) * blocks_, kNothing) {}
+
+  [[nodiscard]] std::size_t first() const { return first_; }
+  [[nodiscard]] std::size_t last() const { return last_; }
+
+  /// Returns whether all tiles [from, to) of a row have a depth as near as this one already.
+  [[nodiscard]] bool are_nearer(std::size_t row, std::size_t from, std::size_t to,
+                                float depth) const {
+    const float* const farthest = farthest_.data() + (row - first_) * blocks_;
+    for (std::size_t block = from / kBlockTiles; block * kBlockTiles < to; ++block)
+      if (farthest[block] < depth) return false;
+    return true;
+  }
+
+  /// Brings tiles [from, to) of a row nearer: depth_of(column) -> float.
+  template <class DepthOf>
+  void paint(std::size_t row, std::size_t from, std::size_t to, DepthOf&& depth_of) {
+    float* const depth = buffer_.depth_.data() + row * buffer_.columns_;
+    bool changed = false;
+    for (std::size_t column = from; column < to; ++column) {
+      const float f = depth_of(column);
+      changed = changed || f > depth[column];
+      depth[column] = std::max(depth[column], f);
+    }
+    if (!changed) return;
+    float* const farthest = farthest_.data() + (row - first_) * blocks_;
+    for (std::size_t block = from / kBlockTiles; block * kBlockTiles < to; ++block) {
+      const std::size_t begin = block * kBlockTiles;
+      const std::size_t end = std::min(begin + kBlockTiles, buffer_.columns_);
+      farthest[block] = *std::min_element(depth + begin, depth + end);
+    }
+  }
+
+ private:
+  OcclusionBuffer& buffer_;
+  std::size_t first_, last_, blocks_;
+  std::vector<float> farthest_;  ///< by row, then block
+};
+
 /// Fills bands of rows.
 class OcclusionBuffer::Painter {
  public:
@@ -123,8 +200,12 @@ class OcclusionBuffer::Painter {
     const auto add = [&](const OccluderPolygon& polygon, std::uint32_t convex) {
       const auto lo = static_cast<float>(polygon.box.lo.v + placed.at.v);
       const auto hi = static_cast<float>(polygon.box.hi.v + placed.at.v);
-      out.push_back(
-          {&polygon, body, convex, std::nextafter(lo, -kEndless), std::nextafter(hi, kEndless)});
+      const auto nearest = static_cast<float>(polygon.box.hi.w + placed.at.w);
+      out.push_back({&polygon,
+                     body,
+                     convex,
+                     {std::nextafter(lo, -kEndless), std::nextafter(hi, kEndless)},
+                     std::nextafter(nearest, kEndless)});
     };
     const ProjectedShape& shape = *placed.shape;
     for (std::uint32_t p = 0; p < shape.parts.size(); ++p) {
@@ -139,13 +220,46 @@ class OcclusionBuffer::Painter {
     }
   }
 
-  void paint(std::span<const Large> all, std::size_t first_row, std::size_t last_row) const {
-    const double low =
-        occlusion_buffer_.v0_ + occlusion_buffer_.height_ * static_cast<double>(first_row);
-    const double high =
-        occlusion_buffer_.v0_ + occlusion_buffer_.height_ * static_cast<double>(last_row);
-    for (const Large& large : all)
-      if (large.v0 < high && large.v1 > low) paint(large, first_row, last_row);
+  /// Returns the polygons that reach into some rows, about the nearest first: most of the others
+  /// then lie behind what is painted already. Which come first changes no depth.
+  [[nodiscard]] std::vector<Listed> nearest_first(std::span<const Large> all,
+                                                  std::span<const RowRange> blocks,
+                                                  std::size_t first_row,
+                                                  std::size_t last_row) const {
+    std::vector<Listed> found;
+    const RowRange rows{static_cast<float>(side_of(first_row)),
+                        static_cast<float>(side_of(last_row))};
+    float nearest = kNothing, farthest = kEndless;
+    for (std::size_t block = 0; block < blocks.size(); ++block) {
+      if (!blocks[block].meets(rows)) continue;
+      const std::size_t end = std::min(all.size(), (block + 1) * kBlockFaces);
+      for (std::size_t i = block * kBlockFaces; i < end; ++i) {
+        const Large& large = all[i];
+        if (!large.across.meets(rows)) continue;
+        found.push_back(listed(large, static_cast<std::uint32_t>(i)));
+        nearest = std::max(nearest, large.nearest);
+        farthest = std::min(farthest, large.nearest);
+      }
+    }
+    // A counting sort by depth: within a class the order is of no account.
+    const auto depth_class = [&](const Listed& one) {
+      const float share = (nearest - one.nearest) / std::max(nearest - farthest, 1.0F);
+      return static_cast<std::size_t>(share * static_cast<float>(kDepthClasses - 1));
+    };
+    std::vector<std::size_t> begin(kDepthClasses + 1);
+    for (const Listed& one : found) ++begin[depth_class(one) + 1];
+    for (std::size_t k = 0; k < kDepthClasses; ++k) begin[k + 1] += begin[k];
+    std::vector<Listed> sorted(found.size());
+    for (const Listed& one : found) sorted[begin[depth_class(one)]++] = one;
+    return sorted;
+  }
+
+  void paint(std::span<const Large> all, std::span<const Listed> listed, Rows& rows) const {
+    for (const Listed& one : listed) {
+      const std::size_t from = std::max<std::size_t>(rows.first(), one.first_row);
+      const std::size_t to = std::min<std::size_t>(rows.last(), one.last_row);
+      if (from < to) paint(all[one.large], one, from, to, rows);
+    }
   }
 
  private:
@@ -158,25 +272,52 @@ class OcclusionBuffer::Painter {
            as_double(box.hi.v - box.lo.v) > occlusion_buffer_.height_;
   }
 
-  void paint(const Large& large, std::size_t first_row, std::size_t last_row) const {
-    const BodyInstance& placed = placed_[large.body];
-    const auto corners = std::span(placed.shape->corners)
-                             .subspan(large.polygon->first_corner, large.polygon->corners);
-    const DepthPlane plane = plane_of(large);
-    if (!plane.slope.is_finite()) return;
-    const auto row_of = [&](double v) {
-      return static_cast<std::size_t>(
-          std::clamp(std::floor((v - occlusion_buffer_.v0_) / occlusion_buffer_.height_), 0.0,
-                     static_cast<double>(occlusion_buffer_.rows_)));
+  /// Returns the height at which a row begins.
+  [[nodiscard]] double side_of(std::size_t row) const {
+    return occlusion_buffer_.v0_ + occlusion_buffer_.height_ * static_cast<double>(row);
+  }
+
+  [[nodiscard]] Listed listed(const Large& large, std::uint32_t number) const {
+    const OcclusionBuffer& c = occlusion_buffer_;
+    const auto tile = [](double at, double size, std::size_t count) {
+      return static_cast<std::uint16_t>(
+          std::clamp(std::floor(at / size), 0.0, static_cast<double>(count)));
     };
-    const std::size_t from = std::max(first_row, row_of(large.v0));
-    const std::size_t to = std::min(last_row, row_of(large.v1) + 1);
-    for (std::size_t row = from; row < to; ++row) {
-      const double v0 =
-          occlusion_buffer_.v0_ + occlusion_buffer_.height_ * static_cast<double>(row);
-      const double v1 = v0 + occlusion_buffer_.height_;
-      const Span lower = chord(corners, placed.at, v0), upper = chord(corners, placed.at, v1);
-      paint_row(row, {std::max(lower.lo, upper.lo), std::min(lower.hi, upper.hi)}, plane);
+    const auto after = [](std::uint16_t last, std::size_t count) {
+      return static_cast<std::uint16_t>(std::min<std::size_t>(last + std::size_t{1}, count));
+    };
+    const ViewBox& box = large.polygon->box;
+    const double u = as_double(placed_[large.body].at.u);
+    return {large.nearest,
+            number,
+            tile(large.across.lo - c.v0_, c.height_, c.rows_),
+            after(tile(large.across.hi - c.v0_, c.height_, c.rows_), c.rows_),
+            tile(as_double(box.lo.u) + u - c.u0_, c.width_, c.columns_),
+            after(tile(as_double(box.hi.u) + u - c.u0_, c.width_, c.columns_), c.columns_)};
+  }
+
+  void paint(const Large& large, const Listed& box, std::size_t from_row, std::size_t to_row,
+             Rows& rows) const {
+    const BodyInstance& placed = placed_[large.body];
+    const auto corners = [&] {
+      return std::span(placed.shape->corners)
+          .subspan(large.polygon->first_corner, large.polygon->corners);
+    };
+    std::optional<DepthPlane> plane;
+    Span lower{};
+    bool follows = false;  // on a row whose upper chord is this one's lower
+    for (std::size_t row = from_row; row < to_row; ++row) {
+      if (rows.are_nearer(row, box.first_column, box.last_column, box.nearest)) {
+        follows = false;
+        continue;
+      }
+      if (!plane) plane = plane_of(large);
+      if (!plane->slope.is_finite()) return;
+      if (!follows) lower = chord(corners(), placed.at, side_of(row));
+      const Span upper = chord(corners(), placed.at, side_of(row + 1));
+      paint_row(row, {std::max(lower.lo, upper.lo), std::min(lower.hi, upper.hi)}, *plane, rows);
+      lower = upper;
+      follows = true;
     }
   }
 
@@ -216,7 +357,7 @@ class OcclusionBuffer::Painter {
     return span;
   }
 
-  void paint_row(std::size_t row, const Span& span, const DepthPlane& plane) const {
+  void paint_row(std::size_t row, const Span& span, const DepthPlane& plane, Rows& rows) const {
     if (!(span.lo < span.hi)) return;
     const auto& [at, slope] = plane;
     const OcclusionBuffer& c = occlusion_buffer_;
@@ -236,13 +377,11 @@ class OcclusionBuffer::Painter {
                                                  c.width_ * static_cast<double>(c.columns_));
     const double start = base - slope.behind * (1 + 1e-9) - 2 - kShare * size;
     const double step = slope.by_u * c.width_;
-    float* const depth = occlusion_buffer_.depth_.data() + row * c.columns_;
-    for (std::size_t column = from; column < to; ++column) {
+    rows.paint(row, from, to, [&](std::size_t column) {
       // Rounded to the next float below.
       const double w = start + step * static_cast<double>(column);
-      const auto f = static_cast<float>(w - std::fabs(w) * 1.2e-7);
-      depth[column] = std::max(depth[column], f);
-    }
+      return static_cast<float>(w - std::fabs(w) * 1.2e-7);
+    });
   }
 
   OcclusionBuffer& occlusion_buffer_;
@@ -260,9 +399,9 @@ Result<OcclusionBuffer> OcclusionBuffer::of(std::span<const BodyInstance> placed
     if (p.shape != nullptr && p.opaque && !p.shape->box.empty())
       box.include(p.shape->box.moved(p.at));
   if (box.empty() || box.lo.u == box.hi.u || box.lo.v == box.hi.v) return occlusion_buffer;
-  const auto across = static_cast<std::size_t>(std::sqrt(static_cast<double>(tiles)));
+  const auto a_side = static_cast<std::size_t>(std::sqrt(static_cast<double>(tiles)));
   occlusion_buffer.columns_ = occlusion_buffer.rows_ =
-      std::clamp<std::size_t>(across, 16, kMostAcross);
+      std::clamp<std::size_t>(a_side, 16, kMostAcross);
   occlusion_buffer.u0_ = as_double(box.lo.u);
   occlusion_buffer.v0_ = as_double(box.lo.v);
   occlusion_buffer.width_ =
@@ -278,11 +417,29 @@ Result<OcclusionBuffer> OcclusionBuffer::of(std::span<const BodyInstance> placed
   if (!large) return large.error();
   if (large->empty()) return OcclusionBuffer();
   occlusion_buffer.depth_.assign(occlusion_buffer.columns_ * occlusion_buffer.rows_, kNothing);
-  const std::size_t bands = (occlusion_buffer.rows_ + kBandRows - 1) / kBandRows;
+  const std::size_t rows = occlusion_buffer.rows_;
+  const auto blocks = parallel::transform(
+      context, {.name = "hidden lines: rows of faces", .n = bands_of(large->size(), kBlockFaces)},
+      [&](std::size_t block) {
+        RowRange across;
+        const std::size_t end = std::min(large->size(), (block + 1) * kBlockFaces);
+        for (std::size_t i = block * kBlockFaces; i < end; ++i) across.include((*large)[i].across);
+        return across;
+      });
+  if (!blocks) return blocks.error();
+  const auto listed = parallel::transform(
+      context, {.name = "hidden lines: faces by rows", .n = bands_of(rows, kListedRows)},
+      [&](std::size_t band) {
+        return painter.nearest_first(*large, *blocks, band * kListedRows,
+                                     std::min(rows, (band + 1) * kListedRows));
+      });
+  if (!listed) return listed.error();
   const Status painted = parallel::for_each(
-      context, {.name = "hidden lines: covered tiles", .n = bands}, [&](std::size_t band) {
-        painter.paint(*large, band * kBandRows,
-                      std::min(occlusion_buffer.rows_, (band + 1) * kBandRows));
+      context, {.name = "hidden lines: covered tiles", .n = bands_of(rows, kPaintedRows)},
+      [&](std::size_t item) {
+        const std::size_t first = item * kPaintedRows;
+        Rows some(occlusion_buffer, first, std::min(rows, first + kPaintedRows));
+        painter.paint(*large, (*listed)[first / kListedRows], some);
       });
   if (!painted) return painted.error();
   return occlusion_buffer;

@@ -53,6 +53,7 @@ class OcclusionBuffer {
   [[nodiscard]] bool covers(const ViewBox& box) const;
 
  private:
+  class Rows;
   class Painter;
   class TileTraversal;
 

@@ -12,6 +12,7 @@
 #include "strake/geometry/grid.hpp"
 #include "strake/hlr/steps.hpp"
 #include "strake/parallel/distinct.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/pieces.hpp"
 #include "strake/parallel/report.hpp"
 
@@ -133,10 +134,11 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
   const model::Scene& scene = *job.scene;
   visibility.placed.resize(scene.bodies.size());
   std::vector<ViewBox> boxes(scene.bodies.size());
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
+  const auto place = [&](std::size_t index) {
+    const auto b = static_cast<std::uint32_t>(index);
     const model::GridBody& body = scene.bodies[b];
     const std::uint32_t object = model::index(body.object);
-    if (!job.drawn[object]) continue;
+    if (!job.drawn[object]) return;
     const SectionedShape& seen = job.sectioned_shape_of(b);
     const model::GridShape& shape = seen.shape();
     BodyInstance& placed = visibility.placed[b];
@@ -159,10 +161,17 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
       placed.opaque = placed.opaque && box.meets(*job.limits);
     }
     if (placed.opaque && !placed.shape->box.empty()) boxes[b] = placed.shape->box.moved(placed.at);
-  }
+  };
+  if (Status status = parallel::for_each(
+          context, {.name = "hidden lines: bodies", .n = scene.bodies.size(), .grain = 1024},
+          place);
+      !status)
+    return status;
   if (job.options.culling)
     if (const Status status = drop_equal_bodies(visibility, boxes, context); !status) return status;
-  visibility.tree = ViewBvh(boxes);
+  auto tree = ViewBvh::of(boxes, context);
+  if (!tree) return tree.error();
+  visibility.tree = std::move(*tree);
   return {};
 }
 
