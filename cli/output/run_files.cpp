@@ -120,14 +120,6 @@ Status RunFiles::add_all_companions(const fs::path& file, const parallel::Contex
 
 Status RunFiles::add_model(const fs::path& file, const parallel::Context& context) {
   if (Status status = add(file, {}); !status) return status;
-  // What does not exist cannot be overwritten, and the model is read twice for this.
-  const bool may_overwrite = std::ranges::any_of(
-      outputs_, [](const Output& output) { return output.place.node.has_value(); });
-  return may_overwrite ? add_all_companions(file, context) : Status{};
-}
-
-Status RunFiles::add_later_model(const fs::path& file, const parallel::Context& context) {
-  if (Status status = add(file, {}); !status) return status;
   if (outputs_.empty()) return {};
   const std::string head = head_of(file);
   if (Status status = add_companions({file, std::as_bytes(std::span(head))}, context); !status)

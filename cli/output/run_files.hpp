@@ -26,15 +26,12 @@ class RunFiles {
   [[nodiscard]] Status add_inputs(const std::vector<std::string>& files);
   /// Adds a project with the write log beside it. Errors: those of add_input().
   [[nodiscard]] Status add_project(const std::filesystem::path& file);
-  /// Adds a model file with those that are read with it, as the attributes of an RVM file. Errors:
-  /// those of add_input(); a file that cannot be read is left to its reader.
+  /// Adds a model file with those that its head tells are read with it, as the attributes of an RVM
+  /// file. The rest is looked for where an output exists that may be such a file: no text that
+  /// names no material, as results of an earlier run are. Errors: those of add_input(); a file that
+  /// cannot be read is left to its reader.
   [[nodiscard]] Status add_model(const std::filesystem::path& file,
                                  const parallel::Context& context);
-  /// Adds a model file that only a later run reads, as those of a project, with what its head tells
-  /// that is read with it. The rest is looked for where an output exists that may be such a file:
-  /// no text that names no material. Errors: those of add_input().
-  [[nodiscard]] Status add_later_model(const std::filesystem::path& file,
-                                       const parallel::Context& context);
 
   /// Adds an output that `option` names. Errors: usage where it is of none of the formats, is read,
   /// or is an output already; output where it cannot be written.

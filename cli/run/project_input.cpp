@@ -129,7 +129,7 @@ Status add_model_files(Session& session, project::Project& project) {
   const Result<std::vector<project::StoredFile>> files = project.files();
   if (!files) return files.error();
   for (const project::StoredFile& file : *files)
-    if (Status status = session.files().add_later_model(file.path, session.context()); !status)
+    if (Status status = session.files().add_model(file.path, session.context()); !status)
       return status;
   return {};
 }
