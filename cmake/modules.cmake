@@ -38,13 +38,17 @@ function(strake_module name)
 endfunction()
 
 # strake_test(NAME SOURCES... MODULES modules... [LIBS ...] [LABELS fast|slow|parallel ...] [TIMEOUT s])
-# One GoogleTest program, one CTest entry. "fast" programs also run under the sanitizers.
+# One GoogleTest program, one CTest entry. "fast" programs also run under the sanitizers. What
+# tests/support has for the modules is linked.
 function(strake_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;MODULES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/tests)
   foreach(module ${arg_MODULES})
     target_link_libraries(${name} PRIVATE strake::${module})
+    if(TARGET strake_support_${module})
+      target_link_libraries(${name} PRIVATE strake_support_${module})
+    endif()
   endforeach()
   target_link_libraries(${name} PRIVATE strake_flags GTest::gtest_main ${arg_LIBS})
   # A test that is run once is not worth what optimising GoogleTest's macros takes; the library
