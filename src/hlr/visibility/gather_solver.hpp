@@ -92,21 +92,19 @@ class OccluderGatherer {
 
   // These return false when nothing of the edge is left.
   bool gather_body(std::uint32_t body, bool self);
-  bool test_part(const LocalEdge& local, const ProjectedShape& shape, const OccluderPart& part,
-                 const Rule& rule);
-  bool test_polygon(const LocalEdge& local, const ProjectedShape& shape,
-                    const OccluderPolygon& polygon, const Rule& rule);
+  bool test_part(const ProjectedShape& shape, const OccluderPart& part, const Rule& rule);
+  bool test_polygon(const ProjectedShape& shape, const OccluderPolygon& polygon, const Rule& rule);
   bool add(std::optional<OcclusionInterval> interval, bool self);
   bool add(const OcclusionInterval& interval);
 
-  [[nodiscard]] bool is_deep_under(const LocalEdge& local, const OccluderPart& part,
-                                   std::int64_t contact) const;
-  [[nodiscard]] LocalEdge localized(const BodyInstance& other);
+  [[nodiscard]] bool is_deep_under(const OccluderPart& part, std::int64_t contact) const;
+  void localize(const BodyInstance& other);
   void project_range(double from, double to);
-  [[nodiscard]] SegmentQuery make_query(const ViewPoint& a, const ViewPoint& b,
-                                        const PaperRotation& turn = {}) const;
+  void set_open(const OpenRange& open);
+  void find_open_part();
+  [[nodiscard]] SegmentQuery make_query() const;
+  [[nodiscard]] SegmentQuery make_query(const PaperRotation& turn) const;
   [[nodiscard]] SegmentQuery make_perspective_query() const;
-  void refresh_segment() { segment_ = make_query(edge_.va, edge_.vb); }
 
   const VisibilityScene& visibility_;
   const ViewJob& job_;
@@ -115,11 +113,15 @@ class OccluderGatherer {
   bool hides_all_ = false;
   std::vector<ParamRange> gaps_;  ///< what the occlusion buffer leaves open, ascending
   std::vector<SegmentRange> uncovered_;
+  ViewBox open_box_;  ///< orthographic: see open_box()
   SegmentQuery segment_;
   // In perspective; nothing where the edge may be anywhere on paper.
   std::optional<PerspectiveSegment> perspective_segment_;
   ViewBox perspective_box_;
-  geometry::Box3l limits_;  ///< in the coordinates of the tested body
+  // The edge, the place on paper and the limits in the coordinates of the tested body.
+  LocalEdge local_;
+  ViewPoint local_at_;
+  geometry::Box3l limits_;
   std::vector<OcclusionInterval> intervals_;
   BucketMarks marks_;
 

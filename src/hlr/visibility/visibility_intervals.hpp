@@ -80,7 +80,7 @@ struct OcclusionInterval {
 struct LocalEdge {
   geometry::Vec3l a, b;
   ViewPoint va, vb;                         ///< orthographic
-  ViewBox box;                              ///< box on paper of the drawn part
+  ViewBox box;                              ///< see open_box(); in perspective, of the drawn part
   std::int64_t nearest = 0;                 ///< the greater product of an end with the direction
   const geometry::Box3l* limits = nullptr;  ///< limits in the same coordinates; null where none cut
   bool narrow = false;  ///< 64-bit integers suffice for orientations of this edge and shape
@@ -131,6 +131,11 @@ class OpenRange {
   [[nodiscard]] const RationalParam& lo() const { return hull_.lo; }
   [[nodiscard]] const RationalParam& hi() const { return hull_.hi; }
   [[nodiscard]] bool empty() const { return hull_.empty(); }
+
+  /// Returns whether anything is undecided on one side.
+  [[nodiscard]] bool is_open(EdgeSide side) const {
+    return side == kLeft ? !left_.empty() : !right_.empty();
+  }
 
   /// Returns what of it lies in a part.
   [[nodiscard]] OpenRange within(const ParamRange& part) const;
