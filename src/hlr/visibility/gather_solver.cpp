@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine: the gatherer, the maker of pieces, and the loops over all edges.
+// The engine: the gatherer, and the loops over all edges.
 #include "hlr/visibility/gather_solver.hpp"
 
 #include <algorithm>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hlr/prepare/view_job.hpp"
+#include "hlr/visibility/edge_piece_builder.hpp"
 #include "hlr/visibility/open_part.hpp"
 #include "hlr/visibility/step_shares.hpp"
 #include "hlr/visibility/visibility_scene.hpp"
@@ -146,16 +147,16 @@ void OccluderGatherer::gather_object(std::uint32_t object) {
   const auto& first_body = job_.scene->first_body;
   const std::uint32_t first = first_body[object], last = first_body[object + 1];
   if ((known != kNoBody && last - first == 1) || (job_.options.culling && open_.empty())) return;
-  const auto consider = [&](std::uint32_t b) {
-    if (b == known || visibility_.placed[b].object != object) return true;
-    return gather_body(b, true);
-  };
   if (last - first <= kFewBodies || !job_.options.culling) {
     for (std::uint32_t b = first; b < last; ++b)
-      if (!consider(b)) return;
-  } else {
-    visibility_.tree.traverse(segment_, consider);
+      if (b != known && !gather_body(b, true)) return;
+    return;
   }
+  visibility_.tree.traverse(segment_, [&](std::uint32_t column) {
+    return gather_column(column, true, [&](std::uint32_t b) {
+      return b != known && visibility_.placed[b].object == object;
+    });
+  });
 }
 
 /// Hides what the occlusion buffer covers and finds the gaps that it leaves. Wires that are seen
@@ -186,39 +187,43 @@ void OccluderGatherer::find_gaps() {
 }
 
 void OccluderGatherer::gather_others() {
-  const auto consider = [&](std::uint32_t b) {
+  const auto is_other = [&](std::uint32_t b) {
     const std::uint32_t object = visibility_.placed[b].object;
-    return object == edge_.own->object || object == edge_.other->object || gather_body(b, false);
+    return object != edge_.own->object && object != edge_.other->object;
   };
   if (!job_.options.culling) {
-    for (std::uint32_t b = 0; b < visibility_.placed.size(); ++b) consider(b);
+    for (std::uint32_t b = 0; b < visibility_.placed.size(); ++b)
+      if (is_other(b)) gather_body(b, false);
     return;
   }
-  if (!find_neighbours()) return visibility_.tree.traverse(segment_, consider);
+  const auto gather = [&](std::uint32_t column) { return gather_column(column, false, is_other); };
+  if (!find_neighbours()) return visibility_.tree.traverse(segment_, gather);
   for (const Neighbour& other : near_)
     if (other.box.w1 <= segment_.w0 ||
-        (segment_.may_be_hidden_by(other.box) && !gather_body(other.body, false)))
+        (segment_.may_be_hidden_by(other.box) && !gather(other.column)))
       return;
 }
 
-/// Finds the bodies that may hide any edge of an item by one traversal, as its edges are near each
+/// Finds the columns that may hide any edge of an item by one traversal, as its edges are near each
 /// other. False where they are many.
 bool OccluderGatherer::find_neighbours() {
   if (neighbours_ != Neighbours::not_searched) return neighbours_ == Neighbours::found;
   neighbours_ = Neighbours::too_many;
   if (item_box_.empty()) return false;
-  const std::uint32_t own = visibility_.placed[item_->body].object;
+  const auto is_own = [&](std::uint32_t b) {
+    return visibility_.placed[b].object == visibility_.placed[item_->body].object;
+  };
   near_.clear();
   bool few = true;
-  visibility_.tree.traverse_boxes(anything_in(item_box_),
-                                  [&](std::uint32_t body, const LooseBox& its) {
-                                    if (visibility_.placed[body].object != own)
-                                      near_.push_back({its, body});
-                                    return few = near_.size() <= kFewNeighbours;
-                                  });
+  visibility_.tree.traverse_boxes(
+      anything_in(item_box_), [&](std::uint32_t column, const LooseBox& its) {
+        if (!std::ranges::all_of(visibility_.columns.of(column), is_own))
+          near_.push_back({its, column});
+        return few = near_.size() <= kFewNeighbours;
+      });
   if (!few) return false;
   std::ranges::sort(near_, [](const Neighbour& x, const Neighbour& y) {
-    return x.box.w1 != y.box.w1 ? x.box.w1 > y.box.w1 : x.body < y.body;
+    return x.box.w1 != y.box.w1 ? x.box.w1 > y.box.w1 : x.column < y.column;
   });
   neighbours_ = Neighbours::found;
   return true;
@@ -251,6 +256,41 @@ void OccluderGatherer::test_own_body() {
                     .edge_on = !forgives};
     if (!test_part(*edge_.own->shape, part, rule)) return;
   }
+}
+
+/// Gathers the bodies of a column that are accepted. Of those that the open part lies deep under
+/// one is enough: the others hide the same.
+template <class Accepts>
+bool OccluderGatherer::gather_column(std::uint32_t column, bool self, const Accepts& accepts) {
+  std::span<const std::uint32_t> bodies = visibility_.columns.of(column);
+  if (bodies.size() > 1) {
+    const auto above = bodies.first(count_above(bodies));
+    bodies = bodies.subspan(above.size());
+    const auto one = std::ranges::find_if(above, accepts);
+    if (one != above.end() && !gather_body(*one, self)) return false;
+  }
+  for (const std::uint32_t b : bodies) {
+    const BodyInstance& other = visibility_.placed[b];
+    if (!visibility_.perspective_map && other.shape->box.hi.w + other.at.w <= open_box_.lo.w)
+      return true;
+    if (accepts(b) && !gather_body(b, self)) return false;
+  }
+  return true;
+}
+
+/// Returns how many bodies of a column, which stand alone in perspective, the open part lies deep
+/// under.
+std::size_t OccluderGatherer::count_above(std::span<const std::uint32_t> column) const {
+  const BodyInstance& front = visibility_.placed[column.front()];
+  const ProjectedShape& shape = *front.shape;
+  const double least = static_cast<double>(std::max(edge_.contact, front.contact)) *
+                           shape.deep_per_contact * (1 + 1e-9) +
+                       1;
+  const std::int64_t below = open_box_.hi.w - shape.farthest;
+  const auto above = std::ranges::partition_point(column, [&](std::uint32_t b) {
+    return static_cast<double>(visibility_.placed[b].at.w - below) > least;
+  });
+  return static_cast<std::size_t>(above - column.begin());
 }
 
 // Returns false when nothing of the edge is left.
@@ -388,44 +428,6 @@ SegmentQuery OccluderGatherer::make_query() const {
 
 SegmentQuery OccluderGatherer::make_query(const PaperRotation& turn) const {
   return turn.is_none() ? make_query() : turned_query(local_.va, local_.vb, open_, turn);
-}
-
-bool EdgePieceBuilder::begin(const EdgeQuery& edge) {
-  edge_ = edge;
-  lo_ = RationalParam::zero();
-  hi_ = RationalParam::one();
-  whole_ = State::visible;
-  const bool limited = edge.own->cut || edge.other->cut;
-  if (edge.cut_away || !edge.clip(visibility_.job.window, lo_, hi_) ||
-      (limited && !edge.clip(*visibility_.job.limits, lo_, hi_)))
-    whole_ = State::clipped;
-  else if (edge.projecting)
-    whole_ = State::projecting;
-  return whole_ == State::visible;
-}
-
-EdgePieceBuilder::Absent EdgePieceBuilder::finish(std::uint32_t number,
-                                                  std::span<const OcclusionInterval> intervals,
-                                                  std::vector<EdgePiece>& out) {
-  intervals_.clear();
-  if (whole_ != State::visible) {
-    intervals_.push_back({RationalParam::zero(), RationalParam::one(), whole_});
-  } else {
-    if (lo_.num > 0) intervals_.push_back({RationalParam::zero(), lo_, State::clipped});
-    if (intervals.empty())
-      intervals_.push_back({lo_, hi_, State::visible});
-    else
-      sweep_.run(intervals, lo_, hi_, intervals_);
-    if (hi_.num < hi_.den) intervals_.push_back({hi_, RationalParam::one(), State::clipped});
-  }
-  const geometry::Vec3l& origin = visibility_.job.origin;
-  const std::size_t first = out.size();
-  for (const VisibilityInterval& s : intervals_)
-    out.push_back({model::ObjectId{edge_.own->object}, number, edge_.kind, s.state,
-                   model::ObjectId{edge_.other->object}, edge_.at(s.lo, origin),
-                   edge_.at(s.hi, origin)});
-  const std::size_t specks = absorb_specks(rule_, first, out);
-  return {leave_out_unwanted(visibility_.job.options, first, out), specks};
 }
 
 // The engine: every edge gathers what hides it, front to back, and stops when nothing of it is
