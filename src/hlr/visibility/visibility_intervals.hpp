@@ -35,6 +35,11 @@ struct RationalParam {
   [[nodiscard]] static RationalParam one() { return {1, 1, 1}; }
 };
 
+/// Returns whether a denominator, and with it the numerator, fits 63 bits: then products fit 126.
+[[nodiscard]] inline bool fits_64_bits(geometry::Int128 den) {
+  return static_cast<std::int64_t>(den) == den;
+}
+
 /// Returns -1, 0 or 1, exactly. Each double is off by at most 3.1·2^-53, so a difference of 2^-50
 /// decides.
 [[nodiscard]] inline int compare(const RationalParam& x, const RationalParam& y) {
@@ -43,8 +48,13 @@ struct RationalParam {
   if (difference > kCertain) return 1;
   if (difference < -kCertain) return -1;
   if (x.num == y.num && x.den == y.den) return 0;
-  const auto left = geometry::mul(x.num, y.den), right = geometry::mul(y.num, x.den);
-  return left < right ? -1 : right < left ? 1 : 0;
+  // Most ends are those of edges and equal for that reason.
+  if (x.num == 0 || y.num == 0) return x.num != 0 ? 1 : y.num != 0 ? -1 : 0;
+  const auto order = [](const auto& left, const auto& right) {
+    return left < right ? -1 : right < left ? 1 : 0;
+  };
+  if (fits_64_bits(x.den) && fits_64_bits(y.den)) return order(x.num * y.den, y.num * x.den);
+  return order(geometry::mul(x.num, y.den), geometry::mul(y.num, x.den));
 }
 [[nodiscard]] inline bool less(const RationalParam& x, const RationalParam& y) {
   return compare(x, y) < 0;
