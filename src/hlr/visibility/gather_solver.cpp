@@ -504,15 +504,17 @@ class Drawer {
   EdgePieceBuilder piece_builder_;
 };
 
-/// Appends the intervals that a body's own faces hide of some of its edges.
+/// Appends the intervals that a body's own faces hide of some of its edges: united, as each body
+/// goes through them.
 void append_self_occlusion(const VisibilityScene& visibility, OccluderGatherer& gatherer,
                            const EdgeRange& item, SelfOcclusion& out) {
+  IntervalSweep sweep;
   const auto& edges = visibility.placed[item.body].shape->edges;
   for (std::uint32_t i = item.first; i < item.last; ++i) {
     out.first.push_back(static_cast<std::uint32_t>(out.intervals.size()));
     const auto intervals =
         gatherer.intervals_of_own_body(EdgeQuery(visibility, item.body, edges[i]));
-    out.intervals.insert(out.intervals.end(), intervals.begin(), intervals.end());
+    sweep.unite(intervals, out.intervals);
   }
 }
 

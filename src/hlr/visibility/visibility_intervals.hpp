@@ -168,12 +168,16 @@ struct VisibilityInterval {
   State state = State::visible;
 };
 
-/// Turns occlusion intervals into the states of docs/hlr.md along [lo, hi]: neighbours differ, none
-/// is empty.
+/// Sweeps over the occlusion intervals of an edge.
 class IntervalSweep {
  public:
+  /// Turns them into the states of docs/hlr.md along [lo, hi]: neighbours differ, none is empty.
   void run(std::span<const OcclusionInterval> intervals, const RationalParam& lo,
            const RationalParam& hi, std::vector<VisibilityInterval>& out);
+
+  /// Appends what intervals of the own object hide together: ascending, none meets another that
+  /// hides the same sides.
+  void unite(std::span<const OcclusionInterval> intervals, std::vector<OcclusionInterval>& out);
 
  private:
   struct Event {
@@ -181,6 +185,7 @@ class IntervalSweep {
     std::uint8_t sides = 0;
     bool self = false, begins = false;
   };
+  void sort_events();
   void count(const Event& event);
   [[nodiscard]] State state() const;
 
