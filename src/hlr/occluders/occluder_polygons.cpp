@@ -204,8 +204,7 @@ class PartMerger {
     const bool convex = *locally_convex && bounds_convex_body(part_, seen_.planes);
     if (const Status s = add_groups(maker); !s) return s.error();
     OccluderPart part;
-    part.farthest = seen_.farthest();
-    if (convex) add_outline(maker, part);
+    if (convex) part.has_outline = maker.make_outline(part.outline, shape_);
     return finish(std::move(part), convex);
   }
 
@@ -220,13 +219,28 @@ class PartMerger {
     part.last = static_cast<std::uint32_t>(shape_.polygons.size());
     if (part.first == part.last) return convex;
     const auto polygons = std::span(shape_.polygons).subspan(first_);
-    const Result<ViewBox> box = parallel::reduce(
-        settings_.context, over_elements("hidden lines: box of a part", polygons.size()), ViewBox{},
-        [&](ViewBox& all, std::size_t i) { all.include(polygons[i].box); },
-        [](ViewBox& all, const ViewBox& more) { all.include(more); });
-    if (!box) return box.error();
-    part.box = *box;
+    struct Extent {
+      ViewBox box;
+      double steepest = 0;
+    };
+    const bool asks_slopes = !viewer_.eye || part.has_outline;
+    const Result<Extent> extent = parallel::reduce(
+        settings_.context, over_elements("hidden lines: extent of a part", polygons.size()),
+        Extent{},
+        [&](Extent& all, std::size_t i) {
+          all.box.include(polygons[i].box);
+          if (asks_slopes) all.steepest = std::max(all.steepest, steepness(polygons[i]));
+        },
+        [](Extent& all, const Extent& more) {
+          all.box.include(more.box);
+          all.steepest = std::max(all.steepest, more.steepest);
+        });
+    if (!extent) return extent.error();
+    part.box = extent->box;
     part.outline.box = part.box;
+    part.farthest = seen_.farthest();
+    // Rounding of the few operations is far below the fraction added.
+    if (asks_slopes) part.deep_per_contact = extent->steepest * reach() * (1 + 1e-9);
     part.edge_on = std::ranges::any_of(polygons, &OccluderPolygon::edge_on);
     if (const Status s = build_occluder_index(shape_, edges_, hubs(), convex, settings_, part); !s)
       return s.error();
@@ -294,19 +308,12 @@ class PartMerger {
     return true;
   }
 
-  // Adds the outline of a certified convex part, as one polygon.
-  void add_outline(OccluderBuilder& maker, OccluderPart& part) {
-    if (!maker.make_outline(part.outline, shape_)) return;
-    double steepest = 0;
-    for (const OccluderPolygon& p : std::span(shape_.polygons).subspan(first_)) {
-      const geometry::Vec3d n = geometry::Vec3l{p.normal[0], p.normal[1], p.normal[2]}.as<double>();
-      const auto facing =
-          static_cast<double>(viewer_.facing(shape_.normal(p), p.at.as<std::int64_t>()));
-      steepest = std::max(steepest, (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)) / facing);
-    }
-    // Rounding of the few operations above is far below the fraction added.
-    part.deep_per_contact = steepest * reach() * (1 + 1e-9);
-    part.has_outline = true;
+  // Returns |n|_1 / facing of a polygon's normal.
+  [[nodiscard]] double steepness(const OccluderPolygon& p) const {
+    const ExactNormal n = shape_.normal(p);
+    double sum = 0;
+    for (const Int128& x : n) sum += std::abs(static_cast<double>(x));
+    return sum / static_cast<double>(viewer_.facing(n, p.at.as<std::int64_t>()));
   }
 
   // Per contact distance, a point must lie deeper along the direction than the point of a face that

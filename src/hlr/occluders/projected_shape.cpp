@@ -85,7 +85,12 @@ Result<ProjectedShape> project_shape(const SectionedShape& seen,
     const bool exact = seen.within == 0 && (shape.parts.empty() || !shape.parts.back().edge_on);
     if (*convex && exact && is_outside(part, viewer)) classify_edges(part, viewer, own);
   }
-  for (const OccluderPart& part : shape.parts) shape.box.include(part.box);
+  if (!shape.parts.empty()) shape.farthest = shape.parts.front().farthest;
+  for (const OccluderPart& part : shape.parts) {
+    shape.box.include(part.box);
+    shape.farthest = std::min(shape.farthest, part.farthest);
+    shape.deep_per_contact = std::max(shape.deep_per_contact, part.deep_per_contact);
+  }
   if (!viewer.eye && !shape.box.empty())
     shape.reach = std::max({std::abs(shape.box.lo.u), std::abs(shape.box.hi.u),
                             std::abs(shape.box.lo.v), std::abs(shape.box.hi.v)});

@@ -32,12 +32,13 @@ struct OccluderPart {
   ViewBvh tree;
   BucketGrid buckets;
   std::vector<PolygonFan> fans;  ///< of polygons that are in neither index
-  /// For an exactly convex part the outline, a polygon without a plane. It hides all that lies
-  /// under it and below `farthest` by more than `deep_per_contact` times the contact distance,
-  /// because that is deep enough under whichever face is above.
+  /// What lies below `farthest` by more than this times the contact distance is deep enough under
+  /// whichever face is above. Not for parts without an outline in perspective.
+  double deep_per_contact = 0;
+  /// For an exactly convex part the outline, a polygon without a plane: it hides all that lies
+  /// under it and so deep.
   bool has_outline = false;
   OccluderPolygon outline;
-  double deep_per_contact = 0;
 };
 
 /// A feature edge with its projection.
@@ -65,6 +66,8 @@ struct ProjectedShape : OccluderPolygons {
   std::vector<OccluderPart> parts;  ///< the parts that can hide
   ViewBox box;                      ///< box of the polygons
   std::int64_t reach = 0;           ///< largest |u| or |v| of a corner
+  std::int64_t farthest = 0;        ///< of its parts, see OccluderPart
+  double deep_per_contact = 0;      ///< of its parts; orthographic
   std::vector<ProjectedEdge> edges;
 };
 

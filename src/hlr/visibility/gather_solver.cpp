@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine: the gatherer, the maker of pieces, and the loops over all edges.
+// The engine: the gatherer, and the loops over all edges.
 #include "hlr/visibility/gather_solver.hpp"
 
 #include <algorithm>
@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "hlr/prepare/view_job.hpp"
+#include "hlr/visibility/edge_piece_builder.hpp"
+#include "hlr/visibility/open_part.hpp"
 #include "hlr/visibility/step_shares.hpp"
 #include "hlr/visibility/visibility_scene.hpp"
 #include "strake/hlr/steps.hpp"
@@ -25,8 +27,6 @@ namespace {
 // 16, 0.6 % fewer with 256.
 constexpr std::size_t kFewNeighbours = 64;
 constexpr std::uint32_t kNoBody = 0xffffffffU;
-// Beyond 2^52 a double holds view coordinates only roughly: the line test of a query is left out.
-constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
 // Intervals from the occlusion buffer end at multiples of 1 / kFine of the edge.
 constexpr std::int64_t kFine = std::int64_t{1} << 30;
 
@@ -76,7 +76,7 @@ std::span<const OcclusionInterval> OccluderGatherer::intervals(const EdgeQuery& 
   const OpenRange open = std::exchange(open_, {});
   hides_all_ = true;
   for (const ParamRange& gap : gaps_) {
-    open_ = open.within(gap);
+    set_open(open.within(gap));
     if (any_order) gather_own_objects();
     if (!open_.empty()) gather_others();
     hides_all_ = hides_all_ && open_.empty();
@@ -105,8 +105,8 @@ void OccluderGatherer::begin(const EdgeQuery& edge, const RationalParam& lo,
                              const RationalParam& hi) {
   edge_ = edge;
   intervals_.clear();
-  open_ = OpenRange(lo, hi);
   if (visibility_.perspective_map) project_range(lo.value, hi.value);
+  set_open({lo, hi});
 }
 
 ViewBox OccluderGatherer::box() const {
@@ -120,7 +120,7 @@ ViewBox OccluderGatherer::box() const {
 std::span<const OcclusionInterval> OccluderGatherer::intervals_of_own_body(const EdgeQuery& edge) {
   edge_ = edge;
   intervals_.clear();
-  open_ = OpenRange();
+  set_open({});
   if (!job_.spares_own(edge_.kind) && !edge_.projecting) test_own_body();
   return intervals_;
 }
@@ -147,17 +147,16 @@ void OccluderGatherer::gather_object(std::uint32_t object) {
   const auto& first_body = job_.scene->first_body;
   const std::uint32_t first = first_body[object], last = first_body[object + 1];
   if ((known != kNoBody && last - first == 1) || (job_.options.culling && open_.empty())) return;
-  const auto consider = [&](std::uint32_t b) {
-    if (b == known || visibility_.placed[b].object != object) return true;
-    return gather_body(b, true);
-  };
   if (last - first <= kFewBodies || !job_.options.culling) {
     for (std::uint32_t b = first; b < last; ++b)
-      if (!consider(b)) return;
-  } else {
-    refresh_segment();
-    visibility_.tree.traverse(segment_, consider);
+      if (b != known && !gather_body(b, true)) return;
+    return;
   }
+  visibility_.tree.traverse(segment_, [&](std::uint32_t column) {
+    return gather_column(column, true, [&](std::uint32_t b) {
+      return b != known && visibility_.placed[b].object == object;
+    });
+  });
 }
 
 /// Hides what the occlusion buffer covers and finds the gaps that it leaves. Wires that are seen
@@ -188,40 +187,43 @@ void OccluderGatherer::find_gaps() {
 }
 
 void OccluderGatherer::gather_others() {
-  const auto consider = [&](std::uint32_t b) {
+  const auto is_other = [&](std::uint32_t b) {
     const std::uint32_t object = visibility_.placed[b].object;
-    return object == edge_.own->object || object == edge_.other->object || gather_body(b, false);
+    return object != edge_.own->object && object != edge_.other->object;
   };
   if (!job_.options.culling) {
-    for (std::uint32_t b = 0; b < visibility_.placed.size(); ++b) consider(b);
+    for (std::uint32_t b = 0; b < visibility_.placed.size(); ++b)
+      if (is_other(b)) gather_body(b, false);
     return;
   }
-  refresh_segment();
-  if (!find_neighbours()) return visibility_.tree.traverse(segment_, consider);
+  const auto gather = [&](std::uint32_t column) { return gather_column(column, false, is_other); };
+  if (!find_neighbours()) return visibility_.tree.traverse(segment_, gather);
   for (const Neighbour& other : near_)
     if (other.box.w1 <= segment_.w0 ||
-        (segment_.may_be_hidden_by(other.box) && !gather_body(other.body, false)))
+        (segment_.may_be_hidden_by(other.box) && !gather(other.column)))
       return;
 }
 
-/// Finds the bodies that may hide any edge of an item by one traversal, as its edges are near each
+/// Finds the columns that may hide any edge of an item by one traversal, as its edges are near each
 /// other. False where they are many.
 bool OccluderGatherer::find_neighbours() {
   if (neighbours_ != Neighbours::not_searched) return neighbours_ == Neighbours::found;
   neighbours_ = Neighbours::too_many;
   if (item_box_.empty()) return false;
-  const std::uint32_t own = visibility_.placed[item_->body].object;
+  const auto is_own = [&](std::uint32_t b) {
+    return visibility_.placed[b].object == visibility_.placed[item_->body].object;
+  };
   near_.clear();
   bool few = true;
-  visibility_.tree.traverse_boxes(anything_in(item_box_),
-                                  [&](std::uint32_t body, const LooseBox& its) {
-                                    if (visibility_.placed[body].object != own)
-                                      near_.push_back({its, body});
-                                    return few = near_.size() <= kFewNeighbours;
-                                  });
+  visibility_.tree.traverse_boxes(
+      anything_in(item_box_), [&](std::uint32_t column, const LooseBox& its) {
+        if (!std::ranges::all_of(visibility_.columns.of(column), is_own))
+          near_.push_back({its, column});
+        return few = near_.size() <= kFewNeighbours;
+      });
   if (!few) return false;
   std::ranges::sort(near_, [](const Neighbour& x, const Neighbour& y) {
-    return x.box.w1 != y.box.w1 ? x.box.w1 > y.box.w1 : x.body < y.body;
+    return x.box.w1 != y.box.w1 ? x.box.w1 > y.box.w1 : x.column < y.column;
   });
   neighbours_ = Neighbours::found;
   return true;
@@ -243,7 +245,7 @@ void OccluderGatherer::test_own_body() {
     add(OcclusionInterval{RationalParam::zero(), RationalParam::one(), kBothSides, true});
     if (job_.options.culling) return;
   }
-  const LocalEdge local = localized(*edge_.own);
+  localize(*edge_.own);
   for (const OccluderPart& part : edge_.own->shape->parts) {
     const bool same = edge_.own->shape->polygons[part.first].part == edge_.feature->edge.part;
     if (same && decided_by_part) continue;
@@ -252,61 +254,93 @@ void OccluderGatherer::test_own_body() {
                     .lying = forgives && !edge_.feature->edge.away ? kLyingInPlane : 0,
                     .self = true,
                     .edge_on = !forgives};
-    if (!test_part(local, *edge_.own->shape, part, rule)) return;
+    if (!test_part(*edge_.own->shape, part, rule)) return;
   }
+}
+
+/// Gathers the bodies of a column that are accepted. Of those that the open part lies deep under
+/// one is enough: the others hide the same.
+template <class Accepts>
+bool OccluderGatherer::gather_column(std::uint32_t column, bool self, const Accepts& accepts) {
+  std::span<const std::uint32_t> bodies = visibility_.columns.of(column);
+  if (bodies.size() > 1) {
+    const auto above = bodies.first(count_above(bodies));
+    bodies = bodies.subspan(above.size());
+    const auto one = std::ranges::find_if(above, accepts);
+    if (one != above.end() && !gather_body(*one, self)) return false;
+  }
+  for (const std::uint32_t b : bodies) {
+    const BodyInstance& other = visibility_.placed[b];
+    if (!visibility_.perspective_map && other.shape->box.hi.w + other.at.w <= open_box_.lo.w)
+      return true;
+    if (accepts(b) && !gather_body(b, self)) return false;
+  }
+  return true;
+}
+
+/// Returns how many bodies of a column, which stand alone in perspective, the open part lies deep
+/// under.
+std::size_t OccluderGatherer::count_above(std::span<const std::uint32_t> column) const {
+  const BodyInstance& front = visibility_.placed[column.front()];
+  const ProjectedShape& shape = *front.shape;
+  const double least = static_cast<double>(std::max(edge_.contact, front.contact)) *
+                           shape.deep_per_contact * (1 + 1e-9) +
+                       1;
+  const std::int64_t below = open_box_.hi.w - shape.farthest;
+  const auto above = std::ranges::partition_point(column, [&](std::uint32_t b) {
+    return static_cast<double>(visibility_.placed[b].at.w - below) > least;
+  });
+  return static_cast<std::size_t>(above - column.begin());
 }
 
 // Returns false when nothing of the edge is left.
 bool OccluderGatherer::gather_body(std::uint32_t b, bool self) {
   const BodyInstance& other = visibility_.placed[b];
   if (!other.opaque) return true;
-  const LocalEdge local = localized(other);
+  localize(other);
   const std::int64_t contact = std::max(edge_.contact, other.contact);
   for (const OccluderPart& part : other.shape->parts)
-    if (!test_part(local, *other.shape, part, {.contact = contact, .self = self})) return false;
+    if (!test_part(*other.shape, part, {.contact = contact, .self = self})) return false;
   return true;
 }
 
-bool OccluderGatherer::test_part(const LocalEdge& local, const ProjectedShape& shape,
-                                 const OccluderPart& part, const Rule& rule) {
-  if (!may_be_hidden_by(local, part.box)) return true;
-  if (!part.turn.is_none() &&
-      !make_query(local.va, local.vb, part.turn).may_be_hidden_by(part.turned))
-    return true;
-  if (is_deep_under(local, part, std::max(rule.contact, rule.lying))) {
+bool OccluderGatherer::test_part(const ProjectedShape& shape, const OccluderPart& part,
+                                 const Rule& rule) {
+  if (!may_be_hidden_by(local_, part.box)) return true;
+  if (!part.turn.is_none() && !make_query(part.turn).may_be_hidden_by(part.turned)) return true;
+  if (is_deep_under(part, std::max(rule.contact, rule.lying))) {
     ++work.tests;
-    work.wide_tests += local.narrow ? 0 : 1;
-    return add(clip_to_outline(local, shape, part.outline), rule.self);
+    work.wide_tests += local_.narrow ? 0 : 1;
+    return add(clip_to_outline(local_, shape, part.outline), rule.self);
   }
   bool more = true;
   const auto test = [&](std::uint32_t i) {
-    return more = test_polygon(local, shape, shape.polygons[part.first + i], rule);
+    return more = test_polygon(shape, shape.polygons[part.first + i], rule);
   };
   if (!part.tree.empty()) {
-    part.tree.traverse(make_query(local.va, local.vb, part.turn), test);
+    part.tree.traverse(make_query(part.turn), test);
   } else if (!part.buckets.empty()) {
-    part.buckets.traverse(make_query(local.va, local.vb), marks_, test);
+    part.buckets.traverse(make_query(), marks_, test);
   } else {
     // Without an index there are no fans either, unless everything is in one.
     for (std::uint32_t i = 0; part.fans.empty() && more && i < part.last - part.first; ++i) test(i);
   }
   for (const PolygonFan& fan : part.fans)
-    if (more) fan.traverse(make_query(local.va, local.vb), local.va, local.vb, test);
+    if (more) fan.traverse(make_query(), local_.va, local_.vb, test);
   return more;
 }
 
-bool OccluderGatherer::test_polygon(const LocalEdge& local, const ProjectedShape& shape,
-                                    const OccluderPolygon& p, const Rule& rule) {
-  if (!may_be_hidden_by(local, p.box) || (p.edge_on && !rule.edge_on)) return true;
+bool OccluderGatherer::test_polygon(const ProjectedShape& shape, const OccluderPolygon& p,
+                                    const Rule& rule) {
+  if (!may_be_hidden_by(local_, p.box) || (p.edge_on && !rule.edge_on)) return true;
   ++work.tests;
-  work.wide_tests += local.narrow ? 0 : 1;
-  return add(occluded_by_polygon(local, shape, p, rule.contact, rule.lying), rule.self);
+  work.wide_tests += local_.narrow ? 0 : 1;
+  return add(occluded_by_polygon(local_, shape, p, rule.contact, rule.lying), rule.self);
 }
 
-bool OccluderGatherer::is_deep_under(const LocalEdge& local, const OccluderPart& part,
-                                     std::int64_t contact) const {
-  if (!part.has_outline || !job_.options.culling || local.limits != nullptr) return false;
-  const std::int64_t depth = part.farthest - local.nearest;
+bool OccluderGatherer::is_deep_under(const OccluderPart& part, std::int64_t contact) const {
+  if (!part.has_outline || !job_.options.culling || local_.limits != nullptr) return false;
+  const std::int64_t depth = part.farthest - local_.nearest;
   if (contact == 0) return depth > 0;
   const double least = static_cast<double>(contact) * part.deep_per_contact + 1;
   return static_cast<double>(depth) > least * (1 + 1e-9);
@@ -323,34 +357,50 @@ bool OccluderGatherer::add(const OcclusionInterval& interval) {
   if (!job_.options.culling) return true;
   if (!open_.shrink_all(intervals_)) return true;
   if (open_.empty()) return false;
-  refresh_segment();
+  find_open_part();
   return true;
 }
 
-LocalEdge OccluderGatherer::localized(const BodyInstance& other) {
-  LocalEdge local;
-  local.a = edge_.a - other.offset;
-  local.b = edge_.b - other.offset;
+void OccluderGatherer::set_open(const OpenRange& open) {
+  open_ = open;
+  if (!open_.empty()) find_open_part();
+}
+
+/// Finds where on paper the open part lies.
+void OccluderGatherer::find_open_part() {
+  if (visibility_.perspective_map) {
+    segment_ = make_perspective_query();
+    return;
+  }
+  open_box_ = open_box(edge_.va, edge_.vb, open_);
+  segment_ = open_query(edge_.va, edge_.vb, open_box_);
+  local_.box = {open_box_.lo - local_at_, open_box_.hi - local_at_};
+}
+
+/// Places the edge in the coordinates of a body.
+void OccluderGatherer::localize(const BodyInstance& other) {
+  local_.a = edge_.a - other.offset;
+  local_.b = edge_.b - other.offset;
+  local_.limits = nullptr;
   if (other.cut) {
     limits_ = {job_.limits->lo - other.offset, job_.limits->hi - other.offset};
-    local.limits = &limits_;
+    local_.limits = &limits_;
   }
   if (visibility_.perspective_map) {
-    local.box = perspective_box_;
-    local.nearest = std::max(dot(edge_.a, job_.direction()), dot(edge_.b, job_.direction()));
-    local.narrow = true;
-    return local;
+    local_.box = perspective_box_;
+    local_.nearest = std::max(dot(edge_.a, job_.direction()), dot(edge_.b, job_.direction()));
+    local_.narrow = true;
+    return;
   }
-  local.va = edge_.va - other.at;
-  local.vb = edge_.vb - other.at;
-  local.box.include(local.va);
-  local.box.include(local.vb);
-  local.nearest = local.box.hi.w;
+  local_at_ = other.at;
+  local_.va = edge_.va - other.at;
+  local_.vb = edge_.vb - other.at;
+  local_.box = {open_box_.lo - other.at, open_box_.hi - other.at};
+  local_.nearest = std::max(local_.va.w, local_.vb.w);
   const std::int64_t reach =
-      std::max({std::abs(local.va.u), std::abs(local.va.v), std::abs(local.vb.u),
-                std::abs(local.vb.v), other.shape->reach});
-  local.narrow = fits_narrow(reach);
-  return local;
+      std::max({std::abs(local_.va.u), std::abs(local_.va.v), std::abs(local_.vb.u),
+                std::abs(local_.vb.v), other.shape->reach});
+  local_.narrow = fits_narrow(reach);
 }
 
 void OccluderGatherer::project_range(double from, double to) {
@@ -371,74 +421,13 @@ SegmentQuery OccluderGatherer::make_perspective_query() const {
   return everywhere;
 }
 
-// Returns a query for the part of the edge that is still open.
-SegmentQuery OccluderGatherer::make_query(const ViewPoint& a, const ViewPoint& b,
-                                          const PaperRotation& turn) const {
-  if (visibility_.perspective_map) return make_perspective_query();
-  SegmentQuery s;
-  const std::int64_t whole =
-      turn.is_none() ? kExactInDouble : kExactInDouble / (2 * PaperRotation::kMost);
-  const bool exact = std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < whole;
-  const auto au = static_cast<double>(a.u), av = static_cast<double>(a.v);
-  const double bu = static_cast<double>(b.u) - au, bv = static_cast<double>(b.v) - av;
-  const double dw = static_cast<double>(b.w) - static_cast<double>(a.w);
-  const auto c = static_cast<double>(turn.c), k = static_cast<double>(turn.s);
-  const double du = c * bu + k * bv, dv = c * bv - k * bu;
-  s.au = c * au + k * av;
-  s.av = c * av - k * au;
-  s.du = exact ? du : 0;
-  s.dv = exact ? dv : 0;
-  // The rounding of the sums above is far below this fraction of their terms.
-  const auto range = [&](double from, double step, double size, double& least, double& most) {
-    const double p = from + step * open_.lo().value, q = from + step * open_.hi().value;
-    const double slack = 1e-12 * size;
-    least = std::min(p, q) - slack;
-    most = std::max(p, q) + slack;
-  };
-  const auto size = [&](double x, double y) { return std::abs(c * x) + std::abs(k * y); };
-  double w1 = 0;
-  range(s.au, du, size(au, av) + size(bu, bv), s.u0, s.u1);
-  range(s.av, dv, size(av, au) + size(bv, bu), s.v0, s.v1);
-  range(static_cast<double>(a.w), dw, std::abs(static_cast<double>(a.w)) + std::abs(dw), s.w0, w1);
-  return s;
+SegmentQuery OccluderGatherer::make_query() const {
+  return visibility_.perspective_map ? make_perspective_query()
+                                     : open_query(local_.va, local_.vb, local_.box);
 }
 
-bool EdgePieceBuilder::begin(const EdgeQuery& edge) {
-  edge_ = edge;
-  lo_ = RationalParam::zero();
-  hi_ = RationalParam::one();
-  whole_ = State::visible;
-  const bool limited = edge.own->cut || edge.other->cut;
-  if (edge.cut_away || !edge.clip(visibility_.job.window, lo_, hi_) ||
-      (limited && !edge.clip(*visibility_.job.limits, lo_, hi_)))
-    whole_ = State::clipped;
-  else if (edge.projecting)
-    whole_ = State::projecting;
-  return whole_ == State::visible;
-}
-
-EdgePieceBuilder::Absent EdgePieceBuilder::finish(std::uint32_t number,
-                                                  std::span<const OcclusionInterval> intervals,
-                                                  std::vector<EdgePiece>& out) {
-  intervals_.clear();
-  if (whole_ != State::visible) {
-    intervals_.push_back({RationalParam::zero(), RationalParam::one(), whole_});
-  } else {
-    if (lo_.num > 0) intervals_.push_back({RationalParam::zero(), lo_, State::clipped});
-    if (intervals.empty())
-      intervals_.push_back({lo_, hi_, State::visible});
-    else
-      sweep_.run(intervals, lo_, hi_, intervals_);
-    if (hi_.num < hi_.den) intervals_.push_back({hi_, RationalParam::one(), State::clipped});
-  }
-  const geometry::Vec3l& origin = visibility_.job.origin;
-  const std::size_t first = out.size();
-  for (const VisibilityInterval& s : intervals_)
-    out.push_back({model::ObjectId{edge_.own->object}, number, edge_.kind, s.state,
-                   model::ObjectId{edge_.other->object}, edge_.at(s.lo, origin),
-                   edge_.at(s.hi, origin)});
-  const std::size_t specks = absorb_specks(rule_, first, out);
-  return {leave_out_unwanted(visibility_.job.options, first, out), specks};
+SegmentQuery OccluderGatherer::make_query(const PaperRotation& turn) const {
+  return turn.is_none() ? make_query() : turned_query(local_.va, local_.vb, open_, turn);
 }
 
 // The engine: every edge gathers what hides it, front to back, and stops when nothing of it is
@@ -515,15 +504,17 @@ class Drawer {
   EdgePieceBuilder piece_builder_;
 };
 
-/// Appends the intervals that a body's own faces hide of some of its edges.
+/// Appends the intervals that a body's own faces hide of some of its edges: united, as each body
+/// goes through them.
 void append_self_occlusion(const VisibilityScene& visibility, OccluderGatherer& gatherer,
                            const EdgeRange& item, SelfOcclusion& out) {
+  IntervalSweep sweep;
   const auto& edges = visibility.placed[item.body].shape->edges;
   for (std::uint32_t i = item.first; i < item.last; ++i) {
     out.first.push_back(static_cast<std::uint32_t>(out.intervals.size()));
     const auto intervals =
         gatherer.intervals_of_own_body(EdgeQuery(visibility, item.body, edges[i]));
-    out.intervals.insert(out.intervals.end(), intervals.begin(), intervals.end());
+    sweep.unite(intervals, out.intervals);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine's two steps for one edge: gather what hides it, and make its pieces.
+// The engine's first step for one edge: gather what hides it. EdgePieceBuilder takes the second.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "hlr/view/view_bvh.hpp"
-#include "hlr/visibility/specks.hpp"
 #include "hlr/visibility/visibility_intervals.hpp"
 #include "hlr/visibility/visibility_scene.hpp"
 #include "strake/hlr/hlr.hpp"
@@ -91,22 +90,23 @@ class OccluderGatherer {
   void test_own_body();
 
   // These return false when nothing of the edge is left.
+  template <class Accepts>
+  bool gather_column(std::uint32_t column, bool self, const Accepts& accepts);
   bool gather_body(std::uint32_t body, bool self);
-  bool test_part(const LocalEdge& local, const ProjectedShape& shape, const OccluderPart& part,
-                 const Rule& rule);
-  bool test_polygon(const LocalEdge& local, const ProjectedShape& shape,
-                    const OccluderPolygon& polygon, const Rule& rule);
+  bool test_part(const ProjectedShape& shape, const OccluderPart& part, const Rule& rule);
+  bool test_polygon(const ProjectedShape& shape, const OccluderPolygon& polygon, const Rule& rule);
   bool add(std::optional<OcclusionInterval> interval, bool self);
   bool add(const OcclusionInterval& interval);
 
-  [[nodiscard]] bool is_deep_under(const LocalEdge& local, const OccluderPart& part,
-                                   std::int64_t contact) const;
-  [[nodiscard]] LocalEdge localized(const BodyInstance& other);
+  [[nodiscard]] std::size_t count_above(std::span<const std::uint32_t> column) const;
+  [[nodiscard]] bool is_deep_under(const OccluderPart& part, std::int64_t contact) const;
+  void localize(const BodyInstance& other);
   void project_range(double from, double to);
-  [[nodiscard]] SegmentQuery make_query(const ViewPoint& a, const ViewPoint& b,
-                                        const PaperRotation& turn = {}) const;
+  void set_open(const OpenRange& open);
+  void find_open_part();
+  [[nodiscard]] SegmentQuery make_query() const;
+  [[nodiscard]] SegmentQuery make_query(const PaperRotation& turn) const;
   [[nodiscard]] SegmentQuery make_perspective_query() const;
-  void refresh_segment() { segment_ = make_query(edge_.va, edge_.vb); }
 
   const VisibilityScene& visibility_;
   const ViewJob& job_;
@@ -115,18 +115,22 @@ class OccluderGatherer {
   bool hides_all_ = false;
   std::vector<ParamRange> gaps_;  ///< what the occlusion buffer leaves open, ascending
   std::vector<SegmentRange> uncovered_;
+  ViewBox open_box_;  ///< orthographic: see open_box()
   SegmentQuery segment_;
   // In perspective; nothing where the edge may be anywhere on paper.
   std::optional<PerspectiveSegment> perspective_segment_;
   ViewBox perspective_box_;
-  geometry::Box3l limits_;  ///< in the coordinates of the tested body
+  // The edge, the place on paper and the limits in the coordinates of the tested body.
+  LocalEdge local_;
+  ViewPoint local_at_;
+  geometry::Box3l limits_;
   std::vector<OcclusionInterval> intervals_;
   BucketMarks marks_;
 
-  /// A body of another object that may hide an edge of the item.
+  /// A column with a body of another object that may hide an edge of the item.
   struct Neighbour {
     LooseBox box;
-    std::uint32_t body = 0;
+    std::uint32_t column = 0;
   };
   enum class Neighbours : std::uint8_t { not_searched, found, too_many };
   const EdgeRange* item_ = nullptr;
@@ -134,40 +138,6 @@ class OccluderGatherer {
   ViewBox item_box_;  ///< of its edges; empty for lines, and in perspective
   Neighbours neighbours_ = Neighbours::too_many;
   std::vector<Neighbour> near_;  ///< the nearest to the viewer first
-};
-
-/// Makes the pieces of one edge after another from its hidden intervals. For one worker; it keeps
-/// its memory from edge to edge.
-class EdgePieceBuilder {
- public:
-  EdgePieceBuilder(const VisibilityScene& visibility, const SpeckRule& rule)
-      : visibility_(visibility), rule_(rule) {}
-
-  /// Begins with an edge. True when finish() needs the intervals that are hidden between lo() and
-  /// hi(); else all of the edge is clipped, or a point on paper.
-  [[nodiscard]] bool begin(const EdgeQuery& edge);
-  [[nodiscard]] const RationalParam& lo() const { return lo_; }
-  [[nodiscard]] const RationalParam& hi() const { return hi_; }
-  /// Returns whether nothing of the edge is clipped.
-  [[nodiscard]] bool is_whole() const { return lo_.num == 0 && hi_.num == hi_.den; }
-
-  /// The pieces that finish() did not append.
-  struct Absent {
-    bool left_out = false;   ///< there were hidden pieces
-    std::size_t specks = 0;  ///< specks that other pieces absorbed
-  };
-  /// Appends the pieces of the current edge, which has this number within its object.
-  Absent finish(std::uint32_t number, std::span<const OcclusionInterval> intervals,
-                std::vector<EdgePiece>& out);
-
- private:
-  const VisibilityScene& visibility_;
-  EdgeQuery edge_;
-  RationalParam lo_ = RationalParam::zero(), hi_ = RationalParam::one();
-  State whole_ = State::visible;  ///< the state of all of the edge, where it has one
-  std::vector<VisibilityInterval> intervals_;
-  IntervalSweep sweep_;
-  const SpeckRule& rule_;
 };
 
 }  // namespace strake::hlr

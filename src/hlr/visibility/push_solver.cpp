@@ -16,6 +16,7 @@
 
 #include "hlr/prepare/view_job.hpp"
 #include "hlr/view/view_bvh.hpp"
+#include "hlr/visibility/edge_piece_builder.hpp"
 #include "hlr/visibility/gather_solver.hpp"
 #include "hlr/visibility/visibility_intervals.hpp"
 #include "hlr/visibility/visibility_scene.hpp"

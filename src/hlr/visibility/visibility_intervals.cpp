@@ -279,6 +279,12 @@ bool OpenRange::shrink_all(std::span<const OcclusionInterval> intervals) {
   return true;
 }
 
+void IntervalSweep::sort_events() {
+  // Ends at one parameter may come in any order: nothing lies between them.
+  std::sort(events_.begin(), events_.end(),
+            [](const Event& x, const Event& y) { return less(*x.at, *y.at); });
+}
+
 void IntervalSweep::count(const Event& event) {
   for (unsigned side = 0; side < 2; ++side) {
     if ((event.sides >> side & 1U) == 0) continue;
@@ -316,9 +322,7 @@ void IntervalSweep::run(std::span<const OcclusionInterval> intervals, const Rati
     events_.push_back({&interval.lo, interval.sides, interval.self, true});
     events_.push_back({&interval.hi, interval.sides, interval.self, false});
   }
-  // Ends at one parameter may come in any order: nothing lies between them.
-  std::sort(events_.begin(), events_.end(),
-            [](const Event& x, const Event& y) { return less(*x.at, *y.at); });
+  sort_events();
   const RationalParam* from = &lo;
   for (const Event& event : events_) {
     if (!less(*event.at, hi)) break;
@@ -329,6 +333,31 @@ void IntervalSweep::run(std::span<const OcclusionInterval> intervals, const Rati
     count(event);
   }
   append(out, first, *from, hi, state());
+}
+
+void IntervalSweep::unite(std::span<const OcclusionInterval> intervals,
+                          std::vector<OcclusionInterval>& out) {
+  events_.clear();
+  for (unsigned side = 0; side < 2; ++side) self_[side] = all_[side] = 0;
+  for (const OcclusionInterval& interval : intervals) {
+    events_.push_back({&interval.lo, interval.sides, true, true});
+    events_.push_back({&interval.hi, interval.sides, true, false});
+  }
+  sort_events();
+  const std::size_t first = out.size();
+  const RationalParam* from = nullptr;
+  for (const Event& event : events_) {
+    const auto sides =
+        static_cast<std::uint8_t>((self_[0] > 0 ? kLeft : 0) | (self_[1] > 0 ? kRight : 0));
+    if (sides != 0 && less(*from, *event.at)) {
+      if (out.size() > first && out.back().sides == sides && !less(out.back().hi, *from))
+        out.back().hi = *event.at;
+      else
+        out.push_back({*from, *event.at, sides, true});
+    }
+    from = event.at;
+    count(event);
+  }
 }
 
 }  // namespace strake::hlr

@@ -35,6 +35,11 @@ struct RationalParam {
   [[nodiscard]] static RationalParam one() { return {1, 1, 1}; }
 };
 
+/// Returns whether a denominator, and with it the numerator, fits 63 bits: then products fit 126.
+[[nodiscard]] inline bool fits_64_bits(geometry::Int128 den) {
+  return static_cast<std::int64_t>(den) == den;
+}
+
 /// Returns -1, 0 or 1, exactly. Each double is off by at most 3.1·2^-53, so a difference of 2^-50
 /// decides.
 [[nodiscard]] inline int compare(const RationalParam& x, const RationalParam& y) {
@@ -43,8 +48,13 @@ struct RationalParam {
   if (difference > kCertain) return 1;
   if (difference < -kCertain) return -1;
   if (x.num == y.num && x.den == y.den) return 0;
-  const auto left = geometry::mul(x.num, y.den), right = geometry::mul(y.num, x.den);
-  return left < right ? -1 : right < left ? 1 : 0;
+  // Most ends are those of edges and equal for that reason.
+  if (x.num == 0 || y.num == 0) return x.num != 0 ? 1 : y.num != 0 ? -1 : 0;
+  const auto order = [](const auto& left, const auto& right) {
+    return left < right ? -1 : right < left ? 1 : 0;
+  };
+  if (fits_64_bits(x.den) && fits_64_bits(y.den)) return order(x.num * y.den, y.num * x.den);
+  return order(geometry::mul(x.num, y.den), geometry::mul(y.num, x.den));
 }
 [[nodiscard]] inline bool less(const RationalParam& x, const RationalParam& y) {
   return compare(x, y) < 0;
@@ -80,7 +90,7 @@ struct OcclusionInterval {
 struct LocalEdge {
   geometry::Vec3l a, b;
   ViewPoint va, vb;                         ///< orthographic
-  ViewBox box;                              ///< box on paper of the drawn part
+  ViewBox box;                              ///< see open_box(); in perspective, of the drawn part
   std::int64_t nearest = 0;                 ///< the greater product of an end with the direction
   const geometry::Box3l* limits = nullptr;  ///< limits in the same coordinates; null where none cut
   bool narrow = false;  ///< 64-bit integers suffice for orientations of this edge and shape
@@ -132,6 +142,11 @@ class OpenRange {
   [[nodiscard]] const RationalParam& hi() const { return hull_.hi; }
   [[nodiscard]] bool empty() const { return hull_.empty(); }
 
+  /// Returns whether anything is undecided on one side.
+  [[nodiscard]] bool is_open(EdgeSide side) const {
+    return side == kLeft ? !left_.empty() : !right_.empty();
+  }
+
   /// Returns what of it lies in a part.
   [[nodiscard]] OpenRange within(const ParamRange& part) const;
 
@@ -153,12 +168,16 @@ struct VisibilityInterval {
   State state = State::visible;
 };
 
-/// Turns occlusion intervals into the states of docs/hlr.md along [lo, hi]: neighbours differ, none
-/// is empty.
+/// Sweeps over the occlusion intervals of an edge.
 class IntervalSweep {
  public:
+  /// Turns them into the states of docs/hlr.md along [lo, hi]: neighbours differ, none is empty.
   void run(std::span<const OcclusionInterval> intervals, const RationalParam& lo,
            const RationalParam& hi, std::vector<VisibilityInterval>& out);
+
+  /// Appends what intervals of the own object hide together: ascending, none meets another that
+  /// hides the same sides.
+  void unite(std::span<const OcclusionInterval> intervals, std::vector<OcclusionInterval>& out);
 
  private:
   struct Event {
@@ -166,6 +185,7 @@ class IntervalSweep {
     std::uint8_t sides = 0;
     bool self = false, begins = false;
   };
+  void sort_events();
   void count(const Event& event);
   [[nodiscard]] State state() const;
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "hlr/edges/element_loop.hpp"
@@ -84,48 +85,82 @@ Status project_shapes(VisibilityScene& visibility, const parallel::Context& cont
       });
 }
 
-/// Drops the bodies that hide only what bodies of other objects hide, too.
-Status drop_equal_bodies(VisibilityScene& visibility, std::vector<ViewBox>& boxes,
-                         const parallel::Context& context) {
+/// Finds which of some bodies stand in one column.
+Result<parallel::Distinct> find_columns(const VisibilityScene& visibility,
+                                        const std::vector<std::uint32_t>& bodies,
+                                        const parallel::Context& context) {
+  const auto shape = [&](std::size_t i) { return visibility.shape_number(bodies[i]); };
+  const auto placed = [&](std::size_t i) -> const BodyInstance& {
+    return visibility.placed[bodies[i]];
+  };
+  return parallel::distinct(
+      context, "hidden lines: bodies in line", bodies.size(),
+      [&](std::size_t i) {
+        std::uint64_t h = parallel::mixed(shape(i), static_cast<std::uint64_t>(placed(i).contact));
+        h = parallel::mixed(h, static_cast<std::uint64_t>(placed(i).at.u));
+        return parallel::mixed(h, static_cast<std::uint64_t>(placed(i).at.v));
+      },
+      [&](std::size_t i, std::size_t j) {
+        const BodyInstance &x = placed(i), &y = placed(j);
+        return shape(i) == shape(j) && x.at.u == y.at.u && x.at.v == y.at.v &&
+               x.contact == y.contact && !x.cut && !y.cut;
+      });
+}
+
+/// Marks the bodies of a column, nearest first, that hide only what bodies of other objects at the
+/// same place hide, too.
+void mark_repeated(VisibilityScene& visibility, std::span<const std::uint32_t> column) {
   // A line may belong to two objects and is tested against the others: of three one is left.
   constexpr std::uint32_t kEnough = 3;
   const auto& first_body = visibility.job.scene->first_body;
+  std::uint32_t objects = 0, last = 0;
+  const BodyInstance* before = nullptr;
+  for (const std::uint32_t b : column) {
+    BodyInstance& placed = visibility.placed[b];
+    if (first_body[placed.object + 1] - first_body[placed.object] > kFewBodies) continue;
+    if (before == nullptr || before->at.w != placed.at.w) objects = 0;
+    if (objects == 0 || last != placed.object) ++objects;
+    last = placed.object;
+    before = &placed;
+    placed.repeated = objects > kEnough;
+  }
+}
+
+/// Puts the bodies that may hide, those with a box, into columns and a tree over these.
+Status make_columns(VisibilityScene& visibility, std::span<const ViewBox> boxes,
+                    const parallel::Context& context) {
   std::vector<std::uint32_t> some;
-  for (std::uint32_t b = 0; b < boxes.size(); ++b) {
-    const std::uint32_t object = visibility.placed[b].object;
-    if (!boxes[b].empty() && first_body[object + 1] - first_body[object] <= kFewBodies)
-      some.push_back(b);
+  for (std::uint32_t b = 0; b < boxes.size(); ++b)
+    if (!boxes[b].empty()) some.push_back(b);
+  const auto found = find_columns(visibility, some, context);
+  if (!found) return found.error();
+  BodyColumns& columns = visibility.columns;
+  const std::size_t count = found->first.size();
+  std::vector<std::uint32_t> end(count + 1);
+  for (const std::uint32_t c : found->of) ++end[c + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  columns.bodies.resize(some.size());
+  std::vector<std::uint32_t> next = end;
+  for (std::size_t i = 0; i < some.size(); ++i) columns.bodies[next[found->of[i]]++] = some[i];
+  std::vector<ViewBox> nearest(count);
+  std::uint32_t kept = 0;
+  for (std::uint32_t c = 0; c < count; ++c) {
+    const auto column = std::span(columns.bodies).subspan(end[c], end[c + 1] - end[c]);
+    std::ranges::sort(column, [&](std::uint32_t x, std::uint32_t y) {
+      const std::int64_t at_x = visibility.placed[x].at.w, at_y = visibility.placed[y].at.w;
+      return at_x != at_y ? at_x > at_y : x < y;
+    });
+    nearest[c] = boxes[column.front()];
+    if (visibility.job.options.culling) mark_repeated(visibility, column);
+    columns.first.push_back(kept);
+    for (const std::uint32_t b : column)
+      if (!visibility.placed[b].repeated) columns.bodies[kept++] = b;
   }
-  const auto shape = [&](std::size_t i) { return visibility.job.seen.of[some[i]]; };
-  const auto placed = [&](std::size_t i) -> const BodyInstance& {
-    return visibility.placed[some[i]];
-  };
-  const auto kinds = parallel::distinct(
-      context, "hidden lines: equal bodies", some.size(),
-      [&](std::size_t i) {
-        std::uint64_t h = parallel::mixed(shape(i), static_cast<std::uint64_t>(placed(i).contact));
-        for (int k = 0; k < 3; ++k)
-          h = parallel::mixed(h, static_cast<std::uint64_t>(placed(i).offset[k]));
-        return h;
-      },
-      [&](std::size_t i, std::size_t j) {
-        return shape(i) == shape(j) && placed(i).offset == placed(j).offset &&
-               placed(i).contact == placed(j).contact;
-      });
-  if (!kinds) return kinds.error();
-  struct Kept {
-    std::uint32_t objects = 0, last = 0;
-  };
-  std::vector<Kept> kept(kinds->first.size());
-  for (std::size_t i = 0; i < some.size(); ++i) {
-    Kept& of_kind = kept[kinds->of[i]];
-    const std::uint32_t object = placed(i).object;
-    if (of_kind.objects == 0 || of_kind.last != object) ++of_kind.objects;
-    of_kind.last = object;
-    if (of_kind.objects <= kEnough) continue;
-    boxes[some[i]] = {};
-    visibility.placed[some[i]].repeated = true;
-  }
+  columns.first.push_back(kept);
+  columns.bodies.resize(kept);
+  auto tree = ViewBvh::of(nearest, context);
+  if (!tree) return tree.error();
+  visibility.tree = std::move(*tree);
   return {};
 }
 
@@ -167,12 +202,7 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
           place);
       !status)
     return status;
-  if (job.options.culling)
-    if (const Status status = drop_equal_bodies(visibility, boxes, context); !status) return status;
-  auto tree = ViewBvh::of(boxes, context);
-  if (!tree) return tree.error();
-  visibility.tree = std::move(*tree);
-  return {};
+  return make_columns(visibility, boxes, context);
 }
 
 /// Marks whole bodies of one shape that hide and have the same contact distance between their

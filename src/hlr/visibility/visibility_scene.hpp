@@ -45,6 +45,18 @@ struct SelfOcclusion {
   }
 };
 
+/// Bodies of one shape and one contact distance that stand behind each other in the line of sight:
+/// all of them hide the same of what lies deep under them (decision 0080). In perspective, and
+/// where limits cut it, a body stands alone.
+struct BodyColumns {
+  std::vector<std::uint32_t> first;   ///< first body per column, and the end
+  std::vector<std::uint32_t> bodies;  ///< by column, the nearest to the viewer first
+
+  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t column) const {
+    return std::span(bodies).subspan(first[column], first[column + 1] - first[column]);
+  }
+};
+
 /// A job with everything that the solvers query.
 struct VisibilityScene {
   explicit VisibilityScene(const ViewJob& view_job)
@@ -63,9 +75,10 @@ struct VisibilityScene {
   std::vector<SelfOcclusion>
       self_occlusion;                ///< per sectioned shape; empty where no two bodies share it
   std::vector<BodyInstance> placed;  ///< per body
-  /// The hierarchy over the bodies that may hide. Of equal bodies at one place a few are enough, of
-  /// objects of up to kFewBodies: what one hides the others hide.
-  ViewBvh tree;
+  /// The bodies that may hide. Of equal bodies at one place a few are enough, of objects of up to
+  /// kFewBodies: what one hides the others hide.
+  BodyColumns columns;
+  ViewBvh tree;                      ///< over the columns
   OcclusionBuffer occlusion_buffer;  ///< covers those bodies; empty without culling
   std::vector<EdgeRange> items;
 
