@@ -37,11 +37,12 @@ function(strake_module name)
   endif()
 endfunction()
 
-# strake_test(NAME SOURCES... MODULES modules... [LIBS ...] [LABELS fast|slow|parallel ...] [TIMEOUT s])
+# strake_test(NAME [UNITE] SOURCES... MODULES modules... [LIBS ...] [LABELS fast|slow|parallel ...] [TIMEOUT s])
 # One GoogleTest program, one CTest entry. "fast" programs also run under the sanitizers. What
-# tests/support has for the modules is linked.
+# tests/support has for the modules is linked. What is hidden in the sources of one that is to UNITE has
+# names of its own in the program, so that a unity build compiles them at once.
 function(strake_test name)
-  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;MODULES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(arg "UNITE" "TIMEOUT" "SOURCES;MODULES;LIBS;LABELS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/tests)
   foreach(module ${arg_MODULES})
@@ -51,6 +52,9 @@ function(strake_test name)
     endif()
   endforeach()
   target_link_libraries(${name} PRIVATE strake_flags GTest::gtest_main ${arg_LIBS})
+  if(arg_UNITE)
+    strake_unite(${name})
+  endif()
   # A test that is run once is not worth what optimising GoogleTest's macros takes; the library
   # under it, and what searches for hours, are optimised as ever.
   if(slow IN_LIST arg_LABELS)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +11,11 @@
 #include "strake/hlr/hlr.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/model/selection.hpp"
+
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's own name
+class App;
+class Option;
+}  // namespace CLI
 
 /// The options of `draw` for hatches and for perspective.
 namespace strake::cli {
