@@ -112,13 +112,15 @@ class BucketGrid {
   [[nodiscard]] double crowding() const;
 
   /// Calls visit(index) -> bool once for every box that may hide the segment, bucket by bucket;
-  /// visit ends the traversal by returning false. What meets a box that is inside out, as
-  /// open_box() may be, is in the buckets of both of its sides.
+  /// visit ends the traversal by returning false.
   template <class Visit>
   void traverse(SegmentQuery segment, BucketMarks& marks, Visit&& visit) const {
     marks.begin(items_);
-    if (segment.u0 > segment.u1) std::swap(segment.u0, segment.u1);
-    if (segment.v0 > segment.v1) std::swap(segment.v0, segment.v1);
+    // open_box() is up to a unit shorter than the segment, which may cross a side of buckets there.
+    segment.u0 -= 1;
+    segment.u1 += 1;
+    segment.v0 -= 1;
+    segment.v1 += 1;
     const bool steep = std::abs(segment.dv) > std::abs(segment.du);
     const BucketAxis& along = steep ? axes_.v : axes_.u;
     const std::uint32_t last = along.cell(steep ? segment.v1 : segment.u1);
