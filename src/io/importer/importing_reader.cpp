@@ -3,10 +3,10 @@
 
 #include <utility>
 
+#include "core/text_encoding.hpp"
 #include "core/units.hpp"
-#include "io/gltf/container.hpp"
-#include "io/gltf/document.hpp"
 #include "io/importer/find_importer.hpp"
+#include "io/importer/scene_content.hpp"
 #include "io/source/input_file.hpp"
 #include "io/source/reader_support.hpp"
 #include "io/source/units_and_axes.hpp"
@@ -21,14 +21,6 @@ std::optional<double> unit_of_file(const SceneFacts& facts) {
   if (facts.unit.empty()) return std::nullopt;
   const Result<double> unit = parse_unit_mm(facts.unit);
   return unit ? std::optional<double>(*unit) : std::nullopt;
-}
-
-double unit_of_scene(const FileBytes& scene, const parallel::Context& context) {
-  const FrameDefault frame{1000.0, UpAxis::y, true};
-  const Result<gltf::Container> container = gltf::open_container(scene);
-  if (!container) return frame.unit_mm;
-  const Result<gltf::Document> document = gltf::Document::open(container->json, context);
-  return document ? gltf::stated_frame(document->root()).unit_mm : frame.unit_mm;
 }
 
 /// Returns the options by which a scene is read as the user says that its file is to be read: a
@@ -99,12 +91,14 @@ int ImportingReader::recognise(const FileBytes& file) const {
 Result<model::Model> ImportingReader::read(const FileBytes& file, const ReadOptions& options,
                                            const parallel::Context& context) const {
   ImportedScenes none;
-  return read_with(file, options, none, context);
+  Result<ImportedModel> read = read_with(file, options, none, context);
+  if (!read) return read.error();
+  return std::move(read->model);
 }
 
-Result<model::Model> ImportingReader::read_with(const FileBytes& file, const ReadOptions& options,
-                                                ImportedScenes& scenes,
-                                                const parallel::Context& context) const {
+Result<ImportedModel> ImportingReader::read_with(const FileBytes& file, const ReadOptions& options,
+                                                 ImportedScenes& scenes,
+                                                 const parallel::Context& context) const {
   if (fault_) return *fault_;
   const std::optional<SceneJob> job = maker_.job_of(file);
   if (!job)
@@ -112,7 +106,7 @@ Result<model::Model> ImportingReader::read_with(const FileBytes& file, const Rea
   if (!scenes.contains(job->key)) scenes.merge(maker_.make_all({&*job, 1}, context));
   Result<ImportedScene>& scene = scenes.at(job->key);
   if (!scene) return scene.error();
-  std::optional<Result<model::Model>> model = read_scene({file, options, context}, *job, *scene);
+  std::optional<Result<ImportedModel>> model = read_scene({file, options, context}, *job, *scene);
   if (model) return std::move(*model);
   // What was kept is damaged, or another run has removed it meanwhile.
   maker_.forget(job->key);
@@ -126,9 +120,9 @@ Result<model::Model> ImportingReader::read_with(const FileBytes& file, const Rea
                file.path.string(), "let STRAKE_CACHE name a folder on another disk"};
 }
 
-std::optional<Result<model::Model>> ImportingReader::read_scene(const gltf::ImportInput& input,
-                                                                const SceneJob& job,
-                                                                const ImportedScene& scene) const {
+std::optional<Result<ImportedModel>> ImportingReader::read_scene(const gltf::ImportInput& input,
+                                                                 const SceneJob& job,
+                                                                 const ImportedScene& scene) const {
   const auto& [file, options, context] = input;
   const Result<FileContent> content = FileContent::read(scene.path, context);
   if (!content && (!scene.is_kept || content.error().code != ErrorCode::input))
@@ -137,17 +131,31 @@ std::optional<Result<model::Model>> ImportingReader::read_scene(const gltf::Impo
   if (content) bytes = scene.is_kept ? scene_in(content->bytes()) : content->bytes();
   if (!bytes) return std::nullopt;
   const FileBytes scene_bytes{file.path, *bytes};
+  const std::string importer = job.program.file.filename().string();
+  if (const auto named = named_by_scene(scene_bytes, context)) {
+    if (scene.is_kept) maker_.forget(job.key);
+    return Error{ErrorCode::input,
+                 "the scene that " + importer + " made names the file " + in_quotes(*named) +
+                     ": a scene holds all that it shows",
+                 file.path.string(), "tell the importer's author of it"};
+  }
   Result<model::Model> model = make_gltf_reader()->read(
       scene_bytes, options_of_scene(scene_bytes, scene.facts.scene, options, context), context);
   if (model) {
     call_by_file(file, options, scene, *model);
-    return model;
+    const std::optional<MapPlace>& map = scene.facts.scene.map;
+    if (options.on_map && map)
+      if (Status put = put_on_map(*map, *model); !put) {
+        Error error = put.error();
+        error.where = file.path.string();
+        return error;
+      }
+    return ImportedModel{std::move(*model), map};
   }
   if (model.error().code != ErrorCode::input) return model.error();
   if (scene.is_kept) maker_.forget(job.key);
   return Error{ErrorCode::input,
-               "the scene that " + job.program.file.filename().string() +
-                   " made cannot be read: " + model.error().message,
+               "the scene that " + importer + " made cannot be read: " + model.error().message,
                model.error().where, "look for a newer version of the importer"};
 }
 
