@@ -5,8 +5,9 @@
 
 #include "core/text_encoding.hpp"
 #include "core/units.hpp"
+#include "io/gltf/container.hpp"
+#include "io/gltf/document.hpp"
 #include "io/importer/find_importer.hpp"
-#include "io/importer/scene_content.hpp"
 #include "io/source/input_file.hpp"
 #include "io/source/reader_support.hpp"
 #include "io/source/units_and_axes.hpp"
@@ -21,6 +22,33 @@ std::optional<double> unit_of_file(const SceneFacts& facts) {
   if (facts.unit.empty()) return std::nullopt;
   const Result<double> unit = parse_unit_mm(facts.unit);
   return unit ? std::optional<double>(*unit) : std::nullopt;
+}
+
+double unit_of_scene(const FileBytes& scene, const parallel::Context& context) {
+  const FrameDefault frame{1000.0, UpAxis::y, true};
+  const Result<gltf::Container> container = gltf::open_container(scene);
+  if (!container) return frame.unit_mm;
+  const Result<gltf::Document> document = gltf::Document::open(container->json, context);
+  return document ? gltf::stated_frame(document->root()).unit_mm : frame.unit_mm;
+}
+
+/// Returns the first file that a scene names besides itself; nothing where it holds all that it
+/// shows. A scene that is kept would go stale with such a file, and could show any file of the
+/// user's.
+std::optional<std::string> named_by_scene(const FileBytes& scene,
+                                          const parallel::Context& context) {
+  const Result<gltf::Container> container = gltf::open_container(scene);
+  if (!container || !gltf::may_name_files(*container)) return std::nullopt;
+  const Result<gltf::Document> document = gltf::Document::open(container->json, context);
+  if (!document) return std::nullopt;
+  for (const std::string_view list : {"buffers", "images"})
+    for (const gltf::JsonValue& item : document->root()[list].items()) {
+      const gltf::JsonValue uri = item["uri"];
+      if (!uri.is_string()) continue;
+      std::string text = uri.text_value();
+      if (!text.starts_with("data:")) return text;
+    }
+  return std::nullopt;
 }
 
 /// Returns the options by which a scene is read as the user says that its file is to be read: a
