@@ -29,7 +29,7 @@ constexpr std::uintmax_t kMostLog = 16U << 20U;
 /// Returns a path that says the same in another folder.
 fs::path anywhere(const fs::path& path) {
   std::error_code failed;
-  fs::path absolute = fs::absolute(path, failed);
+  const fs::path absolute = fs::absolute(path, failed);
   return failed ? path : absolute;
 }
 

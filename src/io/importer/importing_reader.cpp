@@ -173,7 +173,7 @@ std::optional<Result<ImportedModel>> ImportingReader::read_scene(const gltf::Imp
     call_by_file(file, options, scene, *model);
     const std::optional<MapPlace>& map = scene.facts.scene.map;
     if (options.on_map && map)
-      if (Status put = put_on_map(*map, *model); !put) {
+      if (const Status put = put_on_map(*map, *model); !put) {
         Error error = put.error();
         error.where = file.path.string();
         return error;

@@ -144,6 +144,28 @@ class Importers(Scenario):
         done = self.run_strake('info', 'model.slow', env={'STRAKE_IMPORT_LIMIT': 'soon'})
         self.assertEqual((done.returncode, 'STRAKE_IMPORT_LIMIT' in done.stderr), (2, True))
 
+    def test_files_lie_on_a_map_where_that_is_asked_for(self):
+        importer = self.folder / 'bin' / 'strake-import-boxes'
+        place = '{"crs": "EPSG:25832", "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, %s, 5428000250, 110000, 1]}'
+        importer.write_text(importer.read_text(encoding='utf-8').replace(
+            'depends_on=[]', f"depends_on=[], map=json.loads({place!r} % (463000500 + 1000 * ('far' in options.input)))"))
+        self.write('far.boxes', 'c 50 50 50 100 100 100\n')
+        local = self.clashes('model.boxes', 'far.boxes')
+        self.assertEqual(len(json.loads(local.stdout)['results']), 2)
+        self.assertIn('map-place-differs', local.stderr)
+        placed = self.clashes('model.boxes', 'far.boxes', '--georeference')
+        self.assertEqual(json.loads(placed.stdout)['results'], [])
+        self.assertNotIn('map-', placed.stderr)
+        points = [json.loads(self.clashes('model.boxes', *words).stdout)['results'][0]['point_mm']
+                  for words in ([], ['--georeference'])]
+        self.assertEqual([round(y - x, 3) for x, y in zip(*points)], [463000500, 5428000250, 110000])
+        self.assertEqual(self.calls(), 2, 'one scene of each file serves both')
+        self.text('project', 'new', 'x.strake', 'model.boxes')
+        for words in (('x.strake',), ('-p', 'x.strake')):
+            done = self.run_strake('clash', *words, '--georeference')
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn('--georeference', done.stderr)
+
     def test_a_project_takes_such_files(self):
         self.text('project', 'new', 'x.strake', 'model.boxes')
         self.write('more.boxes', 'c 400 0 0 50 50 50\n')
