@@ -3,7 +3,8 @@
 # lint.sh [--all] [BUILD_FOLDER]: house rules, and clang-tidy on the sources that changed: against
 # origin/main, or in the last 20 commits where HEAD is origin/main itself. Without a history none is
 # known to have changed: --all looks at all. A source that passed is not looked at again until it, a
-# header or the rules change.
+# header or the rules change. Sources of the Python package are looked at where there is a Python with
+# nanobind for them, as ./run python leaves one.
 set -euo pipefail
 . scripts/common.sh
 need build test
@@ -13,6 +14,25 @@ all=
 build=${1:-build/dev}
 # Not of a unity build, which knows no single sources; configuring is enough.
 [ -f "$build/compile_commands.json" ] || configure "$(basename "$build")"
+stamps=build/tidy
+mkdir -p "$stamps"
+commands=("$build/compile_commands.json")
+python=$PWD/build/python-venv/bin/python
+if ! grep -q '/python/bindings/' "${commands[0]}" && "$python" -c 'import nanobind' 2>/dev/null; then
+  # In a folder of its own, since the option would have the dev build make the package, too.
+  cmake --preset dev -B "$stamps/python" -D STRAKE_TESTS=OFF -D STRAKE_PYTHON=ON -D "Python_EXECUTABLE=$python" >"$stamps/python.log" 2>&1 ||
+    { cat "$stamps/python.log" >&2; exit 1; }
+  commands+=("$stamps/python/compile_commands.json")
+fi
+# Of all commands, without the precompiled headers: a source must include what it uses itself.
+python3 - "${commands[@]}" >"$stamps/compile_commands.json" <<'END'
+import json, re, sys
+first, *others = (json.load(open(name)) for name in sys.argv[1:])
+all_of = first + [entry for more in others for entry in more if '/python/bindings/' in entry['file']]
+for entry in all_of:
+    entry['command'] = re.sub(r' -Winvalid-pch| -fpch-preprocess| -include \S*cmake_pch\.hxx', '', entry['command'])
+json.dump(all_of, sys.stdout)
+END
 
 # The sources that changed, those that changed most first.
 base=$(git merge-base HEAD origin/main 2>/dev/null || true)
@@ -33,13 +53,11 @@ for field in fields:
   fi
 }
 
-stamps=build/tidy
-mkdir -p "$stamps"
 # A source has passed once for a given state of the rules, of all headers and of itself.
 rules=$( (cat .clang-tidy; sources '*.hpp' | xargs cat) | sha256sum | cut -c1-16)
 todo=()
 while read -r file; do
-  grep -qF "/$file\"" "$build/compile_commands.json" || continue
+  grep -qF "/$file\"" "$stamps/compile_commands.json" || continue
   stamp=$stamps/$( (echo "$rules"; cat "$file") | sha256sum | cut -c1-32)
   [ -e "$stamp" ] || todo+=("$file" "$stamp")
 done < <(changed)
@@ -51,9 +69,5 @@ if [ -z "$all" ] && [ $((${#todo[@]} / 2)) -gt $most ]; then
 fi
 say "lint: $((${#todo[@]} / 2)) sources"
 [ ${#todo[@]} -eq 0 ] && exit 0
-# Without the precompiled headers: a source must include what it uses itself.
-sed -E 's/ -Winvalid-pch| -fpch-preprocess| -include [^ ]*cmake_pch\.hxx//g' "$build/compile_commands.json" \
-  >"$stamps/compile_commands.json"
-build=$stamps
-printf '%s\0' "${todo[@]}" | xargs -0 -P "$jobs" -n 2 scripts/tidy_one.sh "$build"
+printf '%s\0' "${todo[@]}" | xargs -0 -P "$jobs" -n 2 scripts/tidy_one.sh "$stamps"
 say "lint: clean"

@@ -86,6 +86,14 @@ void add_input_options(CLI::App& command, InputOptions& options) {
       ->group("Input");
 }
 
+void add_georeference_option(CLI::App& command, InputOptions& options) {
+  command
+      .add_flag("--georeference", options.georeference,
+                "Put files whose importer says where they lie on a map there: x east, y north; "
+                "otherwise coordinates are those of each file")
+      ->group("Input");
+}
+
 void add_output_option(CLI::App& command, std::vector<std::string>& files, std::string_view what,
                        std::span<const OutputFormat> formats) {
   command.add_option("-o,--output", files, describe_formats(what, formats) + "; may be repeated")
@@ -221,7 +229,10 @@ io::UpAxis up_axis_of(char letter) {
 
 Result<std::vector<io::FileToRead>> files_to_read(const InputOptions& options) {
   std::vector<io::FileToRead> files;
-  for (const std::string& file : options.files) files.push_back({file, {}});
+  for (const std::string& file : options.files) {
+    files.push_back({file, {}});
+    files.back().options.on_map = options.georeference;
+  }
   Status status = apply_file_values(
       options.units, "--unit", files, [](io::ReadOptions& read, const std::string& text) -> Status {
         const Result<double> unit = quantity_option(text, "--unit", parse_unit_mm);

@@ -29,13 +29,15 @@ struct CommonOptions {
 struct InputOptions {
   std::vector<std::string> files;
   std::vector<std::string> units, up_axes;  ///< "mm" for all files, "part.stl=m" for one
-  bool strict = false;
+  bool strict = false, georeference = false;
 };
 
 void add_common_options(CLI::App& command, CommonOptions& options);
 /// Adds --distribution, for verbs whose work is worth a comparison.
 void add_distribution_option(CLI::App& command, CommonOptions& options);
 void add_input_options(CLI::App& command, InputOptions& options);
+/// Adds --georeference, for verbs that read files for one run.
+void add_georeference_option(CLI::App& command, InputOptions& options);
 /// Adds -o FILE, which may be given several times: "`what` as .json or .csv; may be repeated".
 void add_output_option(CLI::App& command, std::vector<std::string>& files, std::string_view what,
                        std::span<const OutputFormat> formats);

@@ -254,6 +254,10 @@ Result<InputFiles> input_files(const InputOptions& input) {
       found.models.push_back(std::move(file));
       continue;
     }
+    if (file.options.on_map)
+      return Error{ErrorCode::usage,
+                   file.path.string() + " is a project: its files were read already",
+                   "--georeference", "leave the option out, or name the files"};
     if (file.options.unit_mm || file.options.up_axis)
       return Error{ErrorCode::usage,
                    file.path.string() + " is a project: it knows this of its files",

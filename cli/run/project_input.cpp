@@ -95,6 +95,9 @@ Status check_project_options(const ProjectOptions& options, const InputOptions& 
     if (!given->empty())
       return Error{ErrorCode::usage, "the project knows this of its files", name,
                    "leave it out; 'strake project update' reads files of a project otherwise"};
+  if (input.georeference)
+    return Error{ErrorCode::usage, "the files of a project were read already", "--georeference",
+                 "leave it out, or name the files"};
   return {};
 }
 

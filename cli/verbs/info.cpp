@@ -253,6 +253,7 @@ Verb add_info(CLI::App& program, CommonOptions& common) {
   CLI::App* const command =
       program.add_subcommand("info", "What model files hold, and what was skipped and why");
   add_input_options(*command, options->input);
+  add_georeference_option(*command, options->input);
   command->get_option("files")->required(false);  // a project may stand in their place
   add_project_option(*command, options->project.file,
                      "Read the model of this project (docs/project.md), in place of files");

@@ -182,9 +182,9 @@ Array<bool> select(const ModelPointer& loaded, const std::vector<std::string>& s
 }
 
 ModelPointer load(const std::vector<std::filesystem::path>& paths, std::optional<double> unit_mm,
-                  std::optional<int> up_axis, const std::filesystem::path& importers,
+                  std::optional<int> up_axis, bool on_map, const std::filesystem::path& importers,
                   const RunOptions& options) {
-  io::ReadOptions how{.unit_mm = unit_mm, .up_axis = {}, .encoding = {}};
+  io::ReadOptions how{.unit_mm = unit_mm, .up_axis = {}, .encoding = {}, .on_map = on_map};
   if (up_axis) how.up_axis = static_cast<io::UpAxis>(*up_axis);
   std::vector<io::FileToRead> files;
   for (const std::filesystem::path& path : paths) files.push_back({path, how});
@@ -239,7 +239,7 @@ void bind_model(nb::module_& module) {
                    [](const LoadedModel& m) { return listed(m.model().diagnostics); })
       .def("object", &object_facts, nb::arg("i"));
   module.def("load", &load, nb::arg("paths"), nb::arg("unit_mm").none(), nb::arg("up_axis").none(),
-             nb::arg("importers"), nb::arg("options"));
+             nb::arg("on_map"), nb::arg("importers"), nb::arg("options"));
   module.def("save", &save, nb::arg("model"), nb::arg("path"), nb::arg("options"));
   module.def("placements", &placements, nb::arg("model"));
   module.def("object_of_body", &object_of_body, nb::arg("model"));

@@ -54,8 +54,8 @@ void run_watched(const RunOptions& options, const char* what,
     try {
       if (PyErr_CheckSignals() != 0) throw nb::python_error();
       tell(options.progress, progress, what);
-    } catch (nb::python_error& error) {
-      raised.emplace(std::move(error));
+    } catch (const nb::python_error& error) {
+      raised.emplace(error);
       stop.request_stop();
     }
   }

@@ -21,37 +21,57 @@ PathLike: TypeAlias = str | os.PathLike[str]
 Selection: TypeAlias = str | Sequence[str] | npt.NDArray[np.bool_]
 
 MOST_THREADS = 1024
+MOST_COUNT = 2**32 - 1
+LONGEST_MM = 1e6
+"""A kilometre: the longest distance that the program takes."""
 
 
 def run_options(threads: int | None, progress: Progress | None) -> _core.RunOptions:
     """How a long call runs. Raises: UsageError for a number of threads outside 1 to 1024."""
     if threads is not None:
         if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)):
-            raise UsageError(f"{threads!r} is no whole number", "threads")
+            raise UsageError(f"{shown(threads)} is no whole number", "threads")
         if not 1 <= threads <= MOST_THREADS:
-            raise UsageError(f"{threads} is no number of threads", "threads", f"write 1 to {MOST_THREADS}")
+            raise UsageError(f"{shown(threads)} is no number of threads", "threads", f"write 1 to {MOST_THREADS}")
         threads = int(threads)
     if progress is not None and not callable(progress):
         raise UsageError(f"{type(progress).__name__} cannot be called", "progress")
     return _core.RunOptions(threads, progress)
 
 
+def shown(value: object) -> str:
+    """A value as messages show it: in a line, and short."""
+    if isinstance(value, np.ndarray):
+        return f"an array of {value.dtype} and shape {value.shape}"
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 80 else text[:77] + "..."
+
+
 def number(value: Any, name: str) -> float:
     """A finite number. Raises: UsageError."""
     if isinstance(value, bool) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise UsageError(f"{value!r} is no number", name)
-    if not math.isfinite(value):
-        raise UsageError(f"{value!r} is not finite", name)
-    return float(value)
+        raise UsageError(f"{shown(value)} is no number", name)
+    try:
+        result = float(value)
+    except OverflowError:
+        result = math.inf
+    if not math.isfinite(result):
+        raise UsageError(f"{shown(value)} is not finite", name)
+    return result
 
 
 def length(value: Length, name: str) -> float:
     """A length in mm that is not negative. Raises: UsageError."""
     if isinstance(value, str):
-        return _core.length_mm(value)
+        try:
+            return _core.length_mm(text(value, name))
+        except UsageError as error:
+            raise UsageError(error.message, name, error.mend) from None
     mm = number(value, name)
     if mm < 0:
         raise UsageError(f"{value!r} is negative", name, "write 0 or more, in millimetres")
+    if mm > LONGEST_MM:
+        raise UsageError(f"{value!r} is longer than a kilometre", name, "write millimetres")
     return mm
 
 
@@ -60,17 +80,44 @@ def optional_length(value: Length | None, name: str) -> float | None:
     return None if value is None else length(value, name)
 
 
+def count(value: Any, name: str) -> int:
+    """A whole number that is not negative. Raises: UsageError."""
+    exact = number(value, name)
+    if exact < 0 or exact != int(exact):
+        raise UsageError(f"{shown(value)} is no count", name, "write a whole number, 0 or more")
+    if exact > MOST_COUNT:
+        raise UsageError(f"{shown(value)} is too large", name, f"write {MOST_COUNT} at most")
+    return int(value)
+
+
+def truth(value: Any, name: str) -> bool:
+    """True or False. Raises: UsageError."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise UsageError(f"{shown(value)} is neither True nor False", name)
+    return bool(value)
+
+
 def numbers(value: Any, count: int, name: str, what: str) -> list[float]:
     """So many finite numbers. Raises: UsageError."""
     if isinstance(value, str):
-        raise UsageError(f"{value!r} is a text", name, f"give {what}")
+        raise UsageError(f"{shown(value)} is a text", name, f"give {what}")
     try:
         flat = [number(x, name) for x in np.asarray(value, dtype=object).ravel().tolist()]
-    except TypeError as error:
-        raise UsageError(str(error), name, f"give {what}") from error
+    except (TypeError, ValueError) as error:
+        message = error.message if isinstance(error, UsageError) else str(error)
+        raise UsageError(message, name, f"give {what}") from None
     if len(flat) != count:
         raise UsageError(f"{len(flat)} numbers", name, f"give {what}")
     return flat
+
+
+def text(value: Any, name: str) -> str:
+    """A text that can be written. Raises: UsageError."""
+    if not isinstance(value, str):
+        raise UsageError(f"{shown(value)} is no text", name)
+    if "\0" in value or any("\ud800" <= c <= "\udfff" for c in value):
+        raise UsageError(f"{shown(value)} has a character that no text has", name)
+    return value
 
 
 def texts(value: str | Iterable[str] | None, name: str) -> list[str]:
@@ -78,12 +125,22 @@ def texts(value: str | Iterable[str] | None, name: str) -> list[str]:
     if value is None:
         return []
     if isinstance(value, str):
-        return [value]
-    several = list(value)
-    for one in several:
-        if not isinstance(one, str):
-            raise UsageError(f"{one!r} is no text", name)
-    return several
+        return [text(value, name)]
+    return [text(one, name) for one in several(value, name, "a text, or several")]
+
+
+def several(value: Any, name: str, what: str) -> list[Any]:
+    """The items of an iterable that is no text. Raises: UsageError."""
+    if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
+        raise UsageError(f"{shown(value)} is none", name, f"give {what}")
+    return list(value)
+
+
+def words(value: Any, name: str) -> list[str]:
+    """Words of a command line: texts and paths. Raises: UsageError."""
+    return [
+        str(path(word, name)) if isinstance(word, os.PathLike) else text(word, name) for word in several(value, name, "a list of words")
+    ]
 
 
 def pick(value: Selection | None, objects: int, name: str) -> _core.Pick:
@@ -93,7 +150,7 @@ def pick(value: Selection | None, objects: int, name: str) -> _core.Pick:
     if isinstance(value, np.ndarray):
         if value.dtype != np.bool_ or value.shape != (objects,):
             raise UsageError(
-                f"an array of {value.dtype} and shape {value.shape} does not say which of {objects} objects are meant",
+                f"{shown(value)} does not say which of {objects} objects are meant",
                 name,
                 f"give one of bool and shape ({objects},), as Model.select() returns",
             )
@@ -109,22 +166,30 @@ def pick(value: Selection | None, objects: int, name: str) -> _core.Pick:
 def path(value: PathLike, name: str) -> Path:
     """A path. Raises: UsageError."""
     try:
-        text = os.fspath(value)
-    except TypeError as error:
-        raise UsageError(f"{type(value).__name__} is no path", name) from error
+        given = os.fspath(value)
+        text = os.fsdecode(given)
+        os.fsencode(text)
+    except TypeError:
+        raise UsageError(f"{shown(value)} is no path", name) from None
+    except UnicodeError:
+        raise UsageError(f"{shown(value)} has a character that no path has", name) from None
     if "\0" in text:
         raise UsageError("a path has no null character", name)
+    if not text:
+        raise UsageError("a path is empty", name)
     return Path(text)
+
+
+def some_paths(value: PathLike | Iterable[PathLike], name: str) -> list[Path]:
+    """One path, several or none. Raises: UsageError."""
+    if isinstance(value, (str, bytes, os.PathLike)):
+        return [path(value, name)]
+    return [path(one, name) for one in several(value, name, "a path, or several")]
 
 
 def paths(value: PathLike | Iterable[PathLike], name: str) -> list[Path]:
     """One path or several. Raises: UsageError where there are none."""
-    if isinstance(value, (str, os.PathLike)):
-        return [path(value, name)]
-    try:
-        several = [path(one, name) for one in value]
-    except TypeError as error:
-        raise UsageError(f"{type(value).__name__} is no path", name) from error
-    if not several:
+    given = some_paths(value, name)
+    if not given:
         raise UsageError("no file is given", name)
-    return several
+    return given

@@ -18,16 +18,19 @@ from strake._arguments import (
     PathLike,
     Progress,
     Selection,
+    count,
     length,
-    number,
     optional_length,
     path,
     pick,
     run_options,
+    shown,
+    text,
     texts,
+    truth,
 )
 from strake._errors import UsageError
-from strake._model import Diagnostic, Model, _position
+from strake._model import Diagnostic, Model, _position, model_core
 
 if TYPE_CHECKING:
     import pandas
@@ -196,7 +199,7 @@ class Clashes(Sequence[Clash]):
 
     def table(self, rows: int = 20) -> str:
         """Returns the worst results as the program shows them, at most so many."""
-        return self._core.table(max(0, int(number(rows, "rows"))))
+        return self._core.table(count(rows, "rows"))
 
     def __repr__(self) -> str:
         counts = self.summary
@@ -283,8 +286,8 @@ class Clashes(Sequence[Clash]):
 
 def _cells(one: Clash) -> Iterator[str]:
     point = ", ".join(f"{x:.0f}" for x in one.point)
-    for text in (one.kind.name, f"{one.separation:.3f}", one.relation.name, point, one.a_id, one.b_id):
-        yield f"<td>{html.escape(text)}</td>"
+    for cell in (one.kind.name, f"{one.separation:.3f}", one.relation.name, point, one.a_id, one.b_id):
+        yield f"<td>{html.escape(cell)}</td>"
 
 
 def clash(
@@ -332,6 +335,7 @@ def clash(
 
     Raises: UsageError; InputError for a rules file; KeyboardInterrupt at Ctrl-C.
     """
+    core = model_core(model)
     request = _core.ClashRequest()
     request.a = pick(a, len(model), "a")
     request.b = pick(b, len(model), "b")
@@ -340,41 +344,40 @@ def clash(
             {
                 "a": a is not None,
                 "b": b is not None,
-                "profile": bool(profile),
+                "profile": profile is not None and profile != "",
                 "clearance": clearance != 0,
                 "touch_gap": touch_gap != 1,
                 "touch_overlap": touch_overlap != 1,
                 "contact_distance": contact_distance is not None,
-                "within_files": within_files,
+                "within_files": truth(within_files, "within_files"),
             }
         )
         request.rules = str(path(rules, "rules"))
-    request.profile = profile or ""
-    request.within_files = within_files
-    request.clearance = clearance if isinstance(clearance, str) else f"{length(clearance, 'clearance')!r}mm"
+    request.profile = "" if profile is None else text(profile, "profile")
+    request.within_files = truth(within_files, "within_files")
+    request.clearance = clearance_text(clearance)
     request.touch_gap_mm = length(touch_gap, "touch_gap")
     request.touch_overlap_mm = length(touch_overlap, "touch_overlap")
     request.contact_distance_mm = optional_length(contact_distance, "contact_distance")
-    request.thickness_cap, request.volumes, request.curves = thickness_cap, volumes, curves
-    if contacts not in ("list", "count", "off"):
-        raise UsageError(f"there is no way {contacts!r}", "contacts", "write list, count or off")
-    if group_contacts and contacts != "list":
+    request.thickness_cap = truth(thickness_cap, "thickness_cap")
+    request.volumes, request.curves = truth(volumes, "volumes"), truth(curves, "curves")
+    if not isinstance(contacts, str) or contacts not in ("list", "count", "off"):
+        raise UsageError(f"there is no way {shown(contacts)}", "contacts", "write list, count or off")
+    if truth(group_contacts, "group_contacts") and contacts != "list":
         raise UsageError("contacts that are not listed cannot be put into groups", "group_contacts")
     if (group_distance is not None or group_contacts) and group_by is None:
-        raise UsageError("there are no groups", "group_distance" if group_distance else "group_contacts", "give group_by")
+        raise UsageError("there are no groups", "group_contacts" if group_distance is None else "group_distance", "give group_by")
     request.contacts = contacts
-    request.regions = _count(regions, "regions")
-    request.group_by = group_by or ""
+    request.regions = count(regions, "regions")
+    request.group_by = "" if group_by is None else text(group_by, "group_by")
     request.group_distance_mm = optional_length(group_distance, "group_distance")
     request.group_contacts = group_contacts
-    return Clashes(_core.clash(model._core, request, run_options(threads, progress)), model)
+    return Clashes(_core.clash(core, request, run_options(threads, progress)), model)
 
 
-def _count(value: int, name: str) -> int:
-    count = number(value, name)
-    if count < 0 or count != int(count):
-        raise UsageError(f"{value!r} is no count", name)
-    return int(count)
+def clearance_text(clearance: Length) -> str:
+    """A clearance as the program takes it. Raises: UsageError."""
+    return text(clearance, "clearance") if isinstance(clearance, str) else f"{length(clearance, 'clearance')!r}mm"
 
 
 def _refuse_beside_rules(said: Mapping[str, bool]) -> None:

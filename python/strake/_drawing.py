@@ -23,10 +23,13 @@ from strake._arguments import (
     path,
     pick,
     run_options,
+    shown,
+    text,
     texts,
+    truth,
 )
 from strake._errors import UsageError
-from strake._model import Diagnostic, Model
+from strake._model import Diagnostic, Model, model_core, sag_of
 
 LINE_KINDS: tuple[str, ...] = tuple(_core.LINE_KINDS)
 """Names of the kinds of lines: what `kind` counts."""
@@ -182,21 +185,20 @@ def draw(
 
     Raises: UsageError, with the argument as `where`; InputError for a view that reaches too far; KeyboardInterrupt.
     """
+    model_core(model)
     request = _core.DrawRequest()
     _set_view(request, view)
     request.select = pick(select, len(model), "select")
-    request.hidden = hidden if isinstance(hidden, str) else ("dashed" if hidden else "off")
+    request.hidden = text(hidden, "hidden") if isinstance(hidden, str) else ("dashed" if truth(hidden, "hidden") else "off")
     request.scale = "" if scale is None else _scale(scale)
-    request.paper, request.title = paper or "", title
-    request.stage, request.intersections, request.own_polylines = stage, intersections, own_polylines
-    request.smooth = smooth
-    request.flush_seams, request.visible_only = flush_seams, visible_only
-    request.obstructions, request.insulation = obstructions, insulation
+    request.paper, request.title = "" if paper is None else text(paper, "paper"), text(title, "title")
+    request.stage, request.intersections = text(stage, "stage"), text(intersections, "intersections")
+    request.own_polylines, request.smooth = text(own_polylines, "own_polylines"), text(smooth, "smooth")
+    request.flush_seams, request.visible_only = truth(flush_seams, "flush_seams"), truth(visible_only, "visible_only")
+    request.obstructions, request.insulation = truth(obstructions, "obstructions"), truth(insulation, "insulation")
     request.sharp_angle_deg = number(sharp_angle, "sharp_angle")
     request.contact_distance_mm = optional_length(contact_distance, "contact_distance")
-    request.sag_mm = optional_length(sag, "sag")
-    if request.sag_mm is not None and request.sag_mm < 0.001:
-        raise UsageError(f"{sag!r} is finer than the grid of 1um", "sag")
+    request.sag_mm = None if sag is None else sag_of(sag, "sag")
     request.weld_mm = optional_length(weld, "weld")
     if request.weld_mm is not None and request.weld_mm > 1000:
         raise UsageError(f"{weld!r} is longer than a metre", "weld")
@@ -208,14 +210,16 @@ def draw(
 
 def _set_view(request: _core.DrawRequest, view: str | Mapping[str, Any]) -> None:
     if isinstance(view, str):
-        request.view = view
+        request.view = text(view, "view")
         return
+    if not isinstance(view, Mapping):
+        raise UsageError(f"{shown(view)} is no view", "view", "give a name, as 'iso', or a mapping of its options")
     for name in view:
         if name not in _VIEW_OPTIONS:
             raise UsageError(f"there is no option {name!r} of a view", "view", f"write {', '.join(_VIEW_OPTIONS)}")
     if sum(name in view for name in ("view", "direction", "eye")) > 1:
         raise UsageError("view, direction and eye exclude each other", "view")
-    request.view = view.get("view", "iso")
+    request.view = text(view.get("view", "iso"), "view")
     request.direction = _direction(view.get("direction"), "direction")
     request.up = _direction(view.get("up"), "up")
     for name in ("eye", "target"):
@@ -235,15 +239,17 @@ def _set_view(request: _core.DrawRequest, view: str | Mapping[str, Any]) -> None
 
 def _direction(value: Any, name: str) -> str:
     if value is None or isinstance(value, str):
-        return value or ""
+        return text(value or "", name)
     return ",".join(f"{x:.17g}" for x in numbers(value, 3, name, "x, y and z"))
 
 
 def _scale(scale: str | float) -> str:
-    return scale if isinstance(scale, str) else f"1:{number(scale, 'scale'):.17g}"
+    return text(scale, "scale") if isinstance(scale, str) else f"1:{number(scale, 'scale'):.17g}"
 
 
 def _pens(pens: Mapping[str, float]) -> list[float]:
+    if not isinstance(pens, Mapping):
+        raise UsageError(f"{shown(pens)} is none", "pens", f"give a dict of {', '.join(_PENS)} and their widths")
     for name in pens:
         if name not in _PENS:
             raise UsageError(f"there is no pen {name!r}", "pens", f"write {', '.join(_PENS)}")

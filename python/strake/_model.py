@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import operator
 import sysconfig
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
@@ -17,12 +18,17 @@ from strake._arguments import (
     Length,
     PathLike,
     Progress,
+    count,
     length,
     number,
     path,
     paths,
     run_options,
+    several,
+    shown,
+    text,
     texts,
+    truth,
 )
 from strake._errors import UsageError
 
@@ -106,9 +112,12 @@ class Objects(Sequence[Object]):
 
 
 def _position(index: int, count: int) -> int:
-    i = int(index.__index__())
+    try:
+        i = operator.index(index)
+    except TypeError:
+        raise TypeError(f"an object is asked for by its number, and {shown(index)} is none") from None
     if not -count <= i < count:
-        raise IndexError(f"there is no object {i} of {count}")
+        raise IndexError(f"there is no object {shown(i)} of {count}")
     return i + count if i < 0 else i
 
 
@@ -195,10 +204,11 @@ class Model:
         Curved primitives are tessellated with chords no farther than `sag` from the surface; lines have no triangles.
         Raises: IndexError; UsageError for a sag below a micrometre.
         """
-        sag_mm = length(sag, "sag")
-        if sag_mm < 0.001:
-            raise UsageError(f"{sag!r} is finer than the grid of 1um", "sag")
-        return _core.mesh(self._core, _position(i, len(self)), sag_mm)
+        try:
+            at = _position(i, len(self))
+        except TypeError as error:
+            raise UsageError(str(error), "i") from None
+        return _core.mesh(self._core, at, sag_of(sag, "sag"))
 
     def save(self, path_to: PathLike, threads: int | None = None, progress: Progress | None = None) -> None:
         """Writes a .glb or an .obj, whole or not at all. Raises: UsageError, OutputError."""
@@ -212,11 +222,15 @@ class Model:
         Raises: UsageError for arrays of another shape or type, for numbers that are not finite, for corners that are no
         vertices; it names the mesh.
         """
-        builder = _core.ModelBuilder(label)
+        builder = _core.ModelBuilder(text(label, "label"))
         shapes: dict[tuple[int, int], int] = {}
         kept: list[object] = []  # so that no other array gets the place of one that is remembered
-        for given in meshes:
-            mesh = Mesh(*given)
+        for given in several(meshes, "meshes", "Mesh records, or tuples of name, vertices and triangles"):
+            try:
+                mesh = Mesh(*given)
+            except TypeError:
+                message = f"{shown(given)} is no mesh" if not isinstance(given, tuple) else f"a tuple of {len(given)} is no mesh"
+                raise UsageError(message, "meshes", "give Mesh records, or tuples of name, vertices and triangles") from None
             key = (id(mesh.vertices), id(mesh.triangles))
             try:
                 if key not in shapes:
@@ -237,8 +251,10 @@ class Model:
         Nodes of a scene become objects; those that show one geometry share its shape.
         Raises: UsageError.
         """
-        unit_name = str(unit or getattr(scene, "units", None) or "mm")
-        scale = _core.unit_mm(unit_name)
+        if not hasattr(scene, "graph") and not (hasattr(scene, "vertices") and hasattr(scene, "faces")):
+            raise UsageError(f"{shown(scene)} is neither a scene nor a mesh of trimesh", "scene")
+        given = getattr(scene, "units", None) if unit is None else text(unit, "unit")
+        scale = _unit_mm(str(given or "mm"), "unit")
         if not hasattr(scene, "graph"):
             name = str(getattr(scene, "metadata", {}).get("name") or "mesh")
             return cls.from_arrays([Mesh(name, scene.vertices, scene.faces, placement=np.eye(3, 4) * scale)], label)
@@ -270,10 +286,10 @@ class Model:
 
 
 def _add_shape(builder: _core.ModelBuilder, mesh: Mesh) -> int:
-    vertices = np.asarray(mesh.vertices)
+    vertices = _array(mesh.vertices, "vertices")
     if vertices.dtype.kind not in "fiu" or vertices.ndim != 2 or vertices.shape[1] != 3:
         raise UsageError(f"vertices are {vertices.dtype} of shape {vertices.shape}", mend="give numbers of shape (V, 3)")
-    triangles = np.asarray(mesh.triangles)
+    triangles = _array(mesh.triangles, "triangles")
     if triangles.size == 0:
         triangles = np.zeros((0, 3), dtype=np.uint32)
     if triangles.dtype.kind not in "iu" or triangles.ndim != 2 or triangles.shape[1] != 3:
@@ -287,22 +303,33 @@ def _add_shape(builder: _core.ModelBuilder, mesh: Mesh) -> int:
     )
 
 
+def _array(given: npt.ArrayLike, what: str) -> npt.NDArray[Any]:
+    try:
+        return np.asarray(given)
+    except (TypeError, ValueError):
+        raise UsageError(f"{what} are {shown(given)}", mend="give an array of as many numbers in each row") from None
+
+
 def _add_object(builder: _core.ModelBuilder, mesh: Mesh, shape: int) -> None:
     if not isinstance(mesh.name, str):
-        raise UsageError(f"{mesh.name!r} is no name")
+        raise UsageError(f"{shown(mesh.name)} is no name")
     attributes = []
+    if mesh.attributes is not None and not isinstance(mesh.attributes, Mapping):
+        raise UsageError(f"attributes are {shown(mesh.attributes)}", mend="give a dict of texts")
     for name, value in (mesh.attributes or {}).items():
         if not isinstance(name, str) or not isinstance(value, str):
-            raise UsageError(f"attribute {name!r} is {value!r}", mend="give names and values as texts")
-        attributes.append((name, value))
-    groups = [name for name in mesh.path.split("/") if name]
-    builder.add_object(mesh.name, groups, attributes, _color(mesh.color), shape, _placement(mesh.placement))
+            raise UsageError(f"attribute {name!r} is {shown(value)}", mend="give names and values as texts")
+        attributes.append((text(name, "attributes"), text(value, "attributes")))
+    if not isinstance(mesh.path, str):
+        raise UsageError(f"path is {shown(mesh.path)}", mend="give names of groups, joined by /")
+    groups = [name for name in text(mesh.path, "path").split("/") if name]
+    builder.add_object(text(mesh.name, "name"), groups, attributes, _color(mesh.color), shape, _placement(mesh.placement))
 
 
 def _placement(given: npt.ArrayLike | None) -> Sequence[float]:
     if given is None:
         return _UNMOVED
-    matrix = np.asarray(given)
+    matrix = _array(given, "numbers of a placement")
     if matrix.dtype.kind not in "fiu" or matrix.shape not in ((3, 4), (4, 4)):
         raise UsageError(f"a placement is {matrix.dtype} of shape {matrix.shape}", mend="give numbers of shape (3, 4)")
     if matrix.shape == (4, 4) and np.isfinite(matrix).all() and not np.array_equal(matrix[3], (0, 0, 0, 1)):
@@ -314,10 +341,10 @@ def _placement(given: npt.ArrayLike | None) -> Sequence[float]:
 def _color(given: Sequence[int] | None) -> tuple[int, int, int, int] | None:
     if given is None:
         return None
-    values = [number(part, "color") for part in given]
+    values = [number(part, "color") for part in several(given, "color", "red, green, blue and perhaps alpha")]
     parts = [int(value) for value in values]
     if len(parts) not in (3, 4) or parts != values or not all(0 <= part <= 255 for part in parts):
-        raise UsageError(f"{given!r} is no colour", mend="give red, green, blue and perhaps alpha as whole numbers, 0 to 255")
+        raise UsageError(f"{shown(given)} is no colour", mend="give red, green, blue and perhaps alpha as whole numbers, 0 to 255")
     red, green, blue = parts[:3]
     return red, green, blue, parts[3] if len(parts) == 4 else 255
 
@@ -328,33 +355,67 @@ def load(
     up_axis: str | None = None,
     threads: int | None = None,
     progress: Progress | None = None,
+    georeference: bool = False,
 ) -> Model:
     """Reads model files (RVM, glTF, OBJ, STL; IFC and others where an importer is installed) into one model.
 
+    A project file gives its model as it was read last, without its files being read again.
+
     Args:
-        files: a path, or several.
+        files: a path, or several; or one project.
         unit: what the numbers of the files are in, as "mm", "m" or "in", or how many millimetres it has; None: what
             they state.
         up_axis: "x", "y" or "z"; None: what their format states.
         threads: how many work; None: as many as the process can run at a time.
         progress: called with the fraction of a step and its name, from this thread, some twenty times a second. What it
             raises ends the call.
+        georeference: put files whose importer says where they lie on a map there: x east, y north (docs/formats/ifc.md).
+            Without it coordinates are those of each file.
 
     Raises: InputError for a file that cannot be read, with where; UsageError.
     """
-    unit_mm: float | None = None
-    if isinstance(unit, str):
-        unit_mm = _core.unit_mm(unit)
-    elif unit is not None:
-        unit_mm = number(unit, "unit")
-        if unit_mm <= 0:
-            raise UsageError(f"{unit!r} is no length", "unit")
-    if up_axis is not None and up_axis not in _AXES:
-        raise UsageError(f"{up_axis!r} is no axis", "up_axis", "write x, y or z")
+    unit_mm = None if unit is None else _unit_mm(unit, "unit")
+    if up_axis is not None and (not isinstance(up_axis, str) or up_axis not in _AXES):
+        raise UsageError(f"{shown(up_axis)} is no axis", "up_axis", "write x, y or z")
     axis = None if up_axis is None else _AXES[up_axis]
+    given, on_map, options = paths(files, "files"), truth(georeference, "georeference"), run_options(threads, progress)
+    if projects := [file for file in given if _core.is_project(file)]:
+        if len(given) > 1:
+            raise UsageError(f"{projects[0]} is a project, and is read alone", "files", "Project.add() adds files to it")
+        for name, is_given in (("unit", unit is not None), ("up_axis", axis is not None), ("georeference", on_map)):
+            if is_given:
+                raise UsageError(f"{projects[0]} is a project, and its files were read already", name, "leave it out")
+        return Model(_core.project_model(projects[0], options))
     # An environment that nobody activated has its importers beside this Python, and not in PATH.
     importers = Path(sysconfig.get_path("scripts"))
-    return Model(_core.load(paths(files, "files"), unit_mm, axis, importers, run_options(threads, progress)))
+    return Model(_core.load(given, unit_mm, axis, on_map, importers, options))
+
+
+def model_core(model: Any, name: str = "model") -> _core.Model:
+    """What the extension knows a model as. Raises: UsageError."""
+    if not isinstance(model, Model):
+        raise UsageError(f"{shown(model)} is no strake.Model", name, "strake.load() reads one")
+    return model._core
+
+
+def sag_of(value: Length, name: str) -> float:
+    """The distance of chords from their curve, mm. Raises: UsageError."""
+    sag_mm = length(value, name)
+    if sag_mm < 0.001:
+        raise UsageError(f"{value!r} is finer than the grid of 1um", name)
+    return sag_mm
+
+
+def _unit_mm(unit: str | float, name: str) -> float:
+    if not isinstance(unit, str):
+        mm = number(unit, name)
+        if not 0 < mm < 1e12:
+            raise UsageError(f"{unit!r} is no length", name, "write how many millimetres the unit has")
+        return mm
+    try:
+        return _core.unit_mm(text(unit, name))
+    except UsageError as error:
+        raise UsageError(error.message, name, error.mend) from None
 
 
 def generate(
@@ -376,8 +437,5 @@ def generate(
 
     Raises: UsageError.
     """
-    count, which = int(number(objects, "objects")), int(number(seed, "seed"))
-    if count < 0 or which < 0:
-        raise UsageError("a number is negative", "objects" if count < 0 else "seed")
-    core = _core.generate(kind, count, which, turned, run_options(threads, progress))
-    return Model(core)
+    many, which, is_turned = count(objects, "objects"), count(seed, "seed"), truth(turned, "turned")
+    return Model(_core.generate(text(kind, "kind"), many, which, is_turned, run_options(threads, progress)))

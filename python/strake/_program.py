@@ -10,24 +10,31 @@ import sysconfig
 from collections.abc import Sequence
 from pathlib import Path
 
-from strake._arguments import PathLike, path, texts
-from strake._errors import Error, InternalError, error_of
+from strake._arguments import PathLike, count, number, path, several, texts, truth, words
+from strake._errors import Error, UsageError, error_of
 
 # Exit codes of the program that are failures; 1 and 4 say what was found, not that nothing was done.
 _CODES = {2: "usage", 3: "input", 5: "internal", 6: "memory", 130: "cancelled"}
 
 
+_MEND = "let it name the program strake, or unset it"
+
+
 def program() -> Path:
-    """Where the program is: STRAKE_PROGRAM, beside this Python, or on the PATH. Raises: Error."""
+    """Where the program is: STRAKE_PROGRAM, beside this Python, or on the PATH. Raises: UsageError."""
     given = os.environ.get("STRAKE_PROGRAM")
     if given:
-        return Path(given)
+        if not Path(given).is_file():
+            raise UsageError(f"there is no file {given}", "STRAKE_PROGRAM", _MEND)
+        if not os.access(given, os.X_OK):
+            raise UsageError(f"{given} may not be run", "STRAKE_PROGRAM", _MEND)
+        return Path(given).absolute()
     beside = Path(sysconfig.get_path("scripts")) / "strake"
     if beside.exists():
         return beside
     found = shutil.which("strake")
     if found is None:
-        raise InternalError("the program strake is not installed", mend="set STRAKE_PROGRAM to where it is")
+        raise UsageError("the program strake is not found", mend="install it, or set STRAKE_PROGRAM to where it is")
     return Path(found)
 
 
@@ -37,9 +44,12 @@ def run_program(arguments: Sequence[str | os.PathLike[str]], check: bool = True)
     Raises, unless `check` is false: strake.Error by the exit code, with what it wrote on standard error. Exit codes 1
     (clashes or faults found) and 4 (something was skipped) are no failures.
     """
-    words = [str(program()), *(os.fspath(word) for word in arguments)]
-    done = subprocess.run(words, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
-    if check and done.returncode not in (0, 1, 4):
+    command = [str(program()), *words(arguments, "arguments")]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+    except OSError as error:
+        raise UsageError(f"{command[0]} cannot be run: {error.strerror}", "STRAKE_PROGRAM", _MEND) from error
+    if truth(check, "check") and done.returncode not in (0, 1, 4):
         raise _error_of(done)
     return done
 
@@ -70,13 +80,13 @@ def evaluate(
     Raises: strake.Error, by the program's exit code.
     """
     into = path(folder, "folder")
-    words = ["evaluate", "--output", str(into)]
+    command = ["evaluate", "--output", str(into)]
     if scale is not None:
-        words += ["--scale", str(scale)]
+        command += ["--scale", repr(number(scale, "scale"))]
     if only is not None:
-        words += ["--only", ",".join(texts(only, "only"))]
+        command += ["--only", ",".join(texts(only, "only"))]
     if threads is not None:
-        counts = [threads] if isinstance(threads, int) else list(threads)
-        words += ["--threads", ",".join(str(count) for count in counts)]
-    run_program([*words, *arguments])
+        counts = [threads] if isinstance(threads, int) else several(threads, "threads", "a number of workers, or several")
+        command += ["--threads", ",".join(str(count(one, "threads")) for one in counts)]
+    run_program([*command, *words(arguments, "arguments")])
     return into

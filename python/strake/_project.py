@@ -14,7 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from strake import _core
-from strake._arguments import Length, PathLike, Progress, length, path, paths, run_options, texts
+from strake._arguments import Length, PathLike, Progress, count, path, paths, run_options, some_paths, text, texts, words
+from strake._clash import clearance_text
 from strake._errors import InputError, UsageError
 from strake._model import Model
 from strake._program import run_program
@@ -32,16 +33,16 @@ class Project:
     @classmethod
     def create(cls, file: PathLike, models: PathLike | Iterable[PathLike] = ()) -> Project:
         """Makes a project, with what model files hold. Raises: OutputError where the file exists; InputError."""
-        where = path(file, "file")
+        where, given = path(file, "file"), some_paths(models, "models")
         _core.create_project(where)
-        project = cls(where)
-        given = [models] if isinstance(models, (str, os.PathLike)) else list(models)
-        if given:
-            try:
+        try:
+            project = cls(where)
+            if given:
                 project.add(given)
-            except Exception:
-                where.unlink()
-                raise
+        except BaseException:
+            for end in ("", "-wal", "-shm"):
+                Path(f"{where}{end}").unlink(missing_ok=True)
+            raise
         return project
 
     def add(self, models: PathLike | Iterable[PathLike]) -> dict[str, Any]:
@@ -53,12 +54,14 @@ class Project:
 
         Returns what changed (schemas/project-changes.schema.json).
         """
-        given = [path(models, "models")] if isinstance(models, (str, os.PathLike)) else [path(m, "models") for m in models]
-        return self._change(["project", "update", self.path, *given])
+        return self._change(["project", "update", self.path, *some_paths(models, "models")])
 
     def remove(self, *labels: str) -> dict[str, Any]:
         """Takes model files out, by their labels."""
-        return self._change(["project", "remove", self.path, *labels])
+        given = texts(labels, "labels")
+        if not given:
+            raise UsageError("no label is given", "labels", "list('files') has them")
+        return self._change(["project", "remove", self.path, *given])
 
     def _change(self, words: Sequence[str | os.PathLike[str]]) -> dict[str, Any]:
         changes: dict[str, Any] = json.loads(run_program([*words, "--json", "--quiet"]).stdout)
@@ -80,14 +83,14 @@ class Project:
 
         Returns: the document of schemas/clash.schema.json.
         """
-        words: list[str | os.PathLike[str]] = ["clash", "--project", self.path, "--json", "--quiet", *arguments]
+        command = ["clash", "--project", str(self.path), "--json", "--quiet", *words(arguments, "arguments")]
         if clearance is not None:
-            words += ["--clearance", clearance if isinstance(clearance, str) else f"{length(clearance, 'clearance')!r}mm"]
+            command.append(f"--clearance={clearance_text(clearance)}")
         if rules is not None:
-            words += ["--rules", path(rules, "rules")]
-        for file in [save] if isinstance(save, (str, os.PathLike)) else save:
-            words += ["--output", path(file, "save")]
-        document: dict[str, Any] = json.loads(run_program(words).stdout)
+            command.append(f"--rules={path(rules, 'rules')}")
+        for file in some_paths(save, "save"):
+            command.append(f"--output={file}")
+        document: dict[str, Any] = json.loads(run_program(command).stdout)
         return document
 
     def list(self, kind: str = "clashes", most: int = 0) -> dict[str, npt.NDArray[Any]]:
@@ -99,9 +102,7 @@ class Project:
 
         Columns of whole numbers are int64, others with numbers float64 (NaN where there is none), the rest objects.
         """
-        if most < 0:
-            raise UsageError(f"{most} is no count", "most")
-        names, rows = _core.project_list(self.path, kind, most, run_options(None, None))
+        names, rows = _core.project_list(self.path, text(kind, "kind"), count(most, "most"), run_options(None, None))
         return {name: _column([row[i] for row in rows]) for i, name in enumerate(names)}
 
     def set_status(
@@ -123,25 +124,28 @@ class Project:
         wanted = texts(keys, "keys")
         if not wanted:
             raise UsageError("no clash is named", "keys")
-        words = ["clash", "set", "--project", str(self.path), "--quiet"]
+        if status is None and comment is None and assignee is None:
+            raise UsageError("there is nothing to set", "status", "give status, comment or assignee")
+        command = ["clash", "set", "--project", str(self.path), "--quiet"]
         for name, value in (("status", status), ("comment", comment), ("assignee", assignee), ("by", by)):
             if value is not None:
-                words.append(f"--{name}={value}")
-        run_program([*words, "--", *wanted])
+                command.append(f"--{name}={text(value, name)}")
+        run_program([*command, "--", *wanted])
 
     def draw(self, view: str, hidden: str = "off") -> str:
         """Returns the SVG of a stored view; only what changed since is solved again."""
         with tempfile.TemporaryDirectory() as folder:
             into = Path(folder) / "view.svg"
-            words = ["draw", "--project", str(self.path), "--stored", view, "--hidden", hidden, "--quiet"]
-            run_program([*words, "--output", str(into)])
+            command = ["draw", "--project", str(self.path), f"--stored={text(view, 'view')}", f"--hidden={text(hidden, 'hidden')}"]
+            run_program([*command, "--quiet", "--output", str(into)])
             return into.read_text(encoding="utf-8")
 
     def store_view(self, name: str, arguments: Sequence[str] = ("--view", "iso")) -> str:
         """Remembers a view by the arguments of `strake draw`, and returns its SVG."""
         with tempfile.TemporaryDirectory() as folder:
             into = Path(folder) / "view.svg"
-            run_program(["draw", "--project", self.path, "--save", name, "--quiet", "--output", into, *arguments])
+            command = ["draw", "--project", str(self.path), f"--save={text(name, 'name')}", "--quiet", "--output", str(into)]
+            run_program([*command, *words(arguments, "arguments")])
             return into.read_text(encoding="utf-8")
 
     def model(self, threads: int | None = None, progress: Progress | None = None) -> Model:

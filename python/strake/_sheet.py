@@ -7,7 +7,7 @@ from functools import cached_property
 
 from strake import _core
 from strake._arguments import PathLike, Progress, path, run_options
-from strake._model import Diagnostic, Model
+from strake._model import Diagnostic, Model, model_core
 
 
 class SheetDrawing:
@@ -59,7 +59,7 @@ class Sheet:
 
     def draw(self, model: Model, threads: int | None = None, progress: Progress | None = None) -> SheetDrawing:
         """Draws its views and puts them on paper. Raises: InputError where they have no room; KeyboardInterrupt."""
-        return SheetDrawing(_core.compose_sheet(self._core, model._core, run_options(threads, progress)))
+        return SheetDrawing(_core.compose_sheet(self._core, model_core(model), run_options(threads, progress)))
 
     def __repr__(self) -> str:
         return f"<strake.Sheet of {self.name}>"

@@ -13,6 +13,7 @@
 
 #include "io/importer/find_importer.hpp"
 #include "io/importer/importing_reader.hpp"
+#include "io/importer/map_place.hpp"
 #include "io/source/input_file.hpp"
 #include "io/source/reader_support.hpp"
 #include "strake/io/importer.hpp"
@@ -46,16 +47,16 @@ const Reader* best_reader(const Readers& readers, const FileBytes& file, const R
   return best;
 }
 
-/// Returns how a file of that suffix is made into one that is read.
+/// Returns how a file of that suffix is made into one that is read; empty where it has none.
 std::string conversion_of(std::string_view suffix) {
   constexpr std::array<std::string_view, 5> kCad{"step", "stp", "iges", "igs", "brep"};
   constexpr std::array<std::string_view, 3> kMesh{"ply", "fbx", "dae"};
-  std::string advice;
+  std::string advice = "; export the model as one of these";
   if (std::ranges::find(kCad, suffix) != kCad.end())
     advice = "; open it in a CAD program, as FreeCAD, and export it as glTF";
   if (std::ranges::find(kMesh, suffix) != kMesh.end())
     advice = "; open it in Blender and export it as glTF";
-  if (advice.empty()) return "; export the model as one of these";
+  if (suffix.empty()) return advice;
   return advice.append("; a program strake-import-")
       .append(suffix)
       .append(" in PATH would be taken, too");
@@ -89,7 +90,7 @@ class Reading {
   [[nodiscard]] Status scene_faults() const;
 
  private:
-  Result<model::Model> read_one(const FileToRead& file);
+  Result<ImportedModel> read_one(const FileToRead& file);
   [[nodiscard]] const Reader* reader_of(const FileBytes& file) const {
     return best_reader(readers_, file, importing_);
   }
@@ -123,7 +124,7 @@ Status Reading::scene_faults() const {
   return {};
 }
 
-Result<model::Model> Reading::read_one(const FileToRead& to_read) {
+Result<ImportedModel> Reading::read_one(const FileToRead& to_read) {
   const auto& [path, options] = to_read;
   const Result<FileContent> content = FileContent::read(path, context_);
   if (!content) return content.error();
@@ -134,7 +135,9 @@ Result<model::Model> Reading::read_one(const FileToRead& to_read) {
   if (reader == nullptr) return unknown_format(readers_, file);
   try {
     if (reader == &importing_) return importing_.read_with(file, options, scenes_, context_);
-    return reader->read(file, options, context_);
+    Result<model::Model> read = reader->read(file, options, context_);
+    if (!read) return read.error();
+    return ImportedModel{std::move(*read), {}};
   } catch (const std::length_error&) {
     return Error{ErrorCode::input, "is too large", path.string(), "split the file"};
   }
@@ -145,21 +148,27 @@ Result<model::Model> Reading::read(std::span<const FileToRead> files) {
   // Diagnostics are reported in the order of the files' names, whatever the order in which they
   // were given.
   std::map<std::pair<std::string, std::string>, Diagnostics> diagnostics;
-  bool keeps_scenes = true;
+  std::vector<FilePlace> places;
+  bool keeps_scenes = true, on_map = false;
   for (const FileToRead& file : files) {
     const std::filesystem::path& path = file.path;
     if (context_.stop.stop_requested())
       return Error{ErrorCode::cancelled, "reading was cancelled", path.string(), ""};
-    Result<model::Model> one = read_one(file);
-    if (!one) return one.error();
+    Result<ImportedModel> read = read_one(file);
+    if (!read) return read.error();
+    model::Model& one = read->model;
+    places.push_back({path.string(), std::move(read->map)});
+    on_map = on_map || file.options.on_map;
     // That is of the run and not of a file, and said once.
-    if (one->diagnostics.count(kSceneNotKept) > 0 && !std::exchange(keeps_scenes, false))
-      one->diagnostics.remove(kSceneNotKept);
+    if (one.diagnostics.count(kSceneNotKept) > 0 && !std::exchange(keeps_scenes, false))
+      one.diagnostics.remove(kSceneNotKept);
     diagnostics[{path.filename().string(), path.string()}].append(
-        std::exchange(one->diagnostics, Diagnostics()));
-    model::append(all, std::move(*one));
+        std::exchange(one.diagnostics, Diagnostics()));
+    model::append(all, std::move(one));
   }
   for (const auto& [name, of_file] : diagnostics) all.diagnostics.append(of_file);
+  std::ranges::sort(places, {}, &FilePlace::file);
+  all.diagnostics.append(tell_of_places(places, on_map));
   model::finish(all);
   return all;
 }

@@ -533,6 +533,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   CLI::App* const command = program.add_subcommand(
       "clash", "Clashes, contacts and clearance violations of models, with exact distances");
   add_input_options(*command, options->input);
+  add_georeference_option(*command, options->input);
   command->get_option("files")->required(false);  // 'strake clash diff' has files of its own
   add_scene_options(*command, options->scene, "a quarter of the touch tolerances");
   add_rules(*command, *options);

@@ -278,6 +278,7 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
   CLI::App* const command =
       program.add_subcommand("draw", "Line drawings of models, hidden lines removed exactly");
   add_input_options(*command, options->input);
+  add_georeference_option(*command, options->input);
   command->get_option("files")->required(false);  // 'strake draw diff' has files of its own
   add_scene_options(*command, options->scene, "0.05mm on paper, 0.5mm at most");
   add_view(*command, *options);

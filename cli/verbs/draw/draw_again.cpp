@@ -19,6 +19,7 @@ std::string option_of_model(const DrawOptions& given) {
   if (!given.input.units.empty()) return "--unit";
   if (!given.input.up_axes.empty()) return "--up-axis";
   if (given.input.strict) return "--strict";
+  if (given.input.georeference) return "--georeference";
   return first_option_of_lines(given);
 }
 

@@ -23,6 +23,9 @@ struct ReadOptions {
   std::optional<double> unit_mm;  ///< length of the file's unit in mm (1000 for metres)
   std::optional<UpAxis> up_axis;
   std::optional<std::string> encoding;  ///< the encoding of names, where the format leaves it open
+  /// Whether coordinates are those of the map where an importer says how it lies on one: east,
+  /// north and up.
+  bool on_map = false;
 };
 
 /// A whole file in memory (or mapped), with its path for messages and for files beside it.

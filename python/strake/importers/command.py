@@ -10,6 +10,10 @@ import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from strake.importers.report import ImportFailed, Report
 from strake.importers.scene_writer import SceneTooLarge, SceneWriter
@@ -28,10 +32,20 @@ class Job:
     format: str = ""
     unit: str = ""
     depends_on: list[str] = field(default_factory=list)
+    map_place: dict[str, Any] | None = None
 
-    def scene(self, unit_mm: float = 1.0, up: str = "z") -> SceneWriter:
-        """Begins the scene."""
-        return SceneWriter(self.output, unit_mm, up)
+    def scene(self, unit_mm: float = 1.0, up: str = "z", sag_mm: float | None = None) -> SceneWriter:
+        """Begins the scene; `sag_mm` as SceneWriter has it."""
+        return SceneWriter(self.output, unit_mm, up, sag_mm=sag_mm)
+
+    def place_on_map(self, crs: str, to_map: ArrayLike) -> None:
+        """Says where the file lies on a map.
+
+        `crs` names its coordinate system, `to_map` is the 4x4 matrix, rows first, from millimetres of the scene with z up
+        to millimetres east, north and up. It is applied where the user asks for it.
+        """
+        matrix = np.asarray(to_map, dtype=np.float64).reshape(4, 4)
+        self.map_place = {"crs": crs, "matrix": matrix.T.ravel().tolist()}
 
 
 Convert = Callable[[Job], None]
@@ -79,5 +93,5 @@ def _converted(convert: Convert, job: Job) -> int:
         job.report.error(f"the importer has a fault: {type(failure).__name__}: {failure}", "report it, with the file if that can be given")
         return 1
     here = sorted(str(path) for path in Path(__file__).resolve().parent.rglob("*.py"))
-    job.report.made_by(job.made_by, job.format, job.unit, {*job.depends_on, *here})
+    job.report.made_by(job.made_by, job.format, job.unit, {*job.depends_on, *here}, job.map_place)
     return 0

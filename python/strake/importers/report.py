@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any, NoReturn
@@ -66,9 +66,15 @@ class Report:
         """Writes the last line of an import of which nothing came."""
         self._line({"error": message, "mend": mend})
 
-    def made_by(self, name: str, file_format: str, unit: str, depends_on: Iterable[str] = ()) -> None:
-        """Writes the line that ends an import: what read the file, its format and unit, and the files of the importer."""
-        self._line({"made_by": name, "format": file_format, "unit": unit, "depends_on": sorted(depends_on)})
+    def made_by(
+        self, name: str, file_format: str, unit: str, depends_on: Iterable[str] = (), map_place: Mapping[str, Any] | None = None
+    ) -> None:
+        """Writes the line that ends an import: what read the file, its format and unit, its place on a map, and the files
+        of the importer."""
+        line: dict[str, Any] = {"made_by": name, "format": file_format, "unit": unit}
+        if map_place is not None:
+            line["map"] = dict(map_place)
+        self._line({**line, "depends_on": sorted(depends_on)})
 
     def _diagnostic(self, severity: str, code: str, message: str, object_id: str | None) -> None:
         line: dict[str, Any] = {"severity": severity, "code": code}

@@ -51,18 +51,20 @@ def encoded(attributes: Attributes) -> Any:
 class SceneWriter:
     """Writes one scene. What is added goes to temporary files at once, so that memory holds a few bytes of each object.
 
-    Coordinates are in `unit_mm` millimetres, `up` is the axis that points up. Bytes depend on what is added and in
-    which order, on nothing else. The file appears when the `with` block ends without an exception.
+    Coordinates are in `unit_mm` millimetres, `up` is the axis that points up, `sag_mm` is how far at most triangles lie
+    from the surfaces that they stand for, of shapes that do not say so themselves; None where that is not known. Bytes depend
+    on what is added and in which order, on nothing else. The file appears when the `with` block ends without an exception.
     """
 
-    def __init__(self, path: Path, unit_mm: float = 1.0, up: str = "z", generator: str = "Strake importer") -> None:
+    def __init__(
+        self, path: Path, unit_mm: float = 1.0, up: str = "z", generator: str = "Strake importer", sag_mm: float | None = None
+    ) -> None:
         self._path = path
         self._unit_mm = unit_mm
-        self._asset = {
-            "version": "2.0",
-            "generator": generator,
-            "extras": {"unit_mm": unit_mm, "up_axis": up},
-        }
+        extras: dict[str, Any] = {"unit_mm": unit_mm, "up_axis": up}
+        if sag_mm is not None:
+            extras["sag_mm"] = sag_mm
+        self._asset = {"version": "2.0", "generator": generator, "extras": extras}
         self._folder = tempfile.TemporaryDirectory(prefix=".strake-scene-", dir=path.parent)
         self._spools: dict[str, IO[bytes]] = {}
         for name in ("nodes", "meshes", "accessors", "positions", "wide", "narrow"):
@@ -103,9 +105,9 @@ class SceneWriter:
         self._objects_of[number] = array("Q")
         return Group(number)
 
-    def shape(self, parts: Sequence[Part]) -> Shape:
+    def shape(self, parts: Sequence[Part], sag_mm: float | None = None) -> Shape:
         """Adds a shape, or finds it where an equal one is there already. Raises ValueError as `prepare_shape` does."""
-        return self.add_shape(prepare_shape(parts, self._unit_mm))
+        return self.add_shape(prepare_shape(parts, self._unit_mm, sag_mm))
 
     def add_shape(self, shape: PreparedShape) -> Shape:
         """Adds a shape that `prepare_shape` made."""
@@ -115,7 +117,8 @@ class SceneWriter:
             for part in shape.parts:
                 positions, indices = self._piece(part)
                 primitives.append({"attributes": {"POSITION": positions}, "indices": indices, "material": self._material(part.color)})
-            mesh = self._add("meshes", {"primitives": primitives})
+            stated = {} if shape.sag_mm is None else {"extras": {"sag_mm": _whole(float(shape.sag_mm))}}
+            mesh = self._add("meshes", {"primitives": primitives, **stated})
             self._meshes[shape.key] = mesh
         return Shape(mesh, shape.middle)
 

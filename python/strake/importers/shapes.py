@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -47,6 +48,7 @@ class PreparedShape:
     parts: tuple[PreparedPart, ...]
     middle: tuple[float, float, float]
     key: bytes
+    sag_mm: float | None = None
 
 
 @dataclass(frozen=True)
@@ -57,9 +59,11 @@ class Shape:
     middle: tuple[float, float, float]
 
 
-def prepare_shape(parts: Sequence[Part], unit_mm: float = 1.0) -> PreparedShape:
+def prepare_shape(parts: Sequence[Part], unit_mm: float = 1.0, sag_mm: float | None = None) -> PreparedShape:
     """Returns the shape that these parts are together. Needs no scene, so that workers can do it.
 
+    `sag_mm` is how far at most the triangles lie from the surfaces that they stand for: 0 where all faces are flat, None
+    where that is not known.
     Raises ValueError where a corner is not finite, a triangle has no such corner, or there is no triangle at all.
     """
     checked = [_checked(part) for part in parts]
@@ -71,6 +75,10 @@ def prepare_shape(parts: Sequence[Part], unit_mm: float = 1.0) -> PreparedShape:
     high = np.max([vertices.max(axis=0) for vertices, _, _ in checked], axis=0)
     half = np.round((high - low) / 2 * steps) / steps
     digest = hashlib.blake2b(digest_size=16)
+    if sag_mm is not None:
+        if not 0 <= sag_mm < math.inf:
+            raise ValueError(f"{sag_mm} is no distance from a surface")
+        digest.update(repr(float(sag_mm)).encode())
     prepared = []
     for vertices, triangles, color in checked:
         rounded = np.round((vertices - low) * steps) / steps - half
@@ -80,7 +88,7 @@ def prepare_shape(parts: Sequence[Part], unit_mm: float = 1.0) -> PreparedShape:
         digest.update(part.indices)
         prepared.append(part)
     middle = low + half
-    return PreparedShape(tuple(prepared), (float(middle[0]), float(middle[1]), float(middle[2])), digest.digest())
+    return PreparedShape(tuple(prepared), (float(middle[0]), float(middle[1]), float(middle[2])), digest.digest(), sag_mm)
 
 
 def around_middle(placement: NDArray[np.float64], middle: Sequence[float]) -> NDArray[np.float64]:

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import os
+import re
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +13,7 @@ import pytest
 
 ifcopenshell = pytest.importorskip("ifcopenshell")
 
+import strake  # noqa: E402
 from conversions import Outcome, convert  # noqa: E402
 from glb_reader import Glb  # noqa: E402
 
@@ -77,3 +80,14 @@ def test_names_and_double_ids(tmp_path: Path) -> None:
     doubles = converted("opensourceBIM_TestFiles/doubleguids.ifc", tmp_path)
     assert len(doubles.glb.ids) == len(set(doubles.glb.ids))
     assert any(line["code"] == "ifc-double-id" for line in doubles.told("warning"))
+
+
+def test_the_pair_that_a_real_bcf_names_is_found(tmp_path: Path) -> None:
+    folder = "buildingsmart-community_Community-Sample-Test-Files"
+    with zipfile.ZipFile(DATA.parent / "bcf" / folder / "ROOT-Vebo interne modelkwaliteit.bcfzip") as archive:
+        (view,) = [name for name in archive.namelist() if name.endswith(".bcfv")]
+        named = set(re.findall(r'IfcGuid="([^"]+)"', archive.read(view).decode("utf-8")))
+    found = strake.clash(strake.load(converted(f"{folder}/ROOT-Vebo.ifczip", tmp_path).output))
+    (one,) = [clash for clash in found if {clash.a_id, clash.b_id} == named]
+    # The covers of two cavity walls meet in a point, which another program calls an intersection.
+    assert one.kind == strake.Kind.CONTACT and abs(one.separation) < 0.001

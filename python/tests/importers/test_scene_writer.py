@@ -33,6 +33,20 @@ def moved(x: float, y: float, z: float) -> np.ndarray:
     return matrix
 
 
+def test_shapes_say_how_far_they_are_from_their_surfaces(tmp_path: Path) -> None:
+    triangle = Part(np.eye(3), [[0, 1, 2]])
+    with SceneWriter(tmp_path / "s.glb", sag_mm=0.5) as scene:
+        for name, sag_mm in (("a", None), ("b", 0.0), ("c", 0.25), ("d", 0.25)):
+            scene.object(name, name, scene.shape([triangle], sag_mm=sag_mm))
+        for wrong in (-1.0, float("nan"), float("inf")):
+            with pytest.raises(ValueError, match="no distance"):
+                scene.shape([triangle], sag_mm=wrong)
+    glb = Glb(tmp_path / "s.glb")
+    assert glb.json["asset"]["extras"]["sag_mm"] == 0.5
+    assert [mesh.get("extras") for mesh in glb.json["meshes"]] == [None, {"sag_mm": 0}, {"sag_mm": 0.25}]
+    assert glb.node("c")["mesh"] == glb.node("d")["mesh"]
+
+
 def test_equal_shapes_are_one_mesh_wherever_they_lie_in_their_frames(tmp_path: Path) -> None:
     with SceneWriter(tmp_path / "a.glb") as scene:
         for number, at in enumerate((0.0, 1234.567, 9_876_543.21)):

@@ -71,4 +71,10 @@ Result<Container> open_container(const FileBytes& file) {
   return container;
 }
 
+bool may_name_files(const Container& container) {
+  // A name may be written with escapes.
+  return container.json.find("\"uri\"") != std::string_view::npos ||
+         container.json.find("\\u") != std::string_view::npos;
+}
+
 }  // namespace strake::io::gltf

@@ -24,4 +24,7 @@ struct Container {
 /// Splits a GLB into its chunks; any other file is JSON as a whole.
 [[nodiscard]] Result<Container> open_container(const FileBytes& file);
 
+/// Whether the text may name other files. Most name none, and their text is long.
+[[nodiscard]] bool may_name_files(const Container& container);
+
 }  // namespace strake::io::gltf

@@ -46,6 +46,13 @@ bool any_weight(const JsonValue& weights) {
   return any;
 }
 
+/// Returns how far at most triangles are from the surfaces that they stand for, as extras state it.
+double stated_sag(const JsonValue& extras, double otherwise) {
+  constexpr double kMost = 1e12;
+  const std::optional<double> sag = extras["sag_mm"].number();
+  return sag && *sag >= 0 && *sag < kMost ? *sag : otherwise;
+}
+
 /// The fewest bytes of the file per node beyond a number of nodes that hurts nobody. A node takes
 /// half a kilobyte of memory, and {"mesh":1,"translation":[1,2,3]} is 36 bytes.
 constexpr std::size_t kLeastNodeBytes = 24, kFreeNodes = std::size_t{1} << 20U;
@@ -167,10 +174,18 @@ Status Importer::check_amount() const {
 
 Status Importer::load_meshes() {
   const MeshInput input{&accessors_, &materials_, frame_};
+  const double of_all = stated_sag(root_["asset"]["extras"], geometry::TriangleMesh().sag_mm);
+  // A file that is read in another unit than it states is larger all over.
+  const double scale = frame_.unit_mm / default_.unit_mm;
   loaded_.resize(used_.size());
-  return parallel::for_each(
-      input_.context, {.name = "load glTF meshes", .n = used_.size()},
-      [&](std::size_t i) { loaded_[i] = load_mesh(input, meshes_[used_[i]], used_[i]); });
+  return parallel::for_each(input_.context, {.name = "load glTF meshes", .n = used_.size()},
+                            [&](std::size_t i) {
+                              const JsonValue& mesh = meshes_[used_[i]];
+                              LoadedMesh& loaded = loaded_[i];
+                              loaded = load_mesh(input, mesh, used_[i]);
+                              loaded.opaque.sag_mm = scale * stated_sag(mesh["extras"], of_all);
+                              loaded.transparent.sag_mm = loaded.opaque.sag_mm;
+                            });
 }
 
 void Importer::note_meshes() {

@@ -78,10 +78,7 @@ class GltfReader final : public Reader {
       const FileBytes& file, const parallel::Context& context) const override {
     std::vector<std::filesystem::path> found;
     const Result<gltf::Container> container = gltf::open_container(file);
-    // Most files name no other, and their JSON is long.
-    if (!container || (container->json.find("\"uri\"") == std::string_view::npos &&
-                       container->json.find("\\u") == std::string_view::npos))
-      return found;
+    if (!container || !gltf::may_name_files(*container)) return found;
     const Result<gltf::Document> document = gltf::Document::open(container->json, context);
     if (!document) return found;
     for (const gltf::JsonValue& buffer : document->root()["buffers"].items()) {

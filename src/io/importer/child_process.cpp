@@ -23,13 +23,16 @@ namespace {
 /// How a child is started: its files, its group and its signals.
 class SpawnOptions {
  public:
-  SpawnOptions(const std::filesystem::path& log, KilledWith killed_with) {
+  explicit SpawnOptions(const ChildProgram& program) {
     ::posix_spawn_file_actions_init(&files_);
     ::posix_spawn_file_actions_addopen(&files_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     constexpr mode_t kMode = 0644;
-    ::posix_spawn_file_actions_addopen(&files_, STDOUT_FILENO, log.c_str(),
+    ::posix_spawn_file_actions_addopen(&files_, STDOUT_FILENO, program.log.c_str(),
                                        O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, kMode);
     ::posix_spawn_file_actions_adddup2(&files_, STDOUT_FILENO, STDERR_FILENO);
+    // Behind the log, whose path may depend on our folder.
+    if (!program.folder.empty())
+      ::posix_spawn_file_actions_addchdir_np(&files_, program.folder.c_str());
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
     // Files that other threads have opened by streams, which do not close themselves.
     ::posix_spawn_file_actions_addclosefrom_np(&files_, STDERR_FILENO + 1);
@@ -42,7 +45,7 @@ class SpawnOptions {
     ::posix_spawnattr_setsigmask(&attributes_, &none);
     ::posix_spawnattr_setsigdefault(&attributes_, &ignored_by_us);
     int flags = POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF;
-    if (killed_with == KilledWith::its_group) flags |= POSIX_SPAWN_SETPGROUP;
+    if (program.killed_with == KilledWith::its_group) flags |= POSIX_SPAWN_SETPGROUP;
     ::posix_spawnattr_setflags(&attributes_, static_cast<short>(flags));
   }
   ~SpawnOptions() {
@@ -174,7 +177,7 @@ ChildEnd end_of(Child& child, const std::optional<ChildEnd::How>& why,
 }  // namespace
 
 ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop) {
-  const pid_t process = SpawnOptions(program.log, program.killed_with).start(program.words);
+  const pid_t process = SpawnOptions(program).start(program.words);
   if (process < 0) return {ChildEnd::How::not_started, 0, {}};
   Child child(process, program.killed_with);
   Log log(program);

@@ -26,6 +26,7 @@ struct ChildProgram {
   std::vector<std::string> words;  ///< the first is searched in PATH where it has no slash
   std::optional<double> limit_s;   ///< after which it is killed
   std::filesystem::path log;       ///< takes all that it writes, and stays
+  std::filesystem::path folder;    ///< its current folder; empty: ours
   /// A log that grows longer is begun anew: a program that repeats one warning may fill a disk.
   std::uintmax_t most_log_bytes = std::numeric_limits<std::uintmax_t>::max();
   KilledWith killed_with = KilledWith::its_group;

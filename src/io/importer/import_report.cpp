@@ -102,6 +102,9 @@ void ImportReport::take_end(const gltf::JsonValue& line) {
   facts_.made_by = short_text(line["made_by"], kLongestName);
   facts_.format = short_text(line["format"], kLongestName);
   facts_.unit = short_text(line["unit"], kLongestName);
+  facts_.map = map_place_in(line["map"]);
+  if (facts_.map && facts_.map->crs.size() > kLongestName) facts_.map.reset();
+  if (line["map"].exists() && !facts_.map) note_odd();
   facts_.depends_on.clear();
   line["depends_on"].elements([&](const gltf::JsonValue& file) {
     if (file.is_string() && facts_.depends_on.size() < kMostDepends)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/gltf/json/json.hpp"
+#include "io/importer/map_place.hpp"
 #include "strake/core/diagnostics.hpp"
 
 namespace strake::io {
@@ -17,6 +18,7 @@ namespace strake::io {
 struct SceneFacts {
   std::string made_by, format;
   std::string unit;                     ///< of the file, as "mm"; empty where it is not said
+  std::optional<MapPlace> map;          ///< where it lies on a map, if it says so
   std::vector<std::string> depends_on;  ///< files of the importer
   Diagnostics diagnostics;              ///< `where` is the object alone
 };

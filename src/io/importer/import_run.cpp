@@ -26,6 +26,13 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kMostScene = std::uintmax_t{1} << 32U, kMostReport = 512U << 20U;
 constexpr std::uintmax_t kMostLog = 16U << 20U;
 
+/// Returns a path that says the same in another folder.
+fs::path anywhere(const fs::path& path) {
+  std::error_code failed;
+  const fs::path absolute = fs::absolute(path, failed);
+  return failed ? path : absolute;
+}
+
 std::uintmax_t size_of(const fs::path& file) {
   std::error_code failed;
   const std::uintmax_t size = fs::file_size(file, failed);
@@ -79,23 +86,24 @@ class ImportRun {
       : task_(task),
         options_(options),
         name_(task.program.file.filename().string()),
-        scene_(scene_file(task.folder)),
-        report_file_(task.folder / "report.jsonl") {}
+        folder_(anywhere(task.folder)),
+        scene_(scene_file(folder_)),
+        report_file_(folder_ / "report.jsonl") {}
 
   Result<SceneFacts> run() {
-    std::error_code failed;
-    const fs::path file = fs::absolute(task_.file, failed);
     ChildProgram child;
-    child.words = {task_.program.file.string(),
+    child.words = {anywhere(task_.program.file).string(),
                    "--input",
-                   (failed ? task_.file : file).string(),
+                   anywhere(task_.file).string(),
                    "--output",
                    scene_.string(),
                    "--report",
                    report_file_.string(),
                    "--threads",
                    std::to_string(options_.threads)};
-    child.log = task_.folder / "log";
+    child.log = folder_ / "log";
+    // What a stranger put beside the model is not found by a program that looks around it.
+    child.folder = folder_;
     child.most_log_bytes = kMostLog;
     child.may_go_on = [this] { return may_go_on(); };
     last_progress_ = std::chrono::steady_clock::now();
@@ -133,7 +141,7 @@ class ImportRun {
   const ImportTask& task_;
   const ImportRunOptions& options_;
   std::string name_;
-  fs::path scene_, report_file_;
+  fs::path folder_, scene_, report_file_;
   GrowingFile file_{report_file_};
   ImportReport report_;
   std::chrono::steady_clock::time_point last_progress_;

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "core/text_encoding.hpp"
 #include "core/units.hpp"
 #include "io/gltf/container.hpp"
 #include "io/gltf/document.hpp"
@@ -29,6 +30,25 @@ double unit_of_scene(const FileBytes& scene, const parallel::Context& context) {
   if (!container) return frame.unit_mm;
   const Result<gltf::Document> document = gltf::Document::open(container->json, context);
   return document ? gltf::stated_frame(document->root()).unit_mm : frame.unit_mm;
+}
+
+/// Returns the first file that a scene names besides itself; nothing where it holds all that it
+/// shows. A scene that is kept would go stale with such a file, and could show any file of the
+/// user's.
+std::optional<std::string> named_by_scene(const FileBytes& scene,
+                                          const parallel::Context& context) {
+  const Result<gltf::Container> container = gltf::open_container(scene);
+  if (!container || !gltf::may_name_files(*container)) return std::nullopt;
+  const Result<gltf::Document> document = gltf::Document::open(container->json, context);
+  if (!document) return std::nullopt;
+  for (const std::string_view list : {"buffers", "images"})
+    for (const gltf::JsonValue& item : document->root()[list].items()) {
+      const gltf::JsonValue uri = item["uri"];
+      if (!uri.is_string()) continue;
+      std::string text = uri.text_value();
+      if (!text.starts_with("data:")) return text;
+    }
+  return std::nullopt;
 }
 
 /// Returns the options by which a scene is read as the user says that its file is to be read: a
@@ -99,12 +119,14 @@ int ImportingReader::recognise(const FileBytes& file) const {
 Result<model::Model> ImportingReader::read(const FileBytes& file, const ReadOptions& options,
                                            const parallel::Context& context) const {
   ImportedScenes none;
-  return read_with(file, options, none, context);
+  Result<ImportedModel> read = read_with(file, options, none, context);
+  if (!read) return read.error();
+  return std::move(read->model);
 }
 
-Result<model::Model> ImportingReader::read_with(const FileBytes& file, const ReadOptions& options,
-                                                ImportedScenes& scenes,
-                                                const parallel::Context& context) const {
+Result<ImportedModel> ImportingReader::read_with(const FileBytes& file, const ReadOptions& options,
+                                                 ImportedScenes& scenes,
+                                                 const parallel::Context& context) const {
   if (fault_) return *fault_;
   const std::optional<SceneJob> job = maker_.job_of(file);
   if (!job)
@@ -112,7 +134,7 @@ Result<model::Model> ImportingReader::read_with(const FileBytes& file, const Rea
   if (!scenes.contains(job->key)) scenes.merge(maker_.make_all({&*job, 1}, context));
   Result<ImportedScene>& scene = scenes.at(job->key);
   if (!scene) return scene.error();
-  std::optional<Result<model::Model>> model = read_scene({file, options, context}, *job, *scene);
+  std::optional<Result<ImportedModel>> model = read_scene({file, options, context}, *job, *scene);
   if (model) return std::move(*model);
   // What was kept is damaged, or another run has removed it meanwhile.
   maker_.forget(job->key);
@@ -126,9 +148,9 @@ Result<model::Model> ImportingReader::read_with(const FileBytes& file, const Rea
                file.path.string(), "let STRAKE_CACHE name a folder on another disk"};
 }
 
-std::optional<Result<model::Model>> ImportingReader::read_scene(const gltf::ImportInput& input,
-                                                                const SceneJob& job,
-                                                                const ImportedScene& scene) const {
+std::optional<Result<ImportedModel>> ImportingReader::read_scene(const gltf::ImportInput& input,
+                                                                 const SceneJob& job,
+                                                                 const ImportedScene& scene) const {
   const auto& [file, options, context] = input;
   const Result<FileContent> content = FileContent::read(scene.path, context);
   if (!content && (!scene.is_kept || content.error().code != ErrorCode::input))
@@ -137,17 +159,31 @@ std::optional<Result<model::Model>> ImportingReader::read_scene(const gltf::Impo
   if (content) bytes = scene.is_kept ? scene_in(content->bytes()) : content->bytes();
   if (!bytes) return std::nullopt;
   const FileBytes scene_bytes{file.path, *bytes};
+  const std::string importer = job.program.file.filename().string();
+  if (const auto named = named_by_scene(scene_bytes, context)) {
+    if (scene.is_kept) maker_.forget(job.key);
+    return Error{ErrorCode::input,
+                 "the scene that " + importer + " made names the file " + in_quotes(*named) +
+                     ": a scene holds all that it shows",
+                 file.path.string(), "tell the importer's author of it"};
+  }
   Result<model::Model> model = make_gltf_reader()->read(
       scene_bytes, options_of_scene(scene_bytes, scene.facts.scene, options, context), context);
   if (model) {
     call_by_file(file, options, scene, *model);
-    return model;
+    const std::optional<MapPlace>& map = scene.facts.scene.map;
+    if (options.on_map && map)
+      if (const Status put = put_on_map(*map, *model); !put) {
+        Error error = put.error();
+        error.where = file.path.string();
+        return error;
+      }
+    return ImportedModel{std::move(*model), map};
   }
   if (model.error().code != ErrorCode::input) return model.error();
   if (scene.is_kept) maker_.forget(job.key);
   return Error{ErrorCode::input,
-               "the scene that " + job.program.file.filename().string() +
-                   " made cannot be read: " + model.error().message,
+               "the scene that " + importer + " made cannot be read: " + model.error().message,
                model.error().where, "look for a newer version of the importer"};
 }
 

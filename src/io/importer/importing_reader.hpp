@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "io/gltf/import.hpp"
+#include "io/importer/map_place.hpp"
 #include "io/importer/scene_maker.hpp"
 #include "strake/io/importer.hpp"
 #include "strake/io/reader.hpp"
@@ -15,6 +16,12 @@ namespace strake::io {
 
 /// Whether a file may need an importer, by its name alone.
 [[nodiscard]] bool may_need_importer(const std::filesystem::path& file);
+
+/// What an importer made of a file.
+struct ImportedModel {
+  model::Model model;
+  std::optional<MapPlace> map;
+};
 
 /// Reads the scenes that importers make of files which no other reader takes.
 class ImportingReader final : public Reader {
@@ -29,15 +36,15 @@ class ImportingReader final : public Reader {
 
   [[nodiscard]] const SceneMaker& maker() const { return maker_; }
   /// Reads as read() does; what `scenes` has of the file is not made again.
-  [[nodiscard]] Result<model::Model> read_with(const FileBytes& file, const ReadOptions& options,
-                                               ImportedScenes& scenes,
-                                               const parallel::Context& context) const;
+  [[nodiscard]] Result<ImportedModel> read_with(const FileBytes& file, const ReadOptions& options,
+                                                ImportedScenes& scenes,
+                                                const parallel::Context& context) const;
 
  private:
   /// Returns nothing where a scene that was kept is no more, or is damaged.
-  [[nodiscard]] std::optional<Result<model::Model>> read_scene(const gltf::ImportInput& input,
-                                                               const SceneJob& job,
-                                                               const ImportedScene& scene) const;
+  [[nodiscard]] std::optional<Result<ImportedModel>> read_scene(const gltf::ImportInput& input,
+                                                                const SceneJob& job,
+                                                                const ImportedScene& scene) const;
 
   std::optional<Error> fault_;
   SceneMaker maker_;

@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "core/checksum.hpp"
+#include "core/number.hpp"
 #include "core/text_encoding.hpp"
+#include "io/importer/map_place.hpp"
 #include "io/source/input_file.hpp"
 #include "strake/core/hash.hpp"
 
@@ -69,6 +71,10 @@ class FactsWriter {
     // As text: a number of JSON has 53 bits.
     append_json_string(text_, std::to_string(number));
   }
+  void value(double number) {
+    separate();
+    append_shortest(text_, number);
+  }
   void open(char bracket) {
     separate();
     text_ += bracket;
@@ -97,6 +103,17 @@ std::string facts_json(const EntryFacts& facts) {
                                    {"unit", &facts.scene.unit}}) {
     json.key(name);
     json.value(*text);
+  }
+  if (const auto& map = facts.scene.map) {
+    json.key("map");
+    json.open('{');
+    json.key("crs");
+    json.value(map->crs);
+    json.key("matrix");
+    json.open('[');
+    for (const double number : matrix_of(map->to_map)) json.value(number);
+    json.close(']');
+    json.close('}');
   }
   json.key("importer");
   json.open('[');
@@ -167,6 +184,7 @@ std::optional<EntryFacts> parse_facts(std::string_view text) {
   facts.scene.made_by = root["made_by"].text_value();
   facts.scene.format = root["format"].text_value();
   facts.scene.unit = root["unit"].text_value();
+  facts.scene.map = map_place_in(root["map"]);
   root["importer"].elements([&](const gltf::JsonValue& stamp) {
     const std::vector<gltf::JsonValue> parts = stamp.items();
     if (parts.size() == 3)

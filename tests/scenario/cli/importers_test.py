@@ -22,7 +22,7 @@ class Importers(Scenario):
         super().setUp()
         (self.folder / 'bin').mkdir()
         example = re.search(r'```python\n(.*?)```', Path(self.PAGE).read_text(encoding='utf-8'), re.DOTALL)[1]
-        self.script('strake-import-boxes', example.replace('\nreport =', '\nopen("calls", "a").write("x")\nreport ='))
+        self.script('strake-import-boxes', example.replace('\nreport =', f'\nopen({str(self.folder / "calls")!r}, "a").write("x")\nreport ='))
         self.environment = {**os.environ, 'PATH': f'{self.folder}/bin:{os.environ["PATH"]}',
                             'STRAKE_CACHE': str(self.folder / 'cache')}
         self.write('model.boxes', BOXES)
@@ -62,6 +62,25 @@ class Importers(Scenario):
         self.assertIn('100 x 100 x 100', listed)
         self.assertIn('strake-import-boxes', self.text('info', '--formats'))
 
+    def test_importers_are_looked_for_in_folders_of_path_and_never_in_the_current_one(self):
+        abused = self.folder / 'abused'
+        (self.folder / 'sub').mkdir()
+        for name in ('strake-import-odd', 'strake-import', 'sub/strake-import-odd', 'strake-import-boxes'):
+            self.write(name, f'#!/bin/sh\ntouch {abused}\n')
+            (self.folder / name).chmod(0o755)
+        self.write('model.odd', 'x')
+        for path in (':', '.:', 'sub:', './sub:', '../' + self.folder.name + ':'):
+            done = self.run_strake('info', 'model.odd', env={'PATH': path + self.environment['PATH']})
+            self.assertEqual(done.returncode, 3, path)
+            self.assertIn('model.odd: unsupported format (Strake reads RVM', done.stderr)
+            self.assertIn('a program strake-import-odd in PATH would be taken, too', done.stderr)
+        self.clashes('model.boxes')
+        self.assertFalse(abused.exists())
+        # What does not end in letters and digits names no program.
+        for name in ('model.odd~', 'model.a-b', 'model.', 'model', 'model.averylongsuffix'):
+            self.write(name, 'x')
+            self.assertIn('unsupported format', self.run_strake('info', name).stderr)
+
     def test_what_is_left_out_and_why_nothing_came_of_it(self):
         self.write('half.boxes', BOXES + 'no box\n')
         done = self.run_strake('info', 'half.boxes', '--strict')
@@ -98,7 +117,7 @@ class Importers(Scenario):
             return False
 
     def test_ctrl_c_ends_the_importer(self):
-        self.script('strake-import-slow', '#!/bin/sh\necho $$ > pid.part; mv pid.part pid; sleep 300\n')
+        self.script('strake-import-slow', f'#!/bin/sh\ncd {self.folder}; echo $$ > pid.part; mv pid.part pid; sleep 300\n')
         self.write('model.slow', 'x')
         run = subprocess.Popen([self.STRAKE, 'clash', 'model.slow'], cwd=self.folder, env=self.environment,
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -124,6 +143,28 @@ class Importers(Scenario):
         self.assertIn('signal 6 (abort)', self.run_strake('info', 'model.slow').stderr)
         done = self.run_strake('info', 'model.slow', env={'STRAKE_IMPORT_LIMIT': 'soon'})
         self.assertEqual((done.returncode, 'STRAKE_IMPORT_LIMIT' in done.stderr), (2, True))
+
+    def test_files_lie_on_a_map_where_that_is_asked_for(self):
+        importer = self.folder / 'bin' / 'strake-import-boxes'
+        place = '{"crs": "EPSG:25832", "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, %s, 5428000250, 110000, 1]}'
+        importer.write_text(importer.read_text(encoding='utf-8').replace(
+            'depends_on=[]', f"depends_on=[], map=json.loads({place!r} % (463000500 + 1000 * ('far' in options.input)))"))
+        self.write('far.boxes', 'c 50 50 50 100 100 100\n')
+        local = self.clashes('model.boxes', 'far.boxes')
+        self.assertEqual(len(json.loads(local.stdout)['results']), 2)
+        self.assertIn('map-place-differs', local.stderr)
+        placed = self.clashes('model.boxes', 'far.boxes', '--georeference')
+        self.assertEqual(json.loads(placed.stdout)['results'], [])
+        self.assertNotIn('map-', placed.stderr)
+        points = [json.loads(self.clashes('model.boxes', *words).stdout)['results'][0]['point_mm']
+                  for words in ([], ['--georeference'])]
+        self.assertEqual([round(y - x, 3) for x, y in zip(*points)], [463000500, 5428000250, 110000])
+        self.assertEqual(self.calls(), 2, 'one scene of each file serves both')
+        self.text('project', 'new', 'x.strake', 'model.boxes')
+        for words in (('x.strake',), ('-p', 'x.strake')):
+            done = self.run_strake('clash', *words, '--georeference')
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn('--georeference', done.stderr)
 
     def test_a_project_takes_such_files(self):
         self.text('project', 'new', 'x.strake', 'model.boxes')

@@ -55,6 +55,8 @@ USAGE = [
              'draw -o x.svg --project'], [("''", 'the value is empty')]),
     ('clash a.obj --project p.strake', "'a.obj'", "'strake project add'"),
     ('draw a.obj --project p.strake -o x.svg', "'a.obj'", "'strake project add'"),
+    ('clash --project p.strake --georeference', '--georeference', 'leave it out'),
+    ('draw --project p.strake -o x.svg --georeference', '--georeference', 'leave it out'),
     ('clash --project p.strake --decisions d.csv', '--decisions', 'leave one of them out'),
     ('draw --project p.strake --sheet s.toml -o x.svg', '--sheet', 'leave one of them out'),
     ('draw -p p.strake -o x.svg --save deck --stored deck', '--stored', 'leave one of them out'),

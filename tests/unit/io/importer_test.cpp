@@ -185,6 +185,85 @@ TEST_F(FakeImporters, ATruncatedSceneIsAnErrorAndNotKept) {
   EXPECT_TRUE(read({toy_}));
 }
 
+TEST_F(FakeImporters, ASceneHoldsAllThatItShows) {
+  const fs::path secret = folder_.write("secret.bin", std::string(42, 'x'));
+  const auto scene_with = [&](const std::string& more) {
+    play("cp " +
+         folder_.write("other", test::triangle_glb(R"("nodes":[{"mesh":0}])", more)).string() +
+         " \"$output\"\n" + kEnd);
+    return error();
+  };
+  EXPECT_NE(scene_with(R"(,"images":[{"uri":"secret.bin"}])").find("names the file 'secret.bin'"),
+            std::string::npos)
+      << error();
+  EXPECT_EQ(kept(), 0U);
+  EXPECT_EQ(scene_with(R"(,"images":[{"uri":"data:image/png;base64,AAAA"}])"), "no error");
+  const fs::path outside = folder_.write(
+      "outside", test::glb(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":42,)"
+                           R"("\u0075ri":"secret.bin"}],"nodes":[]})",
+                           {}));
+  play("cp " + outside.string() + " \"$output\"\n" + kEnd);
+  EXPECT_NE(error().find("a scene holds all that it shows"), std::string::npos) << error();
+  EXPECT_TRUE(fs::exists(secret)) << "it was there to be read";
+}
+
+TEST_F(FakeImporters, SayWhereAFileLiesOnAMap) {
+  // A quarter turn to the left, 5 m east, 7 m north, 9 m up; the other lies a metre farther east.
+  play(make_scene() + R"(east=5000; grep -q other "$input" && east=6000
+echo '{"made_by": "toy", "map": {"crs": "EPSG:1", "matrix": [0,1,0,0,-1,0,0,0,0,0,1,0,'$east',7000,9000.5,1]}}' >> "$report")");
+  const fs::path other = folder_.write("other.toy", "other");
+  ReadOptions on_map;
+  on_map.on_map = true;
+  const auto corner = [&](const model::Model& model, std::size_t body) {
+    const model::Body& b = model.bodies.at(body);
+    return b.placement *
+           std::get<geometry::TriangleMesh>(model.shapes.at(index(b.shape))).vertices.at(1);
+  };
+  for (int run = 0; run < 2; ++run) {
+    const Result<model::Model> own = read({toy_, other});
+    ASSERT_TRUE(own) << own.error().text();
+    EXPECT_EQ(corner(*own, 0), (geometry::Vec3d{1000, 0, 0}));
+    EXPECT_EQ(own->diagnostics.count("map-place-differs"), 1U);
+    const Result<model::Model> put = read({toy_, other}, {}, on_map);
+    ASSERT_TRUE(put) << put.error().text();
+    EXPECT_EQ(corner(*put, 0), (geometry::Vec3d{5000, 8000, 9000.5}));
+    EXPECT_EQ(corner(*put, 1), (geometry::Vec3d{6000, 8000, 9000.5}));
+    EXPECT_EQ(put->diagnostics.counts().size(), 0U);
+  }
+  EXPECT_EQ(calls(), 2U) << "one scene serves both";
+  EXPECT_EQ(read({toy_, toy_})->diagnostics.counts().size(), 0U);
+  const fs::path plain = folder_.write("plain.glb", test::triangle_glb(R"("nodes":[{"mesh":0}])"));
+  EXPECT_EQ(read({toy_, plain}, {}, on_map)->diagnostics.count("map-place-unknown"), 1U);
+  EXPECT_EQ(read({toy_, plain})->diagnostics.counts().size(), 0U);
+  EXPECT_EQ(read({plain}, {}, on_map)->diagnostics.count("map-place-unknown"), 1U);
+}
+
+TEST_F(FakeImporters, APlaceOnAMapThatIsNoneIsOdd) {
+  const std::string identity = "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]";
+  for (const std::string& map :
+       {std::string("7"), std::string("{}"), R"({"crs": "E", "matrix": [1,2]})" + std::string(),
+        R"({"crs": 5, "matrix": )" + identity + "}",
+        std::string(R"({"crs": "E", "matrix": [1,0,0,0,0,1,0,0,0,0,1,0,1e999,0,0,1]})"),
+        std::string(R"({"crs": "E", "matrix": [1,0,0,0,0,-1,0,0,0,0,1,0,0,0,0,1]})"),
+        std::string(R"({"crs": "E", "matrix": [1,0,0,1,0,1,0,0,0,0,1,0,0,0,0,1]})")}) {
+    play(make_scene() + R"(echo '{"made_by": "toy", "map": )" + map + R"(}' >> "$report")");
+    const Result<model::Model> model = read({toy_});
+    ASSERT_TRUE(model) << model.error().text();
+    EXPECT_EQ(model->diagnostics.count("import-report"), 1U) << map;
+  }
+}
+
+TEST_F(FakeImporters, WorkInAFolderOfTheirOwn) {
+  settings_.cache = fs::relative(folder_.path() / "cache");
+  settings_.folders = {fs::relative(bin_)};
+  play("pwd; ls -A | grep -v '^log$'; exit 7");
+  EXPECT_NE(error().find("printed last: " + (folder_.path() / "cache").string()), std::string::npos)
+      << error();
+  EXPECT_EQ(error().find("arch.toy "), std::string::npos) << "the model does not lie there";
+  play_well();
+  EXPECT_EQ(error(), "no error");
+}
+
 TEST_F(FakeImporters, OnlySilenceEndsThem) {
   settings_.silence_s = 1;
   play_well(

@@ -125,5 +125,36 @@ TEST(Precision, ThatMakesObjectsTouchIsToldOncePerFile) {
       << model.diagnostics.kept()[0].message;
 }
 
+TEST(Precision, TakesHowFarTrianglesAreFromTheirSurfaces) {
+  const auto sag_of = [](const char* of_all, const char* of_mesh, const ReadOptions& options) {
+    const std::string text = std::string(R"({"asset":{"version":"2.0","extras":{"unit_mm":1)") +
+                             of_all + R"(}},"buffers":[{"byteLength":42}],)" +
+                             R"("bufferViews":[{"buffer":0,"byteLength":36},)" +
+                             R"({"buffer":0,"byteOffset":36,"byteLength":6}],)" +
+                             R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,)" +
+                             R"("type":"VEC3"},{"bufferView":1,"componentType":5123,"count":3,)" +
+                             R"("type":"SCALAR"}],"meshes":[{)" + of_mesh +
+                             R"("primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)" +
+                             R"("nodes":[{"mesh":0}]})";
+    const std::string file =
+        test::glb(text, test::bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}) +
+                            test::bytes_of(std::vector<std::uint16_t>{0, 1, 2}));
+    const Result<model::Model> model =
+        test::read_bytes(*make_gltf_reader(), file, "model.glb", options);
+    if (!model) return std::numeric_limits<double>::quiet_NaN();
+    return std::get<geometry::TriangleMesh>(model->shapes.at(0)).sag_mm;
+  };
+  EXPECT_LT(sag_of("", "", {}), 0) << "nothing is said";
+  EXPECT_EQ(sag_of(R"(,"sag_mm":0.5)", "", {}), 0.5);
+  EXPECT_EQ(sag_of(R"(,"sag_mm":0.5)", R"("extras":{"sag_mm":0},)", {}), 0);
+  EXPECT_EQ(sag_of("", R"("extras":{"sag_mm":0.25},)", {}), 0.25);
+  ReadOptions inches;
+  inches.unit_mm = 25.4;
+  EXPECT_EQ(sag_of("", R"("extras":{"sag_mm":0.25},)", inches), 25.4 * 0.25);
+  for (const char* wrong : {R"("extras":{"sag_mm":-1},)", R"("extras":{"sag_mm":"1"},)",
+                            R"("extras":{"sag_mm":1e999},)", R"("extras":[],)"})
+    EXPECT_LT(sag_of("", wrong, {}), 0) << wrong;
+}
+
 }  // namespace
 }  // namespace strake::io

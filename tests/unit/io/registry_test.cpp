@@ -73,7 +73,10 @@ TEST(Registry, SaysHowAModelOfAnotherFormatIsConverted) {
     return read({folder.write(name, "Dear reader,\nno model.\n")}).error().text();
   };
   const std::string formats = ": unsupported format (Strake reads RVM, glTF/GLB, OBJ and STL; ";
-  EXPECT_NE(said("a.txt").find(formats + "export the model as one of these)"), std::string::npos);
+  EXPECT_NE(said("a.txt").find(formats + "export the model as one of these; a program "
+                                         "strake-import-txt in PATH would be taken, too)"),
+            std::string::npos);
+  EXPECT_NE(said("a").find(formats + "export the model as one of these)"), std::string::npos);
   EXPECT_NE(said("a.IFC").find("pip install 'strake[ifc]' (or convert it: IfcConvert"),
             std::string::npos);
   EXPECT_NE(said("a.stp").find(formats + "open it in a CAD program"), std::string::npos);

@@ -15,8 +15,9 @@ import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
-from strake.importers.ifc.entity import Model
-from strake.importers.ifc.kernels import geometry_settings
+from strake.importers.ifc.entity import Entity, Model
+from strake.importers.ifc.faces import Faces, faces_of
+from strake.importers.ifc.kernels import SAG_M, geometry_settings
 from strake.importers.shapes import Color, Part, PreparedShape, prepare_shape
 
 # The fault of a shape without a triangle.
@@ -77,19 +78,19 @@ def convert_chunk(model: Model, chunk: Chunk) -> Iterator[Answer]:
     going = iterator.initialize()
     while going:
         element = iterator.get()
-        yield _converted(element, known, chunk.kernel)
+        yield _converted(model, element, known, chunk.kernel)
         going = bool(iterator.next())
     yield from _remarks(log, chunk)
 
 
-def _converted(element: Any, known: dict[str, PreparedShape | str], kernel: str) -> Converted:
+def _converted(model: Model, element: Any, known: dict[str, PreparedShape | str], kernel: str) -> Converted:
     name = element.geometry.id
     first = name not in known
     if first:
         try:
             if len(element.geometry.faces_buffer) == 0:
                 raise ValueError(EMPTY)
-            known[name] = prepare_shape(_parts(element.geometry))
+            known[name] = prepare_shape(_parts(element.geometry), sag_mm=_sag_mm(model.by_id(element.id)))
         except ValueError as fault:
             known[name] = str(fault)
     shape = known[name]
@@ -100,6 +101,15 @@ def _converted(element: Any, known: dict[str, PreparedShape | str], kernel: str)
     if not np.isfinite(placement).all():
         return Converted(element.id, b"", (0, 0, 0), b"", None, kernel, "its placement is not finite")
     return Converted(element.id, shape.key, shape.middle, placement.tobytes(), shape if first else None, kernel)
+
+
+def _sag_mm(product: Entity) -> float | None:
+    """Returns how far the triangles are from the surfaces at most: what the kernel was asked for where any is curved."""
+    try:
+        faces = faces_of(product)
+    except (AttributeError, RuntimeError):
+        return None  # something that its body must have is not there
+    return {Faces.FLAT: 0.0, Faces.CURVED: SAG_M * _MM_PER_M, Faces.FACETS: None}[faces]
 
 
 def _parts(geometry: Any) -> Sequence[Part]:

@@ -15,9 +15,10 @@ from strake.importers.command import Job
 from strake.importers.ifc.attributes import AttributeReader
 from strake.importers.ifc.conversion import Conversion, convert_products
 from strake.importers.ifc.entity import Entity, Model
+from strake.importers.ifc.georeference import read_map_conversion
 from strake.importers.ifc.products import Ids, Products, choose_products, tell_of_left_out
 from strake.importers.ifc.source import open_model
-from strake.importers.ifc.spatial import SpatialGroups, map_conversion
+from strake.importers.ifc.spatial import SpatialGroups
 from strake.importers.ifc.units import Units
 from strake.importers.report import Report
 from strake.importers.scene_writer import Group
@@ -68,10 +69,10 @@ def _write(job: Job, model: Model, units: Units, products: Products, conversion:
         if scene.object_count == 0:
             why = next(iter(conversion.failed.values()), "it has no product with a body")
             report.fail(f"nothing in it becomes an object: {why}"[:_MOST_MESSAGE], "leave it out, or export it with bodies")
-    if on_map := map_conversion(model).get("MapConversion"):
-        east, north = on_map.get("Eastings"), on_map.get("Northings")
-        message = f"the place on the map (east {east}, north {north}) is an attribute of the site: coordinates are those of the project"
-        report.note("ifc-map-conversion", message)
+    if on_map := read_map_conversion(model, report):
+        job.place_on_map(on_map.crs, on_map.to_map)
+        where = f"east {on_map.eastings_mm / 1000:g} m, north {on_map.northings_mm / 1000:g} m on {on_map.crs}"
+        report.note("ifc-map-conversion", f"it lies {where}: an attribute of the site, applied where that is asked for")
     tell_of_left_out(products, len(conversion.bodyless), report)
 
 

@@ -34,7 +34,7 @@ _NOT_FAST = {
 FAST = "cgal-simple"
 EXACT = "opencascade"
 # Representations that are no body.
-_NO_BODY = {"Axis", "Box", "FootPrint", "Plan", "Annotation", "Profile", "CoG", "Clearance", "Lighting", "Reference"}
+NO_BODY = {"Axis", "Box", "FootPrint", "Plan", "Annotation", "Profile", "CoG", "Clearance", "Lighting", "Reference"}
 _MOST_DEPTH = 12
 
 # What is tried for a product, one after the other, until one gives a shape.
@@ -62,7 +62,7 @@ def items_of(product: Entity) -> set[str]:
     if getattr(product, "HasOpenings", None):
         result.add("opening")
     for representation in getattr(product.Representation, "Representations", None) or ():
-        if (representation.RepresentationIdentifier or "Body") in _NO_BODY:
+        if (representation.RepresentationIdentifier or "Body") in NO_BODY:
             continue
         _add_items(representation.Items or (), result, 0)
     return result

@@ -9,6 +9,7 @@ import ifcopenshell
 
 from strake.importers.ifc.attributes import AttributeReader
 from strake.importers.ifc.entity import Entity, Model, is_a
+from strake.importers.ifc.georeference import map_attributes
 from strake.importers.scene_writer import Group, SceneWriter
 
 # Under which name objects inherit the name of what they are in.
@@ -31,7 +32,7 @@ class SpatialGroups:
         self._scene = scene
         self._attributes = attributes
         self._groups: dict[int, Group] = {}
-        self._map = map_conversion(model)
+        self._map = map_attributes(model)
 
     def above(self, product: Entity) -> Group | None:
         """Returns the group that a product is in."""
@@ -94,20 +95,3 @@ def _parent_of_host(entity: Entity) -> Entity | None:
         if host is not None and not host.is_a("IfcFeatureElement"):
             return parent_of(host)
     return None if entity.is_a("IfcFeatureElement") else parent_of(entity)
-
-
-def map_conversion(model: Model) -> dict[str, Any]:
-    """Returns what the file says of its place on the map, as attributes; nothing where it says nothing."""
-    if model.schema == "IFC2X3":
-        return {}
-    result: dict[str, Any] = {}
-    for conversion in model.by_type("IfcMapConversion")[:1]:
-        values = {name: getattr(conversion, name, None) for name in _MAP_NAMES}
-        target = conversion.TargetCRS
-        if target is not None and target.Name:
-            values["TargetCRS"] = target.Name
-        result["MapConversion"] = {name: value for name, value in values.items() if value is not None}
-    return result
-
-
-_MAP_NAMES = ("Eastings", "Northings", "OrthogonalHeight", "XAxisAbscissa", "XAxisOrdinate", "Scale")

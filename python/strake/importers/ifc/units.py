@@ -26,6 +26,10 @@ _CONVERTED = {
     "CUBIC INCH": "in3", "SQUARE YARD": "yd2", "CUBIC YARD": "yd3", "DEGREE": "deg", "POUND": "lb", "MINUTE": "min", "HOUR": "h",
     "DAY": "d", "LITRE": "l", "FAHRENHEIT": "degF",
 }  # fmt: skip
+_POWERS = {
+    "EXA": 18, "PETA": 15, "TERA": 12, "GIGA": 9, "MEGA": 6, "KILO": 3, "HECTO": 2, "DECA": 1,
+    "DECI": -1, "CENTI": -2, "MILLI": -3, "MICRO": -6, "NANO": -9, "PICO": -12, "FEMTO": -15, "ATTO": -18,
+}  # fmt: skip
 # Units of values that are plain numbers: SI without a prefix. Lengths are never plain, since a selection takes plain
 # numbers for millimetres.
 _PLAIN = {"m2", "m3", "kg", "g", "s", "rad", "sr", "K", "degC", "A", "V", "W", "N", "Pa", "J", "Hz", "lx", "lm", "cd"}
@@ -59,12 +63,10 @@ class Units:
 
     def __init__(self, model: Model, report: Report) -> None:
         self._names: dict[str, str] = {}
-        for project in model.by_type("IfcProject")[:1]:
-            assignment = project.UnitsInContext
-            for unit in (assignment.Units if assignment else None) or ():
-                kind = getattr(unit, "UnitType", None)
-                if isinstance(kind, str):
-                    self._names.setdefault(kind, unit_name(unit))
+        for unit in _units_of(model):
+            kind = getattr(unit, "UnitType", None)
+            if isinstance(kind, str):
+                self._names.setdefault(kind, unit_name(unit))
         self.length_name = self._names.get("LENGTHUNIT", "m")
         if model.by_type("IfcProject") and "LENGTHUNIT" not in self._names:
             report.warning("ifc-no-unit", "the project states no unit of length: it is taken to be the metre")
@@ -99,6 +101,33 @@ class Units:
         if not name or name in _PLAIN:
             return number
         return f"{number} {name}"
+
+
+def _units_of(model: Model) -> list[Entity]:
+    for project in model.by_type("IfcProject")[:1]:
+        assignment = project.UnitsInContext
+        return list((assignment.Units if assignment else None) or ())
+    return []
+
+
+def project_length_unit(model: Model) -> Entity | None:
+    """Returns the unit of length of the project; nothing where it states none."""
+    return next((unit for unit in _units_of(model) if getattr(unit, "UnitType", None) == "LENGTHUNIT"), None)
+
+
+def millimetres_of(unit: Entity | None, depth: int = 0) -> float | None:
+    """Returns how many millimetres a unit of length has; nothing where that is not known."""
+    if unit is None or depth > _DEEPEST_UNIT:
+        return None
+    if unit.is_a("IfcSIUnit"):
+        power = _POWERS.get(unit.Prefix) if unit.Prefix else 0
+        return None if power is None or unit.Name != "METRE" else 1000.0 * 10.0**power
+    if unit.is_a("IfcConversionBasedUnit"):
+        factor = unit.ConversionFactor
+        of = millimetres_of(factor.UnitComponent, depth + 1) if factor is not None else None
+        value = getattr(factor.ValueComponent, "wrappedValue", None) if factor is not None else None
+        return of * float(value) if of is not None and isinstance(value, (int, float)) and value > 0 else None
+    return None
 
 
 # A unit may be derived from itself in a file that somebody made up.
