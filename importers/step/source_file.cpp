@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "source_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "core/text_encoding.hpp"
+
+namespace strake::import_step {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n";
+
+/// Returns so many bytes from a place of a file, fewer at its end.
+std::string bytes_at(std::ifstream& in, std::streamoff at, std::size_t count) {
+  std::string bytes(count, '\0');
+  in.clear();
+  in.seekg(at);
+  in.read(bytes.data(), static_cast<std::streamsize>(count));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+Error refused(const std::filesystem::path& file, std::string message, std::string mend) {
+  return {ErrorCode::input, std::move(message), file.string(), std::move(mend)};
+}
+
+/// Returns which application protocol the schema of the head names.
+std::string step_format(std::string_view schema) {
+  struct Protocol {
+    std::string_view word, name;
+  };
+  constexpr std::array<Protocol, 7> kProtocols{{{"AP242", "STEP AP242"},
+                                                {"AP214", "STEP AP214"},
+                                                {"AP203", "STEP AP203"},
+                                                {"AP209", "STEP AP209"},
+                                                {"AUTOMOTIVE_DESIGN", "STEP AP214"},
+                                                {"CONFIG_CONTROL_DESIGN", "STEP AP203"},
+                                                {"STRUCTURAL_FRAME", "STEP CIS/2"}}};
+  const auto* const known = std::ranges::find_if(
+      kProtocols, [&](const Protocol& p) { return schema.find(p.word) != std::string_view::npos; });
+  return known == kProtocols.end() ? "STEP" : std::string(known->name);
+}
+
+Result<SourceFile> inspect_step(const std::filesystem::path& file, std::string_view head,
+                                std::string_view end) {
+  const std::size_t at = head.find("FILE_SCHEMA");
+  const std::string_view schema =
+      at == std::string_view::npos ? "" : head.substr(at, head.find(';', at) - at);
+  if (schema.find("'IFC") != std::string_view::npos)
+    return refused(file, "the file is an IFC model, which this importer does not read",
+                   "name it .ifc and install its importer: pip install 'strake[ifc]'");
+  if (end.find("END-ISO-10303-21") == std::string_view::npos)
+    return refused(file, "the file ends too soon: END-ISO-10303-21 is missing at its end",
+                   "copy or export it again");
+  return SourceFile{SourceKind::step, step_format(schema)};
+}
+
+/// Whether the lines of a file are those of IGES: the letter of the section in column 73, then a
+/// number.
+bool is_iges_line(std::string_view line, char section) {
+  constexpr std::size_t kSection = 72, kLength = 80;
+  return line.size() >= kLength && line[kSection] == section &&
+         std::ranges::all_of(line.substr(kSection + 1, kLength - kSection - 1),
+                             [](char c) { return c == ' ' || (c >= '0' && c <= '9'); });
+}
+
+Result<SourceFile> inspect_iges(const std::filesystem::path& file, std::string_view end) {
+  const std::string_view body = end.substr(0, end.find_last_not_of(kBlanks) + 1);
+  const std::size_t begin = body.rfind('\n');
+  const std::string_view last = begin == std::string_view::npos ? body : body.substr(begin + 1);
+  if (!is_iges_line(last, 'T'))
+    return refused(file, "the file ends too soon: its last line is not the T line of IGES",
+                   "copy or export it again");
+  return SourceFile{SourceKind::iges, "IGES"};
+}
+
+}  // namespace
+
+Result<SourceFile> inspect_source(const std::filesystem::path& file) {
+  constexpr std::size_t kHead = std::size_t{1} << 16U, kEnd = std::size_t{1} << 12U;
+  std::error_code failed;
+  const std::uintmax_t size = std::filesystem::file_size(file, failed);
+  std::ifstream in(file, std::ios::binary);
+  if (failed || !in) return refused(file, "the file cannot be opened", "check its path and rights");
+  if (size == 0) return refused(file, "is empty", "export the model again");
+  const std::string head = bytes_at(in, 0, kHead);
+  const std::streamoff last = static_cast<std::streamoff>(size) -
+                              static_cast<std::streamoff>(std::min<std::uintmax_t>(size, kEnd));
+  const std::string end = bytes_at(in, last, kEnd);
+  std::string_view text = head;
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  if (text.starts_with("ISO-10303-21")) return inspect_step(file, text, end);
+  const std::string_view first = std::string_view(head).substr(0, head.find('\n'));
+  if (is_iges_line(first, 'S')) return inspect_iges(file, end);
+  if (is_iges_line(first, 'B') || is_iges_line(first, 'C'))
+    return refused(file, "the file is binary or compressed IGES, which is not read",
+                   "export it as IGES in ASCII, or as STEP");
+  if (text.starts_with("PK"))
+    return refused(file, "the file is a zip archive", "unpack it and read what is in it");
+  return refused(file,
+                 "the file is neither STEP nor IGES: it does not begin with ISO-10303-21, nor has "
+                 "its first line an S in column 73",
+                 "export the model as STEP AP214 or AP242");
+}
+
+}  // namespace strake::import_step
