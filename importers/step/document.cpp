@@ -91,14 +91,22 @@ std::string first_faults(const Handle(XSControl_WorkSession) & session) {
   return text;
 }
 
-Error unreadable(const std::filesystem::path& file, IFSelect_ReturnStatus status,
-                 const std::string& faults) {
-  std::string message = "the file has no data that can be read";
-  if (status == IFSelect_RetFail || status == IFSelect_RetError)
-    message = "Open CASCADE cannot read the file";
+Error unreadable(const std::filesystem::path& file, const Handle(XSControl_WorkSession) & session) {
+  std::string message = "Open CASCADE cannot read the file";
+  const std::string faults = first_faults(session);
   if (!faults.empty()) message += ": " + faults;
   return {ErrorCode::input, message, file.string(),
           "it may be damaged: export it again, or as STEP AP214"};
+}
+
+Error without_product(const std::filesystem::path& file,
+                      const Handle(XSControl_WorkSession) & session) {
+  const Handle(Interface_InterfaceModel) model = session->Model();
+  return {ErrorCode::input,
+          "nothing in it becomes an object: none of its " +
+              std::to_string(model.IsNull() ? 0 : model->NbEntities()) +
+              " entities is a product with a shape",
+          file.string(), "export a whole part or assembly, as STEP AP214 or AP242"};
 }
 
 /// Adds the numbers and kinds of the entities that failed, of which there may be many.
@@ -134,12 +142,12 @@ Result<Document> read_step(const std::filesystem::path& file,
   reader.SetViewMode(Standard_False);
   const IFSelect_ReturnStatus status = reader.ReadFile(file.c_str());
   const Handle(XSControl_WorkSession) session = reader.Reader().WS();
-  if (status != IFSelect_RetDone) return unreadable(file, status, first_faults(session));
+  if (status == IFSelect_RetVoid) return without_product(file, session);
+  if (status != IFSelect_RetDone) return unreadable(file, session);
   Document document;
   document.content = new_document();
   progress->next(kParsed, kTransferred);
-  if (!reader.Transfer(document.content, progress->Start()))
-    return unreadable(file, IFSelect_RetVoid, first_faults(session));
+  if (!reader.Transfer(document.content, progress->Start())) return without_product(file, session);
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
   if (!lengths.IsEmpty()) document.unit = unit_of_name(lengths.First().ToCString());
@@ -164,12 +172,13 @@ Result<Document> read_iges(const std::filesystem::path& file,
   reader.SetNameMode(Standard_True);
   reader.SetLayerMode(Standard_True);
   const IFSelect_ReturnStatus status = reader.ReadFile(file.c_str());
-  if (status != IFSelect_RetDone) return unreadable(file, status, first_faults(reader.WS()));
+  if (status == IFSelect_RetVoid) return without_product(file, reader.WS());
+  if (status != IFSelect_RetDone) return unreadable(file, reader.WS());
   Document document;
   document.content = new_document();
   progress->next(kParsed, kTransferred);
   if (!reader.Transfer(document.content, progress->Start()))
-    return unreadable(file, IFSelect_RetVoid, first_faults(reader.WS()));
+    return without_product(file, reader.WS());
   const Handle(IGESData_IGESModel) model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
   if (!model.IsNull()) document.unit = unit_of_length(model->GlobalSection().UnitValue());
   note_failures(reader.WS(), document);

@@ -4,12 +4,14 @@
 #include <Quantity_ColorRGBA.hxx>
 #include <TColStd_HSequenceOfExtendedString.hxx>
 #include <TCollection_AsciiString.hxx>
+#include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDataStd_TreeNode.hxx>
 #include <XCAFDoc.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_Material.hxx>
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -24,6 +26,13 @@ std::string utf8_of(const TCollection_ExtendedString& text) {
   Standard_PCharacter begin = bytes.data();
   bytes.resize(static_cast<std::size_t>(text.ToUTF8CString(begin)));
   return std::string(trimmed(valid_utf8(bytes), " \t\r\n"));
+}
+
+/// Whether a text is what Open CASCADE calls shapes that have no name.
+bool is_kind_of_shape(std::string_view text) {
+  constexpr std::array<std::string_view, 9> kKinds{
+      "COMPOUND", "COMPSOLID", "SOLID", "SHELL", "FACE", "WIRE", "EDGE", "VERTEX", "SHAPE"};
+  return std::ranges::find(kKinds, text) != kKinds.end();
 }
 
 bool is_number_after(std::string_view text, std::string_view word) {
@@ -42,8 +51,22 @@ std::string Labels::name_of(const TDF_Label& label) {
   Handle(TDataStd_Name) name;
   if (label.IsNull() || !label.FindAttribute(TDataStd_Name::GetID(), name)) return {};
   std::string text = utf8_of(name->Get());
-  // "=>[0:1:1:2]" is the reference itself, made up where the file says nothing.
-  return text.starts_with("=>[0:") ? std::string() : text;
+  // Where the file says nothing there is the reference itself, "=>[0:1:1:2]", or what the shape is.
+  const bool is_made_up = text.starts_with("=>[0:") || is_kind_of_shape(text);
+  return is_made_up ? std::string() : text;
+}
+
+bool Labels::is_product_in_pieces(const TDF_Label& assembly) {
+  TDF_LabelSequence components;
+  XCAFDoc_ShapeTool::GetComponents(assembly, components);
+  for (const TDF_Label& component : components) {
+    TDF_Label piece;
+    if (!XCAFDoc_ShapeTool::GetReferredShape(component, piece) ||
+        XCAFDoc_ShapeTool::IsAssembly(piece) || !name_of(piece).empty() ||
+        !name_of(component).empty())
+      return false;
+  }
+  return true;
 }
 
 std::string Labels::instance_name(const TDF_Label& instance, const std::string& product) {

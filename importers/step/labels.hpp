@@ -19,6 +19,9 @@ struct Labels {
 
   /// Returns the name of a label; empty where it has none, or one that Open CASCADE made up.
   [[nodiscard]] static std::string name_of(const TDF_Label& label);
+  /// Whether an assembly is none: Open CASCADE makes one of a product that has solids beside curves
+  /// or surfaces, with parts that the file does not name.
+  [[nodiscard]] static bool is_product_in_pieces(const TDF_Label& assembly);
   /// Returns the name of an instance where it says more than that of its product, which exporters
   /// often repeat or number: "NAUO12".
   [[nodiscard]] static std::string instance_name(const TDF_Label& instance,

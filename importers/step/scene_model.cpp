@@ -121,6 +121,11 @@ std::string entry_of(const TDF_Label& label) {
   return entry.ToCString();
 }
 
+/// Whether a label has parts that are objects of their own.
+bool is_assembly(const TDF_Label& label) {
+  return XCAFDoc_ShapeTool::IsAssembly(label) && !Labels::is_product_in_pieces(label);
+}
+
 TDF_Label referred(const TDF_Label& label) {
   TDF_Label product = label;
   XCAFDoc_ShapeTool::GetReferredShape(label, product);
@@ -129,7 +134,7 @@ TDF_Label referred(const TDF_Label& label) {
 
 void SceneBuilder::count_products(const TDF_Label& label, std::set<std::string>& seen) {
   if (!seen.insert(entry_of(label)).second) return;
-  if (!XCAFDoc_ShapeTool::IsAssembly(label)) {
+  if (!is_assembly(label)) {
     ++product_count_;
     return;
   }
@@ -288,7 +293,7 @@ void SceneBuilder::add_separately(Product& product, const Place& place, NameCoun
 void SceneBuilder::add_tree(const TDF_Label& label, const TDF_Label& instance, const Place& place,
                             NameCounter& names) {
   if (too_many_) return;
-  if (!XCAFDoc_ShapeTool::IsAssembly(label)) {
+  if (!is_assembly(label)) {
     if (instance.IsNull()) return add_separately(product_of(label), place, names);
     return add_instance(product_of(label), instance, place, names);
   }
@@ -337,7 +342,7 @@ void SceneBuilder::add_roots() {
   std::vector<TDF_Label> surfaces;
   for (const TDF_Label& root : roots) {
     const bool is_surface =
-        options_.kind == SourceKind::iges && !XCAFDoc_ShapeTool::IsAssembly(root) &&
+        options_.kind == SourceKind::iges && !is_assembly(root) &&
         !TopExp_Explorer(XCAFDoc_ShapeTool::GetShape(root), TopAbs_SOLID).More();
     if (is_surface)
       surfaces.push_back(root);
