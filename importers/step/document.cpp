@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "core/text_encoding.hpp"
+#include "message_log.hpp"
 
 namespace strake::import_step {
 namespace {
@@ -79,24 +80,9 @@ Handle(TDocStd_Document) new_document() {
   return document;
 }
 
-/// Returns what Open CASCADE says of the first faults of a file, as far as it says where they are.
-std::string first_faults(const Handle(XSControl_WorkSession) & session) {
-  constexpr int kMost = 3;
-  std::string text;
-  const Handle(Interface_InterfaceModel) model = session->Model();
-  if (model.IsNull()) return text;
-  const Handle(Interface_Check) global = model->GlobalCheck();
-  for (int i = 1; !global.IsNull() && i <= std::min(kMost, global->NbFails()); ++i)
-    text += (text.empty() ? "" : "; ") + printable(global->CFail(i));
-  return text;
-}
-
-Error unreadable(const std::filesystem::path& file, const Handle(XSControl_WorkSession) & session) {
-  std::string message = "Open CASCADE cannot read the file";
-  const std::string faults = first_faults(session);
-  if (!faults.empty()) message += ": " + faults;
-  return {ErrorCode::input, message, file.string(),
-          "it may be damaged: export it again, or as STEP AP214"};
+Error unreadable(const std::filesystem::path& file, const std::string& why) {
+  return {ErrorCode::input, "Open CASCADE cannot read the file" + (why.empty() ? "" : ": " + why),
+          file.string(), "it may be damaged: export it again, or as STEP AP214"};
 }
 
 Error without_product(const std::filesystem::path& file,
@@ -131,6 +117,7 @@ void note_failures(const Handle(XSControl_WorkSession) & session, Document& docu
 
 Result<Document> read_step(const std::filesystem::path& file,
                            const Handle(ReportProgress) & progress) {
+  const MessageLog log;
   STEPCAFControl_Reader reader;
   set_reading();
   reader.SetColorMode(Standard_True);
@@ -143,7 +130,7 @@ Result<Document> read_step(const std::filesystem::path& file,
   const IFSelect_ReturnStatus status = reader.ReadFile(file.c_str());
   const Handle(XSControl_WorkSession) session = reader.Reader().WS();
   if (status == IFSelect_RetVoid) return without_product(file, session);
-  if (status != IFSelect_RetDone) return unreadable(file, session);
+  if (status != IFSelect_RetDone) return unreadable(file, log.text());
   Document document;
   document.content = new_document();
   progress->next(kParsed, kTransferred);
@@ -166,6 +153,7 @@ Result<Document> read_step(const std::filesystem::path& file,
 
 Result<Document> read_iges(const std::filesystem::path& file,
                            const Handle(ReportProgress) & progress) {
+  const MessageLog log;
   IGESCAFControl_Reader reader;
   set_reading();
   reader.SetColorMode(Standard_True);
@@ -173,7 +161,7 @@ Result<Document> read_iges(const std::filesystem::path& file,
   reader.SetLayerMode(Standard_True);
   const IFSelect_ReturnStatus status = reader.ReadFile(file.c_str());
   if (status == IFSelect_RetVoid) return without_product(file, reader.WS());
-  if (status != IFSelect_RetDone) return unreadable(file, reader.WS());
+  if (status != IFSelect_RetDone) return unreadable(file, log.text());
   Document document;
   document.content = new_document();
   progress->next(kParsed, kTransferred);
@@ -193,10 +181,8 @@ Result<Document> read_document(const std::filesystem::path& file, SourceKind kin
     return kind == SourceKind::step ? read_step(file, progress) : read_iges(file, progress);
   } catch (const Standard_Failure& failure) {
     const char* const said = failure.GetMessageString();
-    return Error{ErrorCode::input,
-                 "Open CASCADE cannot read the file: " + printable(said == nullptr ? "" : said) +
-                     " (" + failure.DynamicType()->Name() + ")",
-                 file.string(), "it may be damaged: export it again, or as STEP AP214"};
+    return unreadable(file, std::string(failure.DynamicType()->Name()) + " " +
+                                printable(said == nullptr ? "" : said));
   }
 }
 

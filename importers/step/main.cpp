@@ -40,9 +40,20 @@ std::vector<std::string> files_beside(const fs::path& input, const Document& doc
   return files;
 }
 
+/// Says of each reference to nothing where it is; of many, how many more there are.
+void tell_missing(const StepReferences& references, Report& report) {
+  for (const std::string& one : references.told)
+    report.add(Severity::skipped, "step-missing-entity", one.substr(0, one.find(' ')), one);
+  if (references.missing > references.told.size())
+    report.add(Severity::skipped, "step-missing-entity", "",
+               std::to_string(references.missing - references.told.size()) +
+                   " more references name entities that are not there");
+}
+
 Status convert(const Arguments& arguments, Report& report) {
   const Result<SourceFile> source = inspect_source(arguments.input);
   if (!source) return source.error();
+  tell_missing(source->references, report);
   const Handle(ReportProgress) progress = new ReportProgress(report);
   progress->next(0, 0);
   const Result<Document> document = read_document(arguments.input, source->kind, progress);

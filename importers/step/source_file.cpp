@@ -3,26 +3,21 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
-#include "core/text_encoding.hpp"
+#include "io/source/input_file.hpp"
+#include "io/source/reader_support.hpp"
 
 namespace strake::import_step {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n";
 
-/// Returns so many bytes from a place of a file, fewer at its end.
-std::string bytes_at(std::ifstream& in, std::streamoff at, std::size_t count) {
-  std::string bytes(count, '\0');
-  in.clear();
-  in.seekg(at);
-  in.read(bytes.data(), static_cast<std::streamsize>(count));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
+/// Returns the end of a text: enough for what a file ends with.
+std::string_view end_of(std::string_view text) {
+  constexpr std::size_t kEnd = std::size_t{1} << 12U;
+  return text.substr(text.size() - std::min(text.size(), kEnd));
 }
 
 Error refused(const std::filesystem::path& file, std::string message, std::string mend) {
@@ -46,8 +41,9 @@ std::string step_format(std::string_view schema) {
   return known == kProtocols.end() ? "STEP" : std::string(known->name);
 }
 
-Result<SourceFile> inspect_step(const std::filesystem::path& file, std::string_view head,
-                                std::string_view end) {
+Result<SourceFile> inspect_step(const std::filesystem::path& file, std::string_view text) {
+  constexpr std::size_t kHead = std::size_t{1} << 16U;
+  const std::string_view head = text.substr(0, kHead), end = end_of(text);
   const std::size_t at = head.find("FILE_SCHEMA");
   const std::string_view schema =
       at == std::string_view::npos ? "" : head.substr(at, head.find(';', at) - at);
@@ -57,7 +53,9 @@ Result<SourceFile> inspect_step(const std::filesystem::path& file, std::string_v
   if (end.find("END-ISO-10303-21") == std::string_view::npos)
     return refused(file, "the file ends too soon: END-ISO-10303-21 is missing at its end",
                    "copy or export it again");
-  return SourceFile{SourceKind::step, step_format(schema)};
+  Result<StepReferences> references = check_step_syntax(text, file);
+  if (!references) return references.error();
+  return SourceFile{SourceKind::step, step_format(schema), std::move(*references)};
 }
 
 /// Whether the lines of a file are those of IGES: the letter of the section in column 73, then a
@@ -69,36 +67,30 @@ bool is_iges_line(std::string_view line, char section) {
                              [](char c) { return c == ' ' || (c >= '0' && c <= '9'); });
 }
 
-Result<SourceFile> inspect_iges(const std::filesystem::path& file, std::string_view end) {
+Result<SourceFile> inspect_iges(const std::filesystem::path& file, std::string_view text) {
+  const std::string_view end = end_of(text);
   const std::string_view body = end.substr(0, end.find_last_not_of(kBlanks) + 1);
   const std::size_t begin = body.rfind('\n');
   const std::string_view last = begin == std::string_view::npos ? body : body.substr(begin + 1);
   if (!is_iges_line(last, 'T'))
     return refused(file, "the file ends too soon: its last line is not the T line of IGES",
                    "copy or export it again");
-  return SourceFile{SourceKind::iges, "IGES"};
+  return SourceFile{SourceKind::iges, "IGES", {}};
 }
 
 }  // namespace
 
 Result<SourceFile> inspect_source(const std::filesystem::path& file) {
-  constexpr std::size_t kHead = std::size_t{1} << 16U, kEnd = std::size_t{1} << 12U;
-  std::error_code failed;
-  const std::uintmax_t size = std::filesystem::file_size(file, failed);
-  std::ifstream in(file, std::ios::binary);
-  if (failed || !in) return refused(file, "the file cannot be opened", "check its path and rights");
-  if (size == 0) return refused(file, "is empty", "export the model again");
-  const std::string head = bytes_at(in, 0, kHead);
-  const std::streamoff last = static_cast<std::streamoff>(size) -
-                              static_cast<std::streamoff>(std::min<std::uintmax_t>(size, kEnd));
-  const std::string end = bytes_at(in, last, kEnd);
-  std::string_view text = head;
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  const Result<io::FileContent> content = io::FileContent::read(file);
+  if (!content) return content.error();
+  if (content->bytes().empty()) return refused(file, "is empty", "export the model again");
+  const std::string_view whole = io::as_text(content->bytes());
+  std::string_view text = io::without_byte_order_mark(whole);
   text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
-  if (text.starts_with("ISO-10303-21")) return inspect_step(file, text, end);
-  const std::string_view first = std::string_view(head).substr(0, head.find('\n'));
-  if (is_iges_line(first, 'S')) return inspect_iges(file, end);
+  // Lines are counted from the beginning of the file.
+  if (text.starts_with("ISO-10303-21")) return inspect_step(file, whole);
+  const std::string_view first = whole.substr(0, whole.find('\n'));
+  if (is_iges_line(first, 'S')) return inspect_iges(file, whole);
   if (is_iges_line(first, 'B') || is_iges_line(first, 'C'))
     return refused(file, "the file is binary or compressed IGES, which is not read",
                    "export it as IGES in ASCII, or as STEP");

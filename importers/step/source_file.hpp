@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "step_syntax.hpp"
 #include "strake/core/result.hpp"
 
 namespace strake::import_step {
@@ -14,9 +15,10 @@ enum class SourceKind { step, iges };
 struct SourceFile {
   SourceKind kind = SourceKind::step;
   std::string format;  ///< "STEP AP214", "IGES"
+  StepReferences references;
 };
 
-/// Looks at the beginning and the end of a file: whether it is one that can be read, and whole.
+/// Looks at a file: whether it is one that can be read, and whole.
 /// Errors: input, with what is wrong and how to mend it.
 [[nodiscard]] Result<SourceFile> inspect_source(const std::filesystem::path& file);
 
