@@ -10,6 +10,7 @@
 #include <Interface_Static.hxx>
 #include <STEPCAFControl_ExternFile.hxx>
 #include <STEPCAFControl_Reader.hxx>
+#include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TDocStd_Application.hxx>
@@ -178,11 +179,10 @@ Result<Document> read_iges(const std::filesystem::path& file,
 Result<Document> read_document(const std::filesystem::path& file, SourceKind kind,
                                const Handle(ReportProgress) & progress) {
   try {
+    OCC_CATCH_SIGNALS
     return kind == SourceKind::step ? read_step(file, progress) : read_iges(file, progress);
   } catch (const Standard_Failure& failure) {
-    const char* const said = failure.GetMessageString();
-    return unreadable(file, std::string(failure.DynamicType()->Name()) + " " +
-                                printable(said == nullptr ? "" : said));
+    return unreadable(file, failure_text(failure));
   }
 }
 

@@ -9,8 +9,11 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
+#include <OSD.hxx>
 #include <OSD_Parallel.hxx>
 #include <OSD_ThreadPool.hxx>
+#include <Standard_ErrorHandler.hxx>
+#include <Standard_Failure.hxx>
 #include <clocale>
 #include <exception>
 #include <filesystem>
@@ -22,6 +25,7 @@
 
 #include "arguments.hpp"
 #include "document.hpp"
+#include "message_log.hpp"
 #include "report.hpp"
 #include "scene_model.hpp"
 #include "source_file.hpp"
@@ -79,6 +83,13 @@ void keep_standard_output_clean() {
   Message::DefaultMessenger()->ChangePrinters().Clear();
 }
 
+int converted(const Arguments& arguments, Report& report) {
+  const Status done = convert(arguments, report);
+  if (done) return 0;
+  report.fail(done.error());
+  return 1;
+}
+
 int run(std::span<char*> words) {
   const Result<Arguments> arguments = parse_arguments(words);
   if (!arguments) {
@@ -90,17 +101,16 @@ int run(std::span<char*> words) {
     fmt::print(stderr, "strake-import-step: {} cannot be written\n", arguments->report.string());
     return 2;
   }
+  OSD::SetSignal(Standard_False);
   OSD_Parallel::SetUseOcctThreads(Standard_True);
   OSD_ThreadPool::DefaultPool(static_cast<int>(arguments->threads) - 1);
   try {
-    const Status done = convert(*arguments, report);
-    if (done) return 0;
-    report.fail(done.error());
+    OCC_CATCH_SIGNALS
+    return converted(*arguments, report);
   } catch (const std::bad_alloc&) {
     report.fail(out_of_memory());
   } catch (const Standard_Failure& failure) {
-    report.fail({ErrorCode::input,
-                 std::string("Open CASCADE fails at it: ") + failure.DynamicType()->Name(), "",
+    report.fail({ErrorCode::input, failure_text(failure), "",
                  "the file may be damaged: export it again, or in another version"});
   }
   return 1;

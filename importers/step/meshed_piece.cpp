@@ -6,12 +6,13 @@
 #include <BRepTools.hxx>
 #include <Bnd_Box.hxx>
 #include <IMeshTools_Parameters.hxx>
+#include <Standard_ErrorHandler.hxx>
 #include <Standard_Failure.hxx>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "core/text_encoding.hpp"
+#include "message_log.hpp"
 #include "stitched_mesh.hpp"
 
 namespace strake::import_step {
@@ -69,21 +70,27 @@ MeshedPiece mesh_bounded(const Piece& piece, double diagonal, const MeshOptions&
   return result;
 }
 
+MeshedPiece mesh_in_bounds(const Piece& piece, const MeshOptions& options,
+                           const Handle(ReportProgress) & progress) {
+  const std::optional<double> diagonal = diagonal_of(piece.shape);
+  if (diagonal) return mesh_bounded(piece, *diagonal, options, progress);
+  MeshedPiece failed;
+  failed.fault = "it has no place, or one beyond 1000 km";
+  return failed;
+}
+
 }  // namespace
 
 MeshedPiece mesh_piece(const Piece& piece, const MeshOptions& options,
                        const Handle(ReportProgress) & progress) {
-  MeshedPiece failed;
   try {
-    const std::optional<double> diagonal = diagonal_of(piece.shape);
-    if (diagonal) return mesh_bounded(piece, *diagonal, options, progress);
-    failed.fault = "it has no place, or one beyond 1000 km";
+    OCC_CATCH_SIGNALS
+    return mesh_in_bounds(piece, options, progress);
   } catch (const Standard_Failure& failure) {
-    const char* const said = failure.GetMessageString();
-    failed.fault = std::string("Open CASCADE fails at it: ") + failure.DynamicType()->Name() + " " +
-                   printable(said == nullptr ? "" : said);
+    MeshedPiece failed;
+    failed.fault = failure_text(failure);
+    return failed;
   }
-  return failed;
 }
 
 }  // namespace strake::import_step

@@ -3,6 +3,7 @@
 
 #include <Message_Messenger.hxx>
 #include <Message_Printer.hxx>
+#include <Standard_Failure.hxx>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ class FaultPrinter : public Message_Printer {
   // Open CASCADE tells printers in const functions.
   mutable std::vector<std::string> faults_;
 };
+
+/// Returns what went wrong in Open CASCADE, as messages say it.
+[[nodiscard]] std::string failure_text(const Standard_Failure& failure);
 
 /// Listens to Open CASCADE as long as it lives.
 class MessageLog {
