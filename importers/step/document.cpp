@@ -101,6 +101,8 @@ void note_failures(const Handle(XSControl_WorkSession) & session, Document& docu
   const Handle(Interface_InterfaceModel) model = session->Model();
   const Handle(XSControl_TransferReader) transfer = session->TransferReader();
   if (model.IsNull() || transfer.IsNull() || transfer->TransientProcess().IsNull()) return;
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (model->IsUnknownEntity(i)) ++document.unknown;
   Interface_CheckIterator checks = transfer->LastCheckList();
   for (checks.Start(); checks.More(); checks.Next()) {
     const Handle(Interface_Check)& check = checks.Value();

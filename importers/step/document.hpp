@@ -2,6 +2,7 @@
 #pragma once
 
 #include <TDocStd_Document.hxx>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ namespace strake::import_step {
 struct Document {
   Handle(TDocStd_Document) content;
   std::string unit;                      ///< of the file, "mm"; empty where it is none of ours
+  std::size_t unknown = 0;               ///< entities of kinds that Open CASCADE does not know
   std::vector<std::string> not_read;     ///< entities of which no shape was made
   std::vector<std::string> outer_files;  ///< STEP files that this one refers to, as it spells them
   std::vector<std::string> missing_files;  ///< those of them that could not be read

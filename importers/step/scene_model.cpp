@@ -355,6 +355,11 @@ void SceneBuilder::add_roots() {
 void SceneBuilder::tell_what_was_left_out() {
   for (const std::string& entity : document_.not_read)
     report_.add(Severity::skipped, "step-not-read", entity.substr(0, entity.find(':')), entity);
+  if (document_.unknown > 0)
+    report_.add(
+        Severity::note, "step-unknown-entity", "",
+        std::to_string(document_.unknown) +
+            " entities are of kinds that Open CASCADE does not know, and count for nothing");
   for (const std::string& file : document_.missing_files)
     report_.add(Severity::skipped, "step-file-missing", file,
                 "the file that it refers to cannot be read");

@@ -95,6 +95,7 @@ class ImportRun {
                    report_file_.string(),
                    "--threads",
                    std::to_string(options_.threads)};
+    if (task_.sag_mm) child.words.insert(child.words.end(), {"--sag", shortest(*task_.sag_mm)});
     child.log = task_.folder / "log";
     child.most_log_bytes = kMostLog;
     child.may_go_on = [this] { return may_go_on(); };

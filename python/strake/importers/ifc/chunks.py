@@ -16,7 +16,7 @@ from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
 from strake.importers.ifc.entity import Model
-from strake.importers.ifc.kernels import geometry_settings
+from strake.importers.ifc.kernels import SAG_M, geometry_settings
 from strake.importers.shapes import Color, Part, PreparedShape, prepare_shape
 
 # The fault of a shape without a triangle.
@@ -58,7 +58,7 @@ class Remark:
 Answer = Converted | Remark
 
 
-def convert_chunk(model: Model, chunk: Chunk) -> Iterator[Answer]:
+def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M) -> Iterator[Answer]:
     """Yields what becomes of each product that gets a shape, then what is to be said of any.
 
     Raises whatever IfcOpenShell raises, and may end the process.
@@ -66,7 +66,7 @@ def convert_chunk(model: Model, chunk: Chunk) -> Iterator[Answer]:
     log: Any = ifcopenshell_wrapper.logger()
     log.output_format(log.FMT_INMEMORY)
     iterator = ifcopenshell.geom.iterator(
-        geometry_settings(),
+        geometry_settings(sag_m),
         model,
         1,
         include=[model.by_id(number) for number in chunk.products],
