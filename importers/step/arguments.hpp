@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 
 #include "meshed_piece.hpp"
@@ -13,7 +14,7 @@ namespace strake::import_step {
 struct Arguments {
   std::filesystem::path input, output, report;
   unsigned threads = 1;
-  double sag_mm = MeshOptions::kSag;
+  std::optional<double> sag_mm;
 };
 
 /// Errors: usage, where a word is not known or makes no sense.

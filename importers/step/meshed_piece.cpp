@@ -48,11 +48,13 @@ void run_mesher(const TopoDS_Shape& shape, double sag_mm, const MeshOptions& opt
 
 MeshedPiece mesh_bounded(const Piece& piece, double diagonal, const MeshOptions& options,
                          const Handle(ReportProgress) & progress) {
-  // A ball of this share of its diameter has less than a million triangles.
-  constexpr double kFinestShare = 2e-6;
+  // A ball of the finest share of its diameter has less than a million triangles.
+  constexpr double kFinestShare = 2e-6, kUsualShare = 5e-4, kFinest = 1e-3;
   MeshedPiece result;
-  const double sag_mm = std::max(options.sag_mm, diagonal * kFinestShare);
-  if (sag_mm > options.sag_mm) result.coarser_sag_mm = sag_mm;
+  const double wanted_mm =
+      options.sag_mm.value_or(std::clamp(diagonal * kUsualShare, kFinest, MeshOptions::kSag));
+  const double sag_mm = std::max(wanted_mm, diagonal * kFinestShare);
+  if (sag_mm > wanted_mm) result.coarser_sag_mm = sag_mm;
   run_mesher(piece.shape, sag_mm, options, progress->Start());
   if (progress->is_over_limit()) {
     result.fault = "making its triangles takes too long";

@@ -15,7 +15,9 @@ namespace strake::import_step {
 struct MeshOptions {
   static constexpr double kSag = 0.1, kAngle = 0.5;
 
-  double sag_mm = kSag;  ///< the largest distance of a triangle from its surface
+  /// The largest distance of a triangle from its surface; without it kSag, and less for small
+  /// pieces, so that they look as they are where a drawing shows them large.
+  std::optional<double> sag_mm;
   unsigned threads = 1;
   /// A piece that takes longer is given up.
   double limit_s = 60;

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -52,7 +53,7 @@ class StepImport : public testing::Test {
     std::string unit;
     double volume = 0, area = 0;  ///< by Open CASCADE, of all instances
   };
-  static Import import(const fs::path& file, double sag_mm = MeshOptions::kSag) {
+  static Import import(const fs::path& file, std::optional<double> sag_mm = {}) {
     Report report(folder() / "report.jsonl");
     const Result<SourceFile> source = inspect_source(file);
     if (!source) return {source.error(), "", 0, 0};
