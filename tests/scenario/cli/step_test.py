@@ -68,8 +68,10 @@ class Step(Scenario):
         self.assertIn('solid.igs: IGES, 1 objects, unit mm (stated), z up', done.stderr)
         pairs = {(row['a']['id'], row['b']['id']): row['class'] for row in json.loads(done.stdout)['results']}
         self.assertIn('HIT', pairs.values())
-        listed = self.text('info', 'rig.step', '--select', '@Instance = left and @Assembly = first', '--objects', 9)
-        self.assertEqual(re.findall(r'^  id +(.*)', listed, re.MULTILINE), ['Rig/first/left'])
+        done = self.run_strake('draw', 'rig.step', '--select', '@Instance = left and @Assembly = first', '--view', 'top', '-o',
+                               'left.svg')
+        self.assertIn('1 objects: 1 drawn', done.stderr)
+        self.assertIn('  id        Rig/first/left\n', self.text('info', 'rig.step', '--objects', 20))
         self.assertIn('.step', self.text('info', '--formats'))
         self.text('draw', 'curved.step', '--view', 'top', '-o', 'curved.svg')
         self.assertIn('<path', (self.folder / 'curved.svg').read_text(encoding='utf-8'))
