@@ -103,7 +103,7 @@ void note_failures(const Handle(XSControl_WorkSession) & session, Document& docu
   if (model.IsNull() || transfer.IsNull() || transfer->TransientProcess().IsNull()) return;
   for (int i = 1; i <= model->NbEntities(); ++i)
     if (model->IsUnknownEntity(i)) ++document.unknown;
-  Interface_CheckIterator checks = transfer->LastCheckList();
+  const Interface_CheckIterator checks = transfer->LastCheckList();
   for (checks.Start(); checks.More(); checks.Next()) {
     const Handle(Interface_Check)& check = checks.Value();
     if (!check->HasFailed()) continue;

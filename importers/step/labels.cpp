@@ -50,7 +50,7 @@ Labels::Labels(const Handle(TDocStd_Document) & document)
 std::string Labels::name_of(const TDF_Label& label) {
   Handle(TDataStd_Name) name;
   if (label.IsNull() || !label.FindAttribute(TDataStd_Name::GetID(), name)) return {};
-  std::string text = utf8_of(name->Get());
+  const std::string text = utf8_of(name->Get());
   // Where the file says nothing there is the reference itself, "=>[0:1:1:2]", or what the shape is.
   const bool is_made_up = text.starts_with("=>[0:") || is_kind_of_shape(text);
   return is_made_up ? std::string() : text;

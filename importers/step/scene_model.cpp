@@ -38,6 +38,12 @@ Placement placement_of(const TopLoc_Location& location) {
   return result;
 }
 
+/// Gives an attribute a value, in place of the one that it has.
+void state(model::Attributes& attributes, const std::string& name, std::string value) {
+  std::erase_if(attributes, [&](const auto& one) { return one.first == name; });
+  attributes.emplace_back(name, std::move(value));
+}
+
 /// A product made into shapes of the model, which count from its middle.
 struct Product {
   struct Part {
@@ -49,8 +55,6 @@ struct Product {
   std::vector<Part> parts;
   Vec3d middle;
   model::Attributes attributes;
-  bool incomplete = false;
-  std::size_t instances = 0;
 };
 
 /// Names within a group: of several that are equal the second is "bolt~2".
@@ -59,8 +63,10 @@ class NameCounter {
   std::string unique(const std::string& name) {
     const std::size_t count = ++counts_[name];
     if (count == 1) return name;
-    std::string next = name + "~" + std::to_string(count);
-    return counts_.contains(next) ? unique(next) : (++counts_[next], next);
+    const std::string next = name + "~" + std::to_string(count);
+    if (counts_.contains(next)) return unique(next);
+    ++counts_[next];
+    return next;
   }
 
  private:
@@ -90,13 +96,13 @@ class SceneBuilder {
   void count_products(const TDF_Label& label, std::set<std::string>& seen);
   void add_tree(const TDF_Label& label, const TDF_Label& instance, const Place& place,
                 NameCounter& names);
-  void add_instance(Product& product, const TDF_Label& instance, const Place& place,
+  void add_instance(const Product& product, const TDF_Label& instance, const Place& place,
                     NameCounter& names);
-  void add_separately(Product& product, const Place& place, NameCounter& names);
+  void add_separately(const Product& product, const Place& place, NameCounter& names);
   void add_roots();
   void add_loose_surfaces(const std::vector<TDF_Label>& roots, NameCounter& names);
   model::GroupId add_group(const std::string& name, model::GroupId parent);
-  Product& product_of(const TDF_Label& label);
+  const Product& product_of(const TDF_Label& label);
   Product make_product(std::string name, const TopoDS_Shape& shape,
                        const XCAFPrs_IndexedDataMapOfShapeStyle& styles);
   void add_part(Product& product, const Piece& piece, std::vector<model::Shape>& shapes);
@@ -155,17 +161,14 @@ void SceneBuilder::add_part(Product& product, const Piece& piece,
   MeshedPiece meshed = mesh_piece(piece, options_.mesh, progress_);
   const std::string name = product.name.empty() ? options_.file_name : product.name;
   if (!meshed.fault.empty()) {
-    product.incomplete = true;
     report_.add(Severity::skipped, "step-no-triangles", name,
                 std::string(piece.is_solid ? "a solid" : "a surface") +
                     " of the product is not in the scene: " + meshed.fault);
     return;
   }
-  if (meshed.faces_without > 0) {
-    product.incomplete = true;
+  if (meshed.faces_without > 0)
     report_.add(Severity::skipped, "step-face-without-triangles", name,
                 std::to_string(meshed.faces_without) + " faces have no triangles");
-  }
   if (piece.is_solid && !meshed.is_closed)
     report_.add(Severity::warning, "step-open-solid", name,
                 "its faces do not meet everywhere, so that it counts as a surface");
@@ -219,7 +222,7 @@ Product SceneBuilder::make_product(std::string name, const TopoDS_Shape& shape,
   return product;
 }
 
-Product& SceneBuilder::product_of(const TDF_Label& label) {
+const Product& SceneBuilder::product_of(const TDF_Label& label) {
   const std::string entry = entry_of(label);
   if (const auto known = products_.find(entry); known != products_.end()) return known->second;
   XCAFPrs_IndexedDataMapOfShapeStyle styles;
@@ -235,25 +238,22 @@ Product& SceneBuilder::product_of(const TDF_Label& label) {
 }
 
 /// Adds an object that has all parts of a product.
-void SceneBuilder::add_instance(Product& product, const TDF_Label& instance, const Place& place,
-                                NameCounter& names) {
+void SceneBuilder::add_instance(const Product& product, const TDF_Label& instance,
+                                const Place& place, NameCounter& names) {
   if (product.parts.empty()) return;
   if (model_.objects.size() >= kMostObjects) {
     too_many_ = true;
     return;
   }
-  ++product.instances;
   const std::string own = Labels::instance_name(instance, product.name);
   model::Object object;
   object.name = !own.empty() ? own : !product.name.empty() ? product.name : options_.file_name;
   object.id = place.id + names.unique(object.name);
   object.parent = place.group;
-  object.incomplete = product.incomplete;
   object.attributes = product.attributes;
   if (!own.empty()) object.attributes.emplace_back("Instance", own);
   if (std::string layers = labels_.layers_of(instance); !layers.empty())
-    std::erase_if(object.attributes, [](const auto& a) { return a.first == "Layer"; }),
-        object.attributes.emplace_back("Layer", std::move(layers));
+    state(object.attributes, "Layer", std::move(layers));
   object.first_body = static_cast<std::uint32_t>(model_.bodies.size());
   object.body_count = static_cast<std::uint32_t>(product.parts.size());
   const std::optional<model::Color> color = labels_.color_of_label(instance);
@@ -271,7 +271,7 @@ void SceneBuilder::add_instance(Product& product, const TDF_Label& instance, con
 
 /// Adds an object for each part of a product that is all that the file has: nothing of it could
 /// clash otherwise.
-void SceneBuilder::add_separately(Product& product, const Place& place, NameCounter& names) {
+void SceneBuilder::add_separately(const Product& product, const Place& place, NameCounter& names) {
   if (product.parts.size() < 2) return add_instance(product, TDF_Label(), place, names);
   const std::string name = names.unique(product.name.empty() ? options_.file_name : product.name);
   Place within = place;
@@ -329,7 +329,7 @@ void SceneBuilder::add_loose_surfaces(const std::vector<TDF_Label>& roots, NameC
     builder.Add(all, XCAFDoc_ShapeTool::GetShape(root));
     XCAFPrs::CollectStyleSettings(root, TopLoc_Location(), styles);
   }
-  Product product = make_product(options_.file_name, all, styles);
+  const Product product = make_product(options_.file_name, all, styles);
   add_separately(product, {}, names);
 }
 
