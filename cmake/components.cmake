@@ -70,6 +70,7 @@ set(manual
   docs/first-run.md
   docs/formats/ifc.md
   docs/formats/importers.md
+  docs/formats/step.md
   docs/hidden-line-algorithms.md
   docs/hlr.md
   docs/pictures

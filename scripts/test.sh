@@ -10,7 +10,7 @@ case "${1:-}" in
   *) echo "test: unknown option '$1' (there is only --all)" >&2; exit 2 ;;
 esac
 need build test
-[ "$preset" = nightly ] && { need docs; scripts/sanitize.sh; }
+[ "$preset" = nightly ] && { need docs step; scripts/sanitize.sh; }
 configure_and_build "$preset"
 scripts/format.sh --check
 if [ "$preset" = nightly ]; then

@@ -205,7 +205,10 @@ std::string formats_text() {
                               importer.file.string())
                 : fmt::format("\n{:<13}by {}", '.' + importer.suffix, importer.file.string());
   }
-  if (importers.empty()) text += "\nNo importer is found; that of IFC: pip install 'strake[ifc]'";
+  if (importers.empty())
+    text +=
+        "\nNo importer is found; that of IFC: pip install 'strake[ifc]', that of STEP and IGES: "
+        "./run step";
   return text;
 }
 

@@ -49,11 +49,9 @@ const Reader* best_reader(const Readers& readers, const FileBytes& file, const R
 
 /// Returns how a file of that suffix is made into one that is read; empty where it has none.
 std::string conversion_of(std::string_view suffix) {
-  constexpr std::array<std::string_view, 5> kCad{"step", "stp", "iges", "igs", "brep"};
   constexpr std::array<std::string_view, 3> kMesh{"ply", "fbx", "dae"};
   std::string advice = "; export the model as one of these";
-  if (std::ranges::find(kCad, suffix) != kCad.end())
-    advice = "; open it in a CAD program, as FreeCAD, and export it as glTF";
+  if (suffix == "brep") advice = "; open it in a CAD program, as FreeCAD, and export it as glTF";
   if (std::ranges::find(kMesh, suffix) != kMesh.end())
     advice = "; open it in Blender and export it as glTF";
   if (suffix.empty()) return advice;

@@ -25,6 +25,9 @@ struct ImportSettings {
   std::vector<std::filesystem::path> folders;
   /// An importer that makes no progress for so many seconds is ended.
   double silence_s = kSilence;
+  /// The largest distance of triangles from the true surface, in mm, where the importer makes them
+  /// of curved ones; without it each takes its own.
+  std::optional<double> sag_mm;
   /// The folder of scenes that are kept for the next run; without it none is.
   std::optional<std::filesystem::path> cache;
   /// The least recently used scenes go when all together are larger.
@@ -33,6 +36,7 @@ struct ImportSettings {
 
 /// Returns what the environment says, as the program and the functions without settings take it:
 /// the folder of the running program and those of PATH; STRAKE_IMPORT_LIMIT (seconds);
+/// STRAKE_IMPORT_SAG ("0.1mm");
 /// STRAKE_CACHE, XDG_CACHE_HOME or HOME, and STRAKE_CACHE_LIMIT ("20GB").
 /// Errors: usage, where a value makes no sense.
 [[nodiscard]] Result<ImportSettings> import_settings_of_environment();

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How an importer is called: `--input FILE --output SCENE.glb --report REPORT.jsonl --threads N`."""
+"""How an importer is called: `--input FILE --output SCENE.glb --report REPORT.jsonl --threads N [--sag MM]`."""
 
 from __future__ import annotations
 
@@ -22,12 +22,16 @@ from strake.importers.supervision import crash_of
 
 @dataclass
 class Job:
-    """One import: what to read, where the scene goes, and whom to tell."""
+    """One import: what to read, where the scene goes, and whom to tell.
+
+    `sag_mm` is the largest distance of triangles from the true surface, where the user says one.
+    """
 
     input: Path
     output: Path
     report: Report
     threads: int = 1
+    sag_mm: float | None = None
     made_by: str = "an importer"
     format: str = ""
     unit: str = ""
@@ -61,10 +65,11 @@ def run(convert: Convert, arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--output", type=Path, required=True, metavar="SCENE.glb", help="the scene that is written")
     parser.add_argument("--report", type=Path, required=True, metavar="REPORT.jsonl", help="the report that is written")
     parser.add_argument("--threads", type=int, default=os.cpu_count() or 1, metavar="N", help="how many cores to use")
+    parser.add_argument("--sag", type=float, metavar="MM", help="the largest distance of triangles from the true surface")
     options = parser.parse_args(arguments)
     options.report.write_bytes(b"")
     with Report(options.report) as report:
-        job = Job(options.input, options.output, report, max(1, options.threads))
+        job = Job(options.input, options.output, report, max(1, options.threads), options.sag)
         crash = crash_of(lambda: _converted(convert, job))
         if crash.name:
             report.error(f"reading it ended with {crash.name}", "the file may be damaged: export it again, or in another version")

@@ -86,6 +86,14 @@ Result<ImportSettings> import_settings_of_environment() {
                    "STRAKE_IMPORT_LIMIT", "write seconds, as 600"};
     settings.silence_s = *seconds;
   }
+  if (const std::string text = variable("STRAKE_IMPORT_SAG"); !text.empty()) {
+    constexpr double kFinestMm = 0.001;
+    const Result<double> length = parse_length_mm(text);
+    if (!length || !(*length >= kFinestMm))
+      return Error{ErrorCode::usage, in_quotes(text) + " is no length of 1um or more",
+                   "STRAKE_IMPORT_SAG", "write it with its unit, as 0.1mm"};
+    settings.sag_mm = *length;
+  }
   if (const std::string text = variable("STRAKE_CACHE_LIMIT"); !text.empty()) {
     const auto bytes = parse_bytes(text);
     if (!bytes)

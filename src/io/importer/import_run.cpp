@@ -101,6 +101,7 @@ class ImportRun {
                    report_file_.string(),
                    "--threads",
                    std::to_string(options_.threads)};
+    if (task_.sag_mm) child.words.insert(child.words.end(), {"--sag", shortest(*task_.sag_mm)});
     child.log = folder_ / "log";
     // What a stranger put beside the model is not found by a program that looks around it.
     child.folder = folder_;

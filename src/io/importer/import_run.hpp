@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 
@@ -18,8 +19,9 @@ namespace strake::io {
 struct ImportTask {
   ImporterProgram program;
   std::filesystem::path file;
-  std::filesystem::path folder;  ///< its own, for the scene and what it says
-  double silence_s = 0;          ///< the longest time without progress
+  std::filesystem::path folder;       ///< its own, for the scene and what it says
+  double silence_s = 0;               ///< the longest time without progress
+  std::optional<double> sag_mm = {};  ///< of its triangles, where that is said
 };
 
 /// How an importer is run.

@@ -192,6 +192,11 @@ std::optional<Error> missing_importer(const FileBytes& file) {
   const auto is = [&](std::string_view suffix) {
     return !suffixes.empty() && suffixes.front() == suffix;
   };
+  if (is("step") || is("stp") || is("iges") || is("igs"))
+    return Error{ErrorCode::input,
+                 "STEP and IGES files are read by the importer strake-import-step, which is not "
+                 "here: './run step' in Strake's sources installs Open CASCADE and builds it",
+                 file.path.string(), "or convert it: open it in FreeCAD and export it as glTF"};
   if (!is("ifc") && !is("ifczip") && !is("ifcxml")) return std::nullopt;
   return Error{ErrorCode::input, "IFC files are read by an importer: pip install 'strake[ifc]'",
                file.path.string(), "or convert it: IfcConvert model.ifc model.glb"};

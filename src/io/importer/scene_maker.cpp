@@ -50,6 +50,7 @@ std::optional<SceneJob> SceneMaker::job_of(const FileBytes& file) const {
   Hasher key;
   key.add(kContract).add(content.high).add(content.low).add(stamp.path);
   key.add(stamp.size).add(stamp.time).add(program->suffix);
+  if (settings_.sag_mm) key.add(*settings_.sag_mm);
   return SceneJob{file.path, std::move(*program), content, key.value()};
 }
 
@@ -105,8 +106,8 @@ Result<ImportedScene> SceneMaker::make(const SceneJob& job, const ImportRunOptio
   if (!place.work)
     return Error{ErrorCode::output, "there is no folder in which its importer could work",
                  job.file.string(), "let TMPDIR name a folder that you may write to"};
-  Result<SceneFacts> facts =
-      run_importer({job.program, job.file, place.work->path(), settings_.silence_s}, options);
+  Result<SceneFacts> facts = run_importer(
+      {job.program, job.file, place.work->path(), settings_.silence_s, settings_.sag_mm}, options);
   if (!facts) return facts.error();
   const Result<Hash128> now = hash_of(job.file);
   if (!now) return now.error();

@@ -105,6 +105,21 @@ echo '{"severity": "skipped", "code": "toy-lost", "object": "T7", "message": "no
   EXPECT_TRUE(is_tidy());
 }
 
+TEST_F(FakeImporters, AreToldOfASagOnlyWhereOneIsSaid) {
+  play_well("echo \"$*\" >> " + (folder_.path() / "words").string());
+  const auto words = [&] {
+    std::ifstream in(folder_.path() / "words");
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  ASSERT_TRUE(read({toy_}));
+  EXPECT_EQ(words().find("--sag"), std::string::npos);
+  settings_.sag_mm = 0.25;
+  ASSERT_TRUE(read({toy_}));
+  EXPECT_TRUE(words().ends_with(" --sag 0.25\n")) << words();
+  ASSERT_TRUE(read({toy_}));
+  EXPECT_EQ(calls(), 2U) << "another sag is another scene, and the same is found";
+}
+
 TEST_F(FakeImporters, WhatTheContentSaysWins) {
   play_well();
   const fs::path glb = folder_.write("b.toy", test::triangle_glb(R"("nodes":[{"mesh":0}])"));
@@ -120,7 +135,7 @@ TEST_F(FakeImporters, AreNamedByTheSchemaOfAStepFile) {
       read({folder_.write("a.stp", "ISO-10303-21;\nHEADER;FILE_SCHEMA(('IFC4'));ENDSEC;\n")}));
   const fs::path step =
       folder_.write("b.stp", "ISO-10303-21;\nHEADER;FILE_SCHEMA(('AUTOMOTIVE_DESIGN'));\n");
-  EXPECT_NE(read({step}).error().text().find("strake-import-stp"), std::string::npos);
+  EXPECT_NE(read({step}).error().text().find("strake-import-step"), std::string::npos);
   play(make_scene() + kEnd, "step");
   EXPECT_TRUE(read({step}));
 }

@@ -59,7 +59,7 @@ class Remark:
 Answer = Converted | Remark
 
 
-def convert_chunk(model: Model, chunk: Chunk) -> Iterator[Answer]:
+def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M) -> Iterator[Answer]:
     """Yields what becomes of each product that gets a shape, then what is to be said of any.
 
     Raises whatever IfcOpenShell raises, and may end the process.
@@ -67,7 +67,7 @@ def convert_chunk(model: Model, chunk: Chunk) -> Iterator[Answer]:
     log: Any = ifcopenshell_wrapper.logger()
     log.output_format(log.FMT_INMEMORY)
     iterator = ifcopenshell.geom.iterator(
-        geometry_settings(),
+        geometry_settings(sag_m),
         model,
         1,
         include=[model.by_id(number) for number in chunk.products],
@@ -78,19 +78,21 @@ def convert_chunk(model: Model, chunk: Chunk) -> Iterator[Answer]:
     going = iterator.initialize()
     while going:
         element = iterator.get()
-        yield _converted(model, element, known, chunk.kernel)
+        yield _converted(model, element, known, chunk.kernel, sag_m)
         going = bool(iterator.next())
     yield from _remarks(log, chunk)
 
 
-def _converted(model: Model, element: Any, known: dict[str, PreparedShape | str], kernel: str) -> Converted:
+def _converted(
+    model: Model, element: Any, known: dict[str, PreparedShape | str], kernel: str, sag_m: float
+) -> Converted:
     name = element.geometry.id
     first = name not in known
     if first:
         try:
             if len(element.geometry.faces_buffer) == 0:
                 raise ValueError(EMPTY)
-            known[name] = prepare_shape(_parts(element.geometry), sag_mm=_sag_mm(model.by_id(element.id)))
+            known[name] = prepare_shape(_parts(element.geometry), sag_mm=_sag_mm(model.by_id(element.id), sag_m))
         except ValueError as fault:
             known[name] = str(fault)
     shape = known[name]
@@ -103,13 +105,13 @@ def _converted(model: Model, element: Any, known: dict[str, PreparedShape | str]
     return Converted(element.id, shape.key, shape.middle, placement.tobytes(), shape if first else None, kernel)
 
 
-def _sag_mm(product: Entity) -> float | None:
+def _sag_mm(product: Entity, sag_m: float) -> float | None:
     """Returns how far the triangles are from the surfaces at most: what the kernel was asked for where any is curved."""
     try:
         faces = faces_of(product)
     except (AttributeError, RuntimeError):
         return None  # something that its body must have is not there
-    return {Faces.FLAT: 0.0, Faces.CURVED: SAG_M * _MM_PER_M, Faces.FACETS: None}[faces]
+    return {Faces.FLAT: 0.0, Faces.CURVED: sag_m * _MM_PER_M, Faces.FACETS: None}[faces]
 
 
 def _parts(geometry: Any) -> Sequence[Part]:

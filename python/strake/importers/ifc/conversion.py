@@ -7,6 +7,7 @@ import pickle
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +17,9 @@ import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
-from strake.importers.ifc.chunks import EMPTY, Chunk, Converted, Remark
+from strake.importers.ifc.chunks import EMPTY, Chunk, Converted, Remark, convert_chunk
 from strake.importers.ifc.entity import Entity, Model
-from strake.importers.ifc.kernels import EXACT, FAST, geometry_settings, has_body, kernels_for
+from strake.importers.ifc.kernels import EXACT, FAST, SAG_M, geometry_settings, has_body, kernels_for
 from strake.importers.ifc.products import CircleFinder
 from strake.importers.ifc.workers import Ended, Workers
 from strake.importers.report import Report
@@ -112,8 +113,10 @@ def chunks_of(tasks: Sequence[tuple[Entity, ...]]) -> list[Chunk]:
     return sorted(chunks, key=lambda chunk: chunk.products[0])
 
 
-def convert_products(model: Model, products: Sequence[Entity], threads: int, report: Report, folder: Path) -> Conversion:
-    """Converts the products. None of them can harm another, or the import."""
+def convert_products(
+    model: Model, products: Sequence[Entity], threads: int, report: Report, folder: Path, sag_m: float = SAG_M
+) -> Conversion:
+    """Converts the products, with chords no farther from their curves than `sag_m`. None can harm another, or the import."""
     result = Conversion(ShapeStore(folder))
     circles = CircleFinder()
     faults = {product.id(): fault for product in products if (fault := circles.fault_of(product))}
@@ -126,7 +129,7 @@ def convert_products(model: Model, products: Sequence[Entity], threads: int, rep
         for product in task:
             task_of[product.id()] = kernels
     result.bodyless = [product.id() for product in products if product.id() not in task_of]
-    with Workers(model, threads) as workers:
+    with Workers(model, threads, convert=partial(convert_chunk, sag_m=sag_m)) as workers:
         for chunk in chunks_of(tasks):
             workers.add(chunk)
         for event in workers.answers():

@@ -16,6 +16,7 @@ from strake.importers.ifc.attributes import AttributeReader
 from strake.importers.ifc.conversion import Conversion, convert_products
 from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.georeference import read_map_conversion
+from strake.importers.ifc.kernels import SAG_M
 from strake.importers.ifc.products import Ids, Products, choose_products, tell_of_left_out
 from strake.importers.ifc.source import open_model
 from strake.importers.ifc.spatial import SpatialGroups
@@ -39,7 +40,8 @@ def convert(job: Job) -> None:
         job.unit = units.length_name
         products = choose_products(model)
         sys.stdout.flush()
-        conversion = convert_products(model, products.solid, job.threads, job.report, folder)
+        sag_m = SAG_M if job.sag_mm is None else job.sag_mm / 1000
+        conversion = convert_products(model, products.solid, job.threads, job.report, folder, sag_m)
         _write(job, model, units, products, conversion)
 
 

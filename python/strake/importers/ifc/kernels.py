@@ -42,10 +42,10 @@ AFTER_FAST = (FAST, EXACT, "cgal")
 AFTER_EXACT = (EXACT, FAST, "cgal")
 
 
-def geometry_settings() -> ifcopenshell.geom.settings:
+def geometry_settings(sag_m: float = SAG_M) -> ifcopenshell.geom.settings:
     """Returns the settings that are the same for all kernels."""
     settings = ifcopenshell.geom.settings()
-    settings.set("mesher-linear-deflection", SAG_M)
+    settings.set("mesher-linear-deflection", sag_m)
     settings.set("mesher-angular-deflection", ANGLE)
     # The short cut of opencascade leaves a wall whole that lies in its opening.
     settings.set("boolean-attempt-2d", False)
