@@ -12,6 +12,7 @@
 
 #include "io/gltf/accessor.hpp"
 #include "io/gltf/mesh.hpp"
+#include "io/gltf/neutral/neutral_import.hpp"
 #include "io/gltf/nodes.hpp"
 #include "io/gltf/placing.hpp"
 #include "io/mesh/transparent_shells.hpp"
@@ -56,6 +57,7 @@ class Importer {
       : input_(input),
         document_(document),
         root_(document.root()),
+        neutral_(neutral_scene(root_)),
         default_(stated_frame(root_)),
         frame_(choose_frame(input.options, default_)),
         buffers_(root_, container, input.file.path),
@@ -85,6 +87,7 @@ class Importer {
   ImportInput input_;
   const Document& document_;
   JsonValue root_;
+  JsonValue neutral_;  ///< what the asset says of a neutral scene, if it is one
   FrameDefault default_;
   SourceFrame frame_;
   Buffers buffers_;
@@ -107,7 +110,7 @@ Status Importer::read_nodes() {
   mesh_names.reserve(meshes_.size());
   for (const JsonValue& mesh : meshes_) mesh_names.push_back(mesh["name"]);
   Result<std::optional<NodeTable>> nodes =
-      NodeTable::read(document_.node_pieces(), mesh_names, input_.context);
+      NodeTable::read(document_.node_pieces(), {mesh_names, neutral_.exists()}, input_.context);
   if (!nodes) return nodes.error();
   if (!*nodes) return error_in_json(input_.file, document_.fault(input_.context));
   nodes_ = std::move(**nodes);
@@ -255,6 +258,12 @@ Result<model::Model> Importer::run() {
   if (const Status read = read_nodes(); !read) return read.error();
   if (const Status visited = visit_nodes(); !visited) return visited.error();
   if (const Status bounded = check_amount(); !bounded) return bounded.error();
+  if (neutral_.exists()) {
+    const NeutralInput neutral{visits_, nodes_,      neutral_,      meshes_,
+                               used_,   buffers_,    accessors_,    materials_,
+                               frame_,  input_.file, input_.context};
+    return import_neutral(neutral, std::move(model_));
+  }
   if (const Status loaded = load_meshes(); !loaded) return loaded.error();
   note_meshes();
   note_nodes();
@@ -269,6 +278,7 @@ Result<model::Model> Importer::run() {
 }  // namespace
 
 FrameDefault stated_frame(const JsonValue& root) {
+  if (neutral_scene(root).exists()) return {1.0, UpAxis::z, true};
   FrameDefault frame{1000.0, UpAxis::y, true};
   const JsonValue extras = root["asset"]["extras"];
   if (const auto unit = extras["unit_mm"].number(); unit && *unit > 0 && *unit < 1e12)

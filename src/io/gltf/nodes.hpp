@@ -24,6 +24,7 @@ struct GltfNode {
     JsonText instancing;       ///< EXT_mesh_gpu_instancing
     JsonText instance_extras;  ///< extras.instances
     JsonText weights;          ///< weights of morph targets, in place of the mesh's own
+    JsonText neutral;          ///< extras.strake, of a neutral scene
     std::optional<GltfFault> fault;
   };
 
@@ -42,6 +43,7 @@ struct GltfNode {
     return unusual ? unusual->instance_extras : JsonText();
   }
   [[nodiscard]] JsonText weights() const { return unusual ? unusual->weights : JsonText(); }
+  [[nodiscard]] JsonText neutral() const { return unusual ? unusual->neutral : JsonText(); }
   /// If there is one, the node and what is below it cannot be placed.
   [[nodiscard]] const GltfFault* fault() const {
     return unusual && unusual->fault ? &*unusual->fault : nullptr;
@@ -59,11 +61,17 @@ class NodeTable {
   NodeTable& operator=(NodeTable&&) = default;
   ~NodeTable() = default;
 
-  /// Parses all nodes of the pieces; `mesh_names` are the names that the meshes of the document
-  /// state. Nothing when a piece is not valid JSON. Errors: cancelled, out of memory.
-  [[nodiscard]] static Result<std::optional<NodeTable>> read(
-      std::span<const ArrayPiece> pieces, const std::vector<JsonValue>& mesh_names,
-      const parallel::Context& context);
+  /// What is known before nodes are read.
+  struct Before {
+    const std::vector<JsonValue>& mesh_names;  ///< that the meshes of the document state
+    bool neutral = false;                      ///< extras.strake is ours and no attribute
+  };
+
+  /// Parses all nodes of the pieces. Nothing when a piece is not valid JSON. Errors: cancelled, out
+  /// of memory.
+  [[nodiscard]] static Result<std::optional<NodeTable>> read(std::span<const ArrayPiece> pieces,
+                                                             const Before& before,
+                                                             const parallel::Context& context);
 
   [[nodiscard]] std::size_t size() const { return at_.size(); }
   [[nodiscard]] std::span<const std::uint64_t> children(std::size_t node) const {

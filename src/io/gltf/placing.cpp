@@ -70,16 +70,6 @@ std::string shortened(std::string path, std::string_view name) {
   return fmt::format("{}/{}", Hasher().add(std::string_view(path)).value().text(), name);
 }
 
-bool is_finite_at(const geometry::Box3d& box, const Placement& placement) {
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    const Vec3d p = placement * Vec3d{(corner & 1U) != 0 ? box.hi.x : box.lo.x,
-                                      (corner & 2U) != 0 ? box.hi.y : box.lo.y,
-                                      (corner & 4U) != 0 ? box.hi.z : box.lo.z};
-    if (!geometry::is_finite(p)) return false;
-  }
-  return true;
-}
-
 /// Nodes with children are placed one after the other, parents first. The others, which are most,
 /// are looked at three times: to count what they become, to write it where it belongs, and those
 /// of which something is to be said, to say it.
@@ -378,6 +368,16 @@ Status Placer::run() {
 }
 
 }  // namespace
+
+bool is_finite_at(const geometry::Box3d& box, const Placement& placement) {
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vec3d p = placement * Vec3d{(corner & 1U) != 0 ? box.hi.x : box.lo.x,
+                                      (corner & 2U) != 0 ? box.hi.y : box.lo.y,
+                                      (corner & 4U) != 0 ? box.hi.z : box.lo.z};
+    if (!geometry::is_finite(p)) return false;
+  }
+  return true;
+}
 
 Status place_nodes(const PlacingInput& input, model::Model& model) {
   return Placer(input, model).run();

@@ -39,6 +39,9 @@ struct PlacingInput {
   const parallel::Context& context;
 };
 
+/// Whether the corners of a placed box are finite.
+[[nodiscard]] bool is_finite_at(const geometry::Box3d& box, const geometry::Placement& placement);
+
 /// Gives a model that has none its groups, objects and bodies, in the order of the visits, and says
 /// what is skipped. Errors: cancelled, out of memory, more bodies than can be numbered.
 [[nodiscard]] Status place_nodes(const PlacingInput& input, model::Model& model);
