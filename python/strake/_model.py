@@ -329,7 +329,7 @@ def load(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Model:
-    """Reads model files (RVM, glTF, OBJ, STL; IFC and others where an importer is installed) into one model.
+    """Reads model files (RVM, glTF, OBJ, STL, PLY; IFC and others where an importer is installed) into one model.
 
     Args:
         files: a path, or several.

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "io/gltf/accessor.hpp"
+#include "io/gltf/features/mesh_features.hpp"
+#include "io/gltf/features/property_tables.hpp"
 #include "io/gltf/mesh.hpp"
 #include "io/gltf/neutral/neutral_import.hpp"
 #include "io/gltf/nodes.hpp"
@@ -30,14 +32,6 @@ using geometry::Vec3d;
 
 double largest_coordinate_of(const geometry::Box3d& box) {
   return box.empty() ? 0 : largest_coordinate(std::array{box.lo, box.hi});
-}
-
-/// Returns how many bytes naming each instance of a node copies for it.
-std::uint64_t attribute_bytes(const GltfNode& node) {
-  std::uint64_t bytes = 0;
-  for (const auto& [key, value] : node.attributes)
-    bytes += sizeof(node.attributes[0]) + key.size() + value.size();
-  return bytes;
 }
 
 /// Whether the weights of morph targets move a mesh away from its own positions.
@@ -62,6 +56,7 @@ class Importer {
         frame_(choose_frame(input.options, default_)),
         buffers_(root_, container, input.file.path),
         accessors_(root_, buffers_),
+        tables_(root_, buffers_),
         meshes_(root_["meshes"].items()),
         materials_(material_colors(root_)),
         model_(start_model(input.file, container.binary_file ? "GLB" : "glTF", input.options,
@@ -76,6 +71,7 @@ class Importer {
   void note_meshes();
   void note_nodes();
   void adopt_meshes();
+  Status adopt_features();
   [[nodiscard]] Error refusal(std::string message) const {
     return {ErrorCode::input, std::move(message), input_.file.path.string(),
             "export the model again"};
@@ -92,6 +88,7 @@ class Importer {
   SourceFrame frame_;
   Buffers buffers_;
   Accessors accessors_;
+  PropertyTables tables_;
   std::vector<JsonValue> meshes_;
   std::vector<model::Color> materials_;
   NodeTable nodes_;
@@ -159,10 +156,9 @@ Status Importer::check_amount() const {
     if (nodes_.is_usual(visit.node)) continue;
     const GltfNode& node = nodes_[visit.node];
     if (!node.mesh || !node.instancing().exists()) continue;
-    const std::uint64_t more = stated_instances(node, accessors_);
-    instances += more;
+    instances += stated_instances(node, accessors_);
     if (instances > bytes / 4 + (1U << 20U)) return refuse("instances");
-    if (node.instance_extras().is_array()) copied += more * attribute_bytes(node);
+    copied += instance_attribute_bytes(node, accessors_, tables_);
     if (copied > 16 * bytes + (1U << 28U)) return refuse("attributes");
   }
   return {};
@@ -254,6 +250,42 @@ void Importer::adopt_meshes() {
   loaded_.clear();
 }
 
+/// Gives meshes the rows of tables that say what they are. Each object copies them.
+Status Importer::adopt_features() {
+  for (const GltfFault& fault : tables_.faults())
+    model_.diagnostics.add(Severity::warning, "gltf-metadata",
+                           fmt::format("attributes are not read: it {}", fault.message),
+                           place_text(fault.pointer));
+  if (!root_["extensions"]["EXT_structural_metadata"].exists()) return {};
+  std::vector<std::uint64_t> bytes_of_mesh(meshes_.size());
+  std::uint64_t vertices = 64 * (input_.file.bytes.size() + buffers_.total_bytes());
+  for (const std::uint32_t mesh : used_) {
+    MeshFeatures features = features_of(meshes_[mesh], accessors_, vertices);
+    if (features.several)
+      model_.diagnostics.add(Severity::warning, "gltf-features",
+                             "parts of a mesh are features of their own, which are not told apart: "
+                             "it is one object without their attributes",
+                             place_text(fmt::format("/meshes/{}", mesh)));
+    for (const auto& [table, row] : features.rows)
+      bytes_of_mesh[mesh] += tables_.row_bytes(table, row);
+    shapes_[mesh].features = std::move(features.rows);
+  }
+  std::uint64_t copied = 0;
+  const std::uint64_t most = 16 * (input_.file.bytes.size() + buffers_.total_bytes()) + (1U << 28U);
+  for (const VisitedNode& visit : visits_) {
+    if (!nodes_.has_mesh(visit.node)) continue;
+    const GltfNode& node = nodes_[visit.node];
+    if (*node.mesh >= meshes_.size()) continue;
+    const std::uint64_t times = node.instancing().exists() ? stated_instances(node, accessors_) : 1;
+    copied += times * bytes_of_mesh[*node.mesh];
+    if (copied > most)
+      return refusal(
+          "repeats the attributes of its meshes so often that they would not fit into the "
+          "memory");
+  }
+  return {};
+}
+
 Result<model::Model> Importer::run() {
   if (const Status read = read_nodes(); !read) return read.error();
   if (const Status visited = visit_nodes(); !visited) return visited.error();
@@ -268,8 +300,10 @@ Result<model::Model> Importer::run() {
   note_meshes();
   note_nodes();
   adopt_meshes();
+  if (const Status bounded = adopt_features(); !bounded) return bounded.error();
   const PlacingInput placing{
-      visits_, nodes_, shapes_, accessors_, frame_, input_.file.path.string(), input_.context};
+      visits_,       nodes_, shapes_, accessors_, tables_, frame_, input_.file.path.string(),
+      input_.context};
   if (const Status placed = place_nodes(placing, model_); !placed) return placed.error();
   if (const Status cleared = nodes_.clear(input_.context); !cleared) return cleared.error();
   return end_model(input_.file, std::move(model_));

@@ -116,7 +116,8 @@ namespace {
 /// Returns what few nodes have, if it is anything.
 std::unique_ptr<GltfNode::Unusual> kept_if_any(GltfNode::Unusual unusual) {
   if (!unusual.instancing.exists() && !unusual.instance_extras.exists() &&
-      !unusual.weights.exists() && !unusual.neutral.exists() && !unusual.fault)
+      !unusual.features.exists() && !unusual.weights.exists() && !unusual.neutral.exists() &&
+      !unusual.fault)
     return nullptr;
   return std::make_unique<GltfNode::Unusual>(std::move(unusual));
 }
@@ -154,9 +155,10 @@ GltfNode parse_node(const JsonValue& json, std::size_t index, const NodeTable::B
     AttributeCollector{before.neutral, node.attributes}.add(extras, "", 0);
   }
   node.skinned = skin.exists();
-  node.unusual = kept_if_any({JsonText(extensions["EXT_mesh_gpu_instancing"]),
-                              JsonText(instance_extras), JsonText(weights),
-                              before.neutral ? JsonText(neutral) : JsonText(), std::move(fault)});
+  node.unusual =
+      kept_if_any({JsonText(extensions["EXT_mesh_gpu_instancing"]), JsonText(instance_extras),
+                   JsonText(extensions["EXT_instance_features"]), JsonText(weights),
+                   before.neutral ? JsonText(neutral) : JsonText(), std::move(fault)});
   return node;
 }
 
@@ -235,11 +237,13 @@ std::optional<GltfFault> open_attribute(const JsonValue& attributes, const char*
   return std::nullopt;
 }
 
+/// Names instances as a list with an entry for each does; without one they are counted.
 void read_names(const JsonValue& extras, std::size_t count, Instances& out) {
-  const std::vector<JsonValue> items = extras.items();
-  if (!extras.is_array() || items.size() != count) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    const JsonValue& item = items[i];
+  std::vector<JsonValue> items;
+  if (extras.is_array()) items = extras.items();
+  if (items.size() != count) items.assign(count, JsonValue());
+  for (const JsonValue& item : items) {
+    const std::size_t i = out.names.size();
     std::string name = item.is_string() ? item.text_value() : item["name"].text_value();
     std::string id = item["id"].text_value();
     out.counted.push_back(name.empty() && id.empty());
@@ -249,14 +253,52 @@ void read_names(const JsonValue& extras, std::size_t count, Instances& out) {
   }
 }
 
+std::vector<FeatureIds> feature_ids(const GltfNode& node, const JsonValue& attributes,
+                                    const Accessors& accessors) {
+  if (!node.features().exists()) return {};
+  const JsonDocument features = node.features().parse();
+  return read_feature_ids(features.root(), attributes, accessors);
+}
+
+/// Gives instances what the rows of their features say; a name of the node's extras stays.
+void read_rows(const std::vector<FeatureIds>& features, const PropertyTables& tables,
+               Instances& out) {
+  if (features.empty()) return;
+  out.attributes.resize(out.placements.size());
+  for (std::size_t i = 0; i < out.placements.size(); ++i) {
+    FeatureRow row;
+    for (const FeatureIds& set : features)
+      if (const auto id = set.of(i)) tables.add_row(set.table, *id, row);
+    out.attributes[i] = std::move(row.attributes);
+    if (!out.counted[i] || (row.name.empty() && row.id.empty())) continue;
+    out.names[i] = row.name.empty() ? row.id : std::move(row.name);
+    out.ids[i] = std::move(row.id);
+    out.counted[i] = false;
+  }
+}
+
 }  // namespace
+
+std::uint64_t instance_attribute_bytes(const GltfNode& node, const Accessors& accessors,
+                                       const PropertyTables& tables) {
+  const JsonDocument instancing = node.instancing().parse();
+  const std::uint64_t count = stated_instances(node, accessors);
+  std::uint64_t bytes = 0;
+  for (const FeatureIds& set : feature_ids(node, instancing.root()["attributes"], accessors)) {
+    const std::uint64_t numbered = set.ids ? std::min<std::uint64_t>(count, set.ids->count) : count;
+    for (std::size_t i = 0; i < numbered; ++i)
+      if (const auto id = set.of(i)) bytes += tables.row_bytes(set.table, *id);
+  }
+  return bytes;
+}
 
 double Instances::half_spacing(std::size_t instance) const {
   const double largest = largest_coordinate(std::array{placements[instance].translation});
   return std::max(float32_half_spacing(largest), translation_step / 2);
 }
 
-Instances read_instances(const GltfNode& node, const Accessors& accessors) {
+Instances read_instances(const GltfNode& node, const Accessors& accessors,
+                         const PropertyTables& tables) {
   Instances result;
   const JsonDocument instancing = node.instancing().parse();
   const JsonValue attributes = instancing.root()["attributes"];
@@ -294,6 +336,7 @@ Instances read_instances(const GltfNode& node, const Accessors& accessors) {
   }
   const JsonDocument extras = node.instance_extras().parse();
   read_names(extras.root(), result.placements.size(), result);
+  read_rows(feature_ids(node, attributes, accessors), tables, result);
   return result;
 }
 

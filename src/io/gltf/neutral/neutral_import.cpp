@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "io/gltf/neutral/kept_diagnostics.hpp"
 #include "io/gltf/neutral/neutral_shape.hpp"
 #include "io/gltf/placing.hpp"
 #include "io/source/precision.hpp"
@@ -192,13 +193,14 @@ void NeutralImporter::add_object(std::size_t visit) {
   GltfNode& node = input_.nodes[input_.visits[visit].node];
   NeutralFacts& facts = facts_[visit];
   model::Object object;
-  object.id = std::move(node.id);
+  const bool named = !node.id.empty();
+  object.id = named ? std::move(node.id) : fmt::format("node {}", input_.visits[visit].node);
   if (!node.counted) object.name = node.name;
   object.attributes = facts.attributes ? std::move(*facts.attributes) : std::move(node.attributes);
   object.parent = groups_[visit];
   object.first_body = static_cast<std::uint32_t>(model_.bodies.size());
   object.incomplete = facts.incomplete;
-  object.positional_id = facts.positional_id;
+  object.positional_id = facts.positional_id || !named;
   model_.objects.push_back(std::move(object));
   object_visit_ = visit;
   if (node.mesh) add_body(visit);
@@ -281,7 +283,11 @@ Result<model::Model> NeutralImporter::run() {
   if (const Status read = read_facts(); !read) return read.error();
   worlds_.resize(input_.visits.size());
   groups_.resize(input_.visits.size());
+  model_.diagnostics.append(diagnostics_of(input_.scene));
   for (std::size_t visit = 0; visit < input_.visits.size(); ++visit) place(visit);
+  // What has no bodies lost them, here or before.
+  for (model::Object& object : model_.objects)
+    object.incomplete = object.incomplete || object.body_count == 0;
   model_.files.front().ends_early = input_.scene["ends_early"].boolean().value_or(false);
   return end_model(input_.file, std::move(model_));
 }

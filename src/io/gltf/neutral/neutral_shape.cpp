@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <functional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -147,7 +148,8 @@ bool NeutralShapeLoader::lines() {
   if (entries > lines.points.size() + 1) return fail("it has more chains than points");
   if (!block("chains", entries, lines.first)) return false;
   if (lines.first.empty() || lines.first.front() != 0 ||
-      lines.first.back() != lines.points.size() || !std::ranges::is_sorted(lines.first))
+      lines.first.back() != lines.points.size() ||
+      std::ranges::adjacent_find(lines.first, std::greater_equal<>()) != lines.first.end())
     return fail("its chains are not those of its points");
   result_.shape = std::move(lines);
   return true;

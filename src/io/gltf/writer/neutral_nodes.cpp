@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/text_encoding.hpp"
+#include "io/gltf/neutral/kept_diagnostics.hpp"
 #include "io/gltf/writer/glb_json.hpp"
 
 namespace strake::io::gltf {
@@ -112,8 +113,10 @@ void NeutralNodes::make_tree() {
 void NeutralNodes::asset() {
   const bool ends_early =
       std::ranges::any_of(model_.files, [](const auto& file) { return file.ends_early; });
-  add(R"({{"asset":{{"version":"2.0","generator":"Strake","extras":{{"strake":{{"scene":1{}}}}}}})",
-      ends_early ? R"(,"ends_early":true)" : "");
+  out_ += R"({"asset":{"version":"2.0","generator":"Strake","extras":{"strake":{"scene":1)";
+  if (ends_early) out_ += R"(,"ends_early":true)";
+  append_diagnostics(out_, model_.diagnostics);
+  out_ += "}}}";
 }
 
 void NeutralNodes::node_start(std::string_view name) {

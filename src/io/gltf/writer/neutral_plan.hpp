@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0080 says why it is a GLB, and what it has beside what viewers show.
+
 #include <cstdint>
 #include <vector>
 
