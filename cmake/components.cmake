@@ -68,6 +68,7 @@ set(manual
   docs/drawing.md
   docs/evaluation.md
   docs/first-run.md
+  docs/formats/gltf.md
   docs/formats/ifc.md
   docs/formats/importers.md
   docs/formats/step.md
@@ -89,7 +90,7 @@ set(manual
 strake_component(model
   MODULES model io settings
   DEPENDS parallel geometry
-  PACKAGES fmt re2
+  PACKAGES fmt re2 meshoptimizer
   HEADERS
     io/importer.hpp
     io/reader.hpp
@@ -174,7 +175,8 @@ strake_component(all
   PAGES CHANGELOG.md docs/library.md examples/draw_view.cpp examples/find_clashes.cpp)
 
 # What finds the packages that the libraries need, and pkg-config's description of all of them.
-install(FILES cmake/re2.cmake DESTINATION ${strake_package_dir} COMPONENT model)
+install(FILES cmake/meshoptimizer.cmake cmake/re2.cmake DESTINATION ${strake_package_dir}
+  COMPONENT model)
 install(FILES cmake/sqlite3.cmake cmake/zstd.cmake DESTINATION ${strake_package_dir}
   COMPONENT project)
 install(FILES ${PROJECT_BINARY_DIR}/strake.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig

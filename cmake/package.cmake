@@ -97,6 +97,8 @@ function(strake_package)
   set(strake_requires "Requires")
   if(BUILD_SHARED_LIBS)
     set(strake_requires "Requires.private")
+  else()
+    string(APPEND strake_libraries " -lmeshoptimizer") # which has no description for pkg-config
   endif()
   foreach(dir includedir libdir)
     string(TOUPPER CMAKE_INSTALL_${dir} place)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Counts objects and triangles of OBJ, STL and glTF files, for comparison with the readers.
+"""Counts objects and triangles of OBJ, STL, PLY and glTF files, for comparison with the readers.
 
 A second opinion: it shares no code with the product, reads whole files with the plainest means,
 and takes its rules from the formats' specifications. Prints one JSON object per file: objects,
@@ -80,10 +80,54 @@ def count_stl(path):
     return objects, triangles, 0
 
 
+# ---------------------------------------------------------------- PLY
+PLY_TYPES = {'char': 'b', 'int8': 'b', 'uchar': 'B', 'uint8': 'B', 'short': 'h', 'int16': 'h', 'ushort': 'H',
+             'uint16': 'H', 'int': 'i', 'int32': 'i', 'uint': 'I', 'uint32': 'I', 'float': 'f', 'float32': 'f',
+             'double': 'd', 'float64': 'd'}
+
+
+def count_ply(path):
+    head, _, body = path.read_bytes().replace(b'\r\n', b'\n').partition(b'end_header\n')
+    lines = [line.split() for line in head.decode('latin-1').split('\n')]
+    form = next(words[1] for words in lines if words[:1] == ['format'])
+    numbers, at = iter(body.split()) if form == 'ascii' else None, 0
+
+    def number(code):
+        nonlocal at
+        if numbers is not None:
+            return float(next(numbers))
+        value, = struct.unpack_from(('<' if 'little' in form else '>') + code, body, at)
+        at += struct.calcsize(code)
+        return value
+
+    triangles = segments = 0
+    for i, words in enumerate(lines):
+        if words[:1] != ['element']:
+            continue
+        properties = []
+        for words_below in lines[i + 1:]:
+            if words_below[:1] == ['element']:
+                break
+            if words_below[:1] == ['property']:
+                properties.append(words_below[1:])
+        for _ in range(int(words[2])):
+            for name in properties:
+                if name[0] == 'list':
+                    count = int(number(PLY_TYPES[name[1]]))
+                    for _ in range(count):
+                        number(PLY_TYPES[name[2]])
+                    if name[3].startswith('vertex_ind'):
+                        triangles += count - 2
+                else:
+                    number(PLY_TYPES[name[0]])
+            segments += words[1] == 'edge'
+    return 1, triangles, segments
+
+
 # ---------------------------------------------------------------- glTF
 FORMATS = {5120: 'b', 5121: 'B', 5122: 'h', 5123: 'H', 5125: 'I', 5126: 'f'}
 WIDTHS = {'SCALAR': 1, 'VEC2': 2, 'VEC3': 3, 'VEC4': 4}
-UNREAD = {'KHR_draco_mesh_compression', 'EXT_meshopt_compression'}
+UNREAD = {'KHR_draco_mesh_compression'}
 
 
 class Gltf:
@@ -123,14 +167,21 @@ class Gltf:
             raise NotImplementedError('sparse')
         return values
 
+    def packed(self, i):
+        view = self.json['accessors'][i].get('bufferView')
+        return view is not None and 'EXT_meshopt_compression' in self.json['bufferViews'][view].get('extensions', {})
+
     def primitive(self, p):
         """Triangles and segments without those that use a vertex that is not there or nowhere."""
         mode = p.get('mode', 4)
         if mode == 0:
             return 0, 0
-        points = self.read(p['attributes']['POSITION'])
-        indices = [i[0] for i in self.read(p['indices'])] if 'indices' in p else range(len(points))
-        good = [i < len(points) and all(map(math.isfinite, points[i])) for i in indices]
+        if self.packed(p['attributes']['POSITION']):  # it says how many there are, and all are taken for good
+            good = [True] * self.json['accessors'][p.get('indices', p['attributes']['POSITION'])]['count']
+        else:
+            points = self.read(p['attributes']['POSITION'])
+            indices = [i[0] for i in self.read(p['indices'])] if 'indices' in p else range(len(points))
+            good = [i < len(points) and all(map(math.isfinite, points[i])) for i in indices]
         n = len(good)
         size = 2 if mode < 4 else 3
         elements = {1: range(0, n - 1, 2), 2: range(n), 3: range(n - 1), 4: range(0, n - 2, 3),
@@ -177,7 +228,7 @@ class Gltf:
         return objects, triangles, segments
 
 
-COUNTERS = {'.obj': count_obj, '.stl': count_stl, '.glb': lambda p: Gltf(p).count(),
+COUNTERS = {'.obj': count_obj, '.stl': count_stl, '.ply': count_ply, '.glb': lambda p: Gltf(p).count(),
             '.gltf': lambda p: Gltf(p).count()}
 
 

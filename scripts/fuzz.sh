@@ -8,7 +8,7 @@ set -euo pipefail
 need build test
 seconds=600
 [ "${1:-}" = --seconds ] && { seconds=$2; shift 2; }
-formats=${*:-gltf obj stl rvm rvm_attributes rules sheets clash_document view_document project project_blob}
+formats=${*:-gltf obj stl ply rvm rvm_attributes rules sheets clash_document view_document project project_blob}
 # shellcheck disable=SC2086 # a word for each fuzzer
 configure_and_build fuzz write_seeds $(printf '%s_fuzzer ' $formats)
 build/fuzz/bin/write_seeds build/fuzz/seeds
@@ -17,7 +17,7 @@ for format in $formats; do
   mkdir -p "build/fuzz/corpus/$format" "build/fuzz/found/$format" "build/fuzz/seeds/$format"
   case $format in
     gltf) real=gltf ;;
-    obj|stl) real=mesh ;;
+    obj|stl|ply) real=mesh ;;
     rvm*) real=rvm ;;
     *) real=none ;;
   esac

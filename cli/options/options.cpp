@@ -55,7 +55,7 @@ void add_distribution_option(CLI::App& command, CommonOptions& options) {
 void add_input_options(CLI::App& command, InputOptions& options) {
   command
       .add_option("files", options.files,
-                  "RVM, glTF, GLB, OBJ or STL files, IFC and others where an importer is "
+                  "RVM, glTF, GLB, OBJ, STL or PLY files, IFC and others where an importer is "
                   "installed, or projects, which stand for theirs")
       ->required()
       ->type_name("FILE");

@@ -349,6 +349,11 @@ void tell_of_model(Session& session, const model::Model& model) {
     session.console().warn(fmt::format("nothing is known of {}", rest));
 }
 
+Result<model::Model> load_model(Session& session, const InputOptions& input) {
+  std::vector<std::filesystem::path> sources;
+  return read_model(session, input, {}, sources);
+}
+
 Result<Loaded> place(Session& session, model::Model model, const model::SceneOptions& options) {
   Loaded loaded;
   loaded.model = std::make_unique<const model::Model>(std::move(model));
@@ -368,8 +373,12 @@ Result<Loaded> load(Session& session, const InputOptions& input, const model::Sc
   return loaded;
 }
 
+ExitCode strict_exit_code(const InputOptions& input, const Diagnostics& diagnostics) {
+  return input.strict && diagnostics.skipped() > 0 ? ExitCode::partial : ExitCode::done;
+}
+
 ExitCode strict_exit_code(const InputOptions& input, const Loaded& loaded) {
-  return input.strict && loaded.diagnostics().skipped() > 0 ? ExitCode::partial : ExitCode::done;
+  return strict_exit_code(input, loaded.diagnostics());
 }
 
 }  // namespace strake::cli

@@ -55,6 +55,10 @@ struct Loaded {
 /// Prints what was read of each file of a model, and what was noticed.
 void tell_of_model(Session& session, const model::Model& model);
 
+/// Reads the files of the command line and prints what was noticed, as load() does, but puts
+/// nothing on the grid.
+[[nodiscard]] Result<model::Model> load_model(Session& session, const InputOptions& input);
+
 /// Puts a model on the grid, and prints what was noticed.
 [[nodiscard]] Result<Loaded> place(Session& session, model::Model model,
                                    const model::SceneOptions& options);
@@ -67,6 +71,7 @@ void tell_of_model(Session& session, const model::Model& model);
                                   std::span<const rules::FileSettings> said_of_files = {});
 
 /// Returns `done`, or `partial` where --strict was given and something was skipped.
+[[nodiscard]] ExitCode strict_exit_code(const InputOptions& input, const Diagnostics& diagnostics);
 [[nodiscard]] ExitCode strict_exit_code(const InputOptions& input, const Loaded& loaded);
 
 /// Prints one line per kind of diagnostic: how often, and the first in its own words. Of the kinds

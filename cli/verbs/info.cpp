@@ -195,7 +195,8 @@ std::string formats_text() {
       "RVM          .rvm, binary and text, with attribute files\n"
       "glTF 2.0     .glb, .gltf\n"
       "OBJ          .obj, with materials\n"
-      "STL          .stl, binary and text";
+      "STL          .stl, binary and text\n"
+      "PLY          .ply, binary and text";
   const Result<io::ImportSettings> settings = io::import_settings_of_environment();
   const std::vector<io::ImporterProgram> importers =
       settings ? io::all_importers(settings->folders) : std::vector<io::ImporterProgram>();

@@ -357,7 +357,7 @@ def load(
     progress: Progress | None = None,
     georeference: bool = False,
 ) -> Model:
-    """Reads model files (RVM, glTF, OBJ, STL; IFC and others where an importer is installed) into one model.
+    """Reads model files (RVM, glTF, OBJ, STL, PLY; IFC and others where an importer is installed) into one model.
 
     A project file gives its model as it was read last, without its files being read again.
 

@@ -31,6 +31,7 @@ Readers own_readers() {
   readers.push_back(make_gltf_reader());
   readers.push_back(make_obj_reader());
   readers.push_back(make_stl_reader());
+  readers.push_back(make_ply_reader());
   return readers;
 }
 
@@ -49,7 +50,7 @@ const Reader* best_reader(const Readers& readers, const FileBytes& file, const R
 
 /// Returns how a file of that suffix is made into one that is read; empty where it has none.
 std::string conversion_of(std::string_view suffix) {
-  constexpr std::array<std::string_view, 3> kMesh{"ply", "fbx", "dae"};
+  constexpr std::array<std::string_view, 2> kMesh{"fbx", "dae"};
   std::string advice = "; export the model as one of these";
   if (suffix == "brep") advice = "; open it in a CAD program, as FreeCAD, and export it as glTF";
   if (std::ranges::find(kMesh, suffix) != kMesh.end())

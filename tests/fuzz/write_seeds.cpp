@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   };
   write("obj", strake::test::obj_seeds());
   write("stl", strake::test::stl_seeds());
+  write("ply", strake::test::ply_seeds());
   write("gltf", strake::test::gltf_seeds());
   write("rvm", rvm_seeds());
   write("rules", strake::test::rules_seeds());

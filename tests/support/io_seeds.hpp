@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,41 @@ struct Seed {
        "VERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1 0\nENDLOOP\nENDFACET\nENDSOLID\n"}};
 }
 
+[[nodiscard]] inline std::vector<Seed> ply_seeds() {
+  const std::string head =
+      " 1.0\ncomment x\nelement vertex 4\nproperty float x\nproperty double y\nproperty float z\n"
+      "property uchar red\nelement face 2\nproperty list uchar int vertex_indices\n"
+      "property float quality\nelement edge 1\nproperty int vertex1\nproperty int vertex2\n"
+      "end_header\n";
+  std::string little, big;
+  const auto put = [&](const auto& numbers) {
+    const std::string bytes = bytes_of(numbers);
+    little += bytes;
+    const std::size_t each = sizeof(numbers[0]);
+    for (std::size_t i = 0; i < bytes.size(); i += each)
+      big += std::string(bytes.rend() - static_cast<std::ptrdiff_t>(i + each),
+                         bytes.rend() - static_cast<std::ptrdiff_t>(i));
+  };
+  for (int i = 0; i < 4; ++i) {
+    put(std::vector<float>{i == 1 || i == 2 ? 1.F : 0.F});
+    put(std::vector<double>{i > 1 ? 1.0 : 0.0});
+    put(std::vector<float>{0.5F});
+    put(std::vector<std::uint8_t>{7});
+  }
+  for (const std::vector<std::int32_t>& face :
+       {std::vector<std::int32_t>{0, 1, 2, 3}, std::vector<std::int32_t>{3, 1, 0}}) {
+    put(std::vector<std::uint8_t>{static_cast<std::uint8_t>(face.size())});
+    put(face);
+    put(std::vector<float>{0.25F});
+  }
+  put(std::vector<std::int32_t>{0, 2});
+  return {
+      {"text.ply", "ply\nformat ascii" + head +
+                       "0 0 .5 7\n1 0 .5 7\n1 1 .5 7\n0 1 .5 7\n4 0 1 2 3 .25\n3 3 1 0 .25\n0 2"},
+      {"little.ply", "ply\nformat binary_little_endian" + head + little},
+      {"big.ply", "ply\nformat binary_big_endian" + head + big}};
+}
+
 /// A document that names everything the reader looks at: instances, sparse and quantised
 /// accessors, strides, materials, extras, lines, a data: URI.
 [[nodiscard]] inline std::string rich_gltf() {
@@ -63,9 +100,41 @@ struct Seed {
          R"({"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0,"SCALE":0}}}}]})";
 }
 
+/// A neutral scene with a mesh of doubles and faces, a chain, a primitive, a group, an object of
+/// two bodies and one of none.
+[[nodiscard]] inline std::string neutral_glb() {
+  const std::string binary = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}) +
+                             bytes_of(std::vector<std::uint16_t>{0, 1, 2, 0}) +
+                             bytes_of(std::vector<std::uint32_t>{7, 0, 3}) +
+                             bytes_of(std::vector<double>{0.1, 0, 0, 1, 0, 0, 0, 2, 0});
+  return glb(
+      R"({"asset":{"version":"2.0","extras":{"strake":{"scene":1,"ends_early":true,"diagnostics":)"
+      R"([["note","a-b","text","where"]],"more":[["a-b",2]]}}},"buffers":[{"byteLength":128}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6},)"
+      R"({"buffer":0,"byteOffset":56,"byteLength":72},{"buffer":0,"byteOffset":44,"byteLength":4},)"
+      R"({"buffer":0,"byteOffset":48,"byteLength":8}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+      R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],"materials":[{}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}],)"
+      R"("extras":{"strake":{"shape":0,"positions":2,"faces":3,"sag_mm":0.5}}},)"
+      R"({"primitives":[{"attributes":{"POSITION":0}}],"extras":{"strake":{"shape":1,"chains":4}}},)"
+      R"({"extras":{"strake":{"shape":2,"primitive":{"kind":"cylinder","lengths":[5,20]}}}}],)"
+      R"("nodes":[{"children":[1],"matrix":[0.001,0,0,0,0,0,-0.001,0,0,0.001,0,0,0,0,0,1],)"
+      R"("extras":{"strake":{"is":"frame"}}},{"name":"g","children":[2,3,6],"extras":{"attributes":)"
+      R"({"k":"v"},"strake":{"is":"group","attributes":[["k","v"],["k","w"]]}}},)"
+      R"({"name":"a","mesh":0,"translation":[1,2,3],"extras":{"id":"a","attributes":{"n":"1"},)"
+      R"("strake":{"is":"object","precision_um":0.5,"positional_id":true}}},)"
+      R"({"name":"b","children":[4,5],"extras":{"id":"b","strake":{"is":"object"}}},)"
+      R"({"mesh":1,"extras":{"strake":{"is":"body"}}},)"
+      R"({"mesh":2,"extras":{"strake":{"is":"body","category":"insulation"}}},)"
+      R"({"name":"c","extras":{"id":"c","strake":{"is":"object","incomplete":true}}}]})",
+      binary);
+}
+
 [[nodiscard]] inline std::vector<Seed> gltf_seeds() {
   return {{"rich.gltf", rich_gltf()},
           {"rich.glb", glb(rich_gltf())},
+          {"neutral.glb", neutral_glb()},
           {"triangle.glb", triangle_glb(R"("nodes":[{"mesh":0,"name":"t"}])")}};
 }
 

@@ -39,7 +39,7 @@ struct FileBytes {
 class Reader {
  public:
   virtual ~Reader() = default;
-  /// Returns "RVM", "glTF", "OBJ" or "STL"; "imported" of the one that runs importers.
+  /// Returns "RVM", "glTF", "OBJ", "STL" or "PLY"; "imported" of the one that runs importers.
   [[nodiscard]] virtual std::string_view format() const = 0;
   /// Returns how sure this reader is, from the content first and the extension as a tie-breaker: 0
   /// (not mine) to 100 (certain).
@@ -56,6 +56,7 @@ class Reader {
 [[nodiscard]] std::unique_ptr<Reader> make_gltf_reader();
 [[nodiscard]] std::unique_ptr<Reader> make_obj_reader();
 [[nodiscard]] std::unique_ptr<Reader> make_stl_reader();
+[[nodiscard]] std::unique_ptr<Reader> make_ply_reader();
 
 /// Returns all readers of this build, in a fixed order; the last runs importers as the environment
 /// says (strake/io/importer.hpp).

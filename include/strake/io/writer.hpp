@@ -14,6 +14,10 @@ struct WriteOptions {
   /// asset.extras says so (unit_mm, up_axis), where our reader finds it. Whole millimetres are then
   /// exact.
   bool millimetres_z_up = false;
+  /// GLB is written so that our reader makes the same model of it, to the last bit: primitives,
+  /// doubles that float32 would round, faces, categories and precisions stand beside what viewers
+  /// show (docs/formats/gltf.md); it is in metres with y up. Other formats take no notice.
+  bool keep_all = false;
   /// The largest distance of the triangles written for an analytic primitive from its surface, mm.
   double sag_mm = 0.5;
 };
@@ -27,7 +31,10 @@ struct WriteOptions {
 /// 3. Bodies of one object that stand apart are written in the frame of its first body, so that
 ///    a node with a mesh is always one whole object.
 ///
-/// Source polygons of triangles, body categories and analytic primitives as such are not kept.
+/// Source polygons of triangles, body categories and analytic primitives as such are not kept,
+/// but with WriteOptions::keep_all, where 2. and 3. do not hold: each body is a node. The objects
+/// of each of several files are in a group of its name then, and ids that two files have begin with
+/// it.
 ///
 /// Errors: output (cannot write, more than 4 GiB, a coordinate that is not finite), cancelled.
 [[nodiscard]] Status write_glb(const model::Model& model, const std::filesystem::path& path,

@@ -72,7 +72,7 @@ struct Group {
 };
 
 /// What a user would point at: an RVM group that directly holds primitives, a glTF node with a
-/// mesh, an OBJ o/g group, an STL file.
+/// mesh, an OBJ o/g group, an STL or PLY file.
 struct Object {
   /// A durable id, which stays the same while the source element does, unless `positional_id`. It
   /// is unique within its file.

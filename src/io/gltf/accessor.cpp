@@ -144,12 +144,36 @@ Buffers::Buffers(const JsonValue& root, const Container& container,
     const auto optional = [](const JsonValue& value) {
       return value.exists() ? value.index() : std::optional<std::uint64_t>(0);
     };
-    Stated stated{buffer.index(), optional(offset), length.index(), optional(stride), nullptr};
-    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-      if (!buffer.exists() && stated.packed == nullptr && extensions[name].is_object())
-        stated.packed = name;
-    views_.push_back(stated);
+    views_.push_back({buffer.index(), optional(offset), length.index(), optional(stride), {}});
+    // A view that is packed may name plain bytes as well, for those who cannot unpack it.
+    if (const PackedView packed = packed_view_of(extensions); packed.extension != nullptr)
+      unpack_view(views_.size() - 1, packed);
   });
+}
+
+/// Unpacks a view. All views together may become no more than the file's bytes could be, since many
+/// may name the same ones.
+void Buffers::unpack_view(std::size_t index, const PackedView& packed) {
+  constexpr std::uint64_t kRatio = 64, kFree = std::uint64_t{1} << 20U;
+  const std::string pointer = fmt::format("/bufferViews/{}", index);
+  views_[index].unpacked = unpacked_.size();
+  Checked<std::vector<std::byte>>& result = unpacked_.emplace_back(GltfFault{pointer, ""});
+  const Stated stated{packed.buffer, packed.offset, packed.length, 0, {}};
+  const Checked<BufferView> view = plain_view(stated, pointer);
+  if (const GltfFault* const fault = fault_of(view)) {
+    result = *fault;
+    return;
+  }
+  const std::uint64_t most = kRatio * (total_bytes_ - unpacked_bytes_) + kFree - unpacked_bytes_;
+  Unpacked unpacked = unpack(packed, std::get<BufferView>(view).bytes, most);
+  if (!unpacked.fault.empty()) {
+    result = GltfFault{pointer, std::move(unpacked.fault)};
+    return;
+  }
+  unpacked_bytes_ += unpacked.bytes.size();
+  total_bytes_ += unpacked.bytes.size();
+  views_[index].stride = packed.stride;
+  result = std::move(unpacked.bytes);
 }
 
 Checked<Buffers::BufferView> Buffers::view(std::size_t index) const {
@@ -157,8 +181,15 @@ Checked<Buffers::BufferView> Buffers::view(std::size_t index) const {
   if (index >= views_.size())
     return GltfFault{pointer, fmt::format("does not exist; there are {}", views_.size())};
   const Stated& stated = views_[index];
-  if (stated.packed != nullptr)
-    return GltfFault{pointer, fmt::format("is packed by {}, which is not read", stated.packed)};
+  if (!stated.unpacked) return plain_view(stated, pointer);
+  const Checked<std::vector<std::byte>>& unpacked = unpacked_[*stated.unpacked];
+  if (const GltfFault* const fault = fault_of(unpacked)) return *fault;
+  return BufferView{std::get<std::vector<std::byte>>(unpacked),
+                    static_cast<std::size_t>(stated.stride.value_or(0))};
+}
+
+Checked<Buffers::BufferView> Buffers::plain_view(const Stated& stated,
+                                                 const std::string& pointer) const {
   if (!stated.buffer || *stated.buffer >= buffers_.size())
     return GltfFault{pointer + "/buffer", "does not exist"};
   const Buffer& owner = buffers_[*stated.buffer];

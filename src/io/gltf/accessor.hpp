@@ -15,6 +15,7 @@
 
 #include "io/gltf/container.hpp"
 #include "io/gltf/json/json.hpp"
+#include "io/gltf/packed_view.hpp"
 #include "io/source/input_file.hpp"
 
 /// Buffers, buffer views and accessors of a glTF document.
@@ -68,7 +69,7 @@ class Buffers {
   /// What the document states of a view, read once for all accessors that share it.
   struct Stated {
     std::optional<std::uint64_t> buffer, offset, length, stride;
-    const char* packed = nullptr;  ///< the extension without which it holds nothing
+    std::optional<std::size_t> unpacked;  ///< which of the unpacked ones it is
   };
 
   void load(Buffer& buffer, std::size_t index, const JsonValue& json, const Container& container,
@@ -77,8 +78,14 @@ class Buffers {
                 const std::filesystem::path& file);
 
   std::vector<Buffer> buffers_;
+  [[nodiscard]] Checked<BufferView> plain_view(const Stated& stated,
+                                               const std::string& pointer) const;
+  void unpack_view(std::size_t index, const PackedView& packed);
+
   std::vector<Stated> views_;
-  std::size_t total_bytes_ = 0;
+  std::vector<Checked<std::vector<std::byte>>> unpacked_;
+  std::size_t total_bytes_ = 0;  ///< of the buffers, and what is unpacked of them
+  std::size_t unpacked_bytes_ = 0;
 };
 
 /// The component types of the specification, by its numbers.

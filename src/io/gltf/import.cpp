@@ -11,7 +11,10 @@
 #include <vector>
 
 #include "io/gltf/accessor.hpp"
+#include "io/gltf/features/mesh_features.hpp"
+#include "io/gltf/features/property_tables.hpp"
 #include "io/gltf/mesh.hpp"
+#include "io/gltf/neutral/neutral_import.hpp"
 #include "io/gltf/nodes.hpp"
 #include "io/gltf/placing.hpp"
 #include "io/mesh/transparent_shells.hpp"
@@ -29,14 +32,6 @@ using geometry::Vec3d;
 
 double largest_coordinate_of(const geometry::Box3d& box) {
   return box.empty() ? 0 : largest_coordinate(std::array{box.lo, box.hi});
-}
-
-/// Returns how many bytes naming each instance of a node copies for it.
-std::uint64_t attribute_bytes(const GltfNode& node) {
-  std::uint64_t bytes = 0;
-  for (const auto& [key, value] : node.attributes)
-    bytes += sizeof(node.attributes[0]) + key.size() + value.size();
-  return bytes;
 }
 
 /// Whether the weights of morph targets move a mesh away from its own positions.
@@ -63,10 +58,12 @@ class Importer {
       : input_(input),
         document_(document),
         root_(document.root()),
+        neutral_(neutral_scene(root_)),
         default_(stated_frame(root_)),
         frame_(choose_frame(input.options, default_)),
         buffers_(root_, container, input.file.path),
         accessors_(root_, buffers_),
+        tables_(root_, buffers_),
         meshes_(root_["meshes"].items()),
         materials_(material_colors(root_)),
         model_(start_model(input.file, container.binary_file ? "GLB" : "glTF", input.options,
@@ -81,6 +78,7 @@ class Importer {
   void note_meshes();
   void note_nodes();
   void adopt_meshes();
+  Status adopt_features();
   [[nodiscard]] Error refusal(std::string message) const {
     return {ErrorCode::input, std::move(message), input_.file.path.string(),
             "export the model again"};
@@ -92,10 +90,12 @@ class Importer {
   ImportInput input_;
   const Document& document_;
   JsonValue root_;
+  JsonValue neutral_;  ///< what the asset says of a neutral scene, if it is one
   FrameDefault default_;
   SourceFrame frame_;
   Buffers buffers_;
   Accessors accessors_;
+  PropertyTables tables_;
   std::vector<JsonValue> meshes_;
   std::vector<model::Color> materials_;
   NodeTable nodes_;
@@ -114,7 +114,7 @@ Status Importer::read_nodes() {
   mesh_names.reserve(meshes_.size());
   for (const JsonValue& mesh : meshes_) mesh_names.push_back(mesh["name"]);
   Result<std::optional<NodeTable>> nodes =
-      NodeTable::read(document_.node_pieces(), mesh_names, input_.context);
+      NodeTable::read(document_.node_pieces(), {mesh_names, neutral_.exists()}, input_.context);
   if (!nodes) return nodes.error();
   if (!*nodes) return error_in_json(input_.file, document_.fault(input_.context));
   nodes_ = std::move(**nodes);
@@ -163,10 +163,9 @@ Status Importer::check_amount() const {
     if (nodes_.is_usual(visit.node)) continue;
     const GltfNode& node = nodes_[visit.node];
     if (!node.mesh || !node.instancing().exists()) continue;
-    const std::uint64_t more = stated_instances(node, accessors_);
-    instances += more;
+    instances += stated_instances(node, accessors_);
     if (instances > bytes / 4 + (1U << 20U)) return refuse("instances");
-    if (node.instance_extras().is_array()) copied += more * attribute_bytes(node);
+    copied += instance_attribute_bytes(node, accessors_, tables_);
     if (copied > 16 * bytes + (1U << 28U)) return refuse("attributes");
   }
   return {};
@@ -266,16 +265,60 @@ void Importer::adopt_meshes() {
   loaded_.clear();
 }
 
+/// Gives meshes the rows of tables that say what they are. Each object copies them.
+Status Importer::adopt_features() {
+  for (const GltfFault& fault : tables_.faults())
+    model_.diagnostics.add(Severity::warning, "gltf-metadata",
+                           fmt::format("attributes are not read: it {}", fault.message),
+                           place_text(fault.pointer));
+  if (!root_["extensions"]["EXT_structural_metadata"].exists()) return {};
+  std::vector<std::uint64_t> bytes_of_mesh(meshes_.size());
+  std::uint64_t vertices = 64 * (input_.file.bytes.size() + buffers_.total_bytes());
+  for (const std::uint32_t mesh : used_) {
+    MeshFeatures features = features_of(meshes_[mesh], accessors_, vertices);
+    if (features.several)
+      model_.diagnostics.add(Severity::warning, "gltf-features",
+                             "parts of a mesh are features of their own, which are not told apart: "
+                             "it is one object without their attributes",
+                             place_text(fmt::format("/meshes/{}", mesh)));
+    for (const auto& [table, row] : features.rows)
+      bytes_of_mesh[mesh] += tables_.row_bytes(table, row);
+    shapes_[mesh].features = std::move(features.rows);
+  }
+  std::uint64_t copied = 0;
+  const std::uint64_t most = 16 * (input_.file.bytes.size() + buffers_.total_bytes()) + (1U << 28U);
+  for (const VisitedNode& visit : visits_) {
+    if (!nodes_.has_mesh(visit.node)) continue;
+    const GltfNode& node = nodes_[visit.node];
+    if (*node.mesh >= meshes_.size()) continue;
+    const std::uint64_t times = node.instancing().exists() ? stated_instances(node, accessors_) : 1;
+    copied += times * bytes_of_mesh[*node.mesh];
+    if (copied > most)
+      return refusal(
+          "repeats the attributes of its meshes so often that they would not fit into the "
+          "memory");
+  }
+  return {};
+}
+
 Result<model::Model> Importer::run() {
   if (const Status read = read_nodes(); !read) return read.error();
   if (const Status visited = visit_nodes(); !visited) return visited.error();
   if (const Status bounded = check_amount(); !bounded) return bounded.error();
+  if (neutral_.exists()) {
+    const NeutralInput neutral{visits_, nodes_,      neutral_,      meshes_,
+                               used_,   buffers_,    accessors_,    materials_,
+                               frame_,  input_.file, input_.context};
+    return import_neutral(neutral, std::move(model_));
+  }
   if (const Status loaded = load_meshes(); !loaded) return loaded.error();
   note_meshes();
   note_nodes();
   adopt_meshes();
+  if (const Status bounded = adopt_features(); !bounded) return bounded.error();
   const PlacingInput placing{
-      visits_, nodes_, shapes_, accessors_, frame_, input_.file.path.string(), input_.context};
+      visits_,       nodes_, shapes_, accessors_, tables_, frame_, input_.file.path.string(),
+      input_.context};
   if (const Status placed = place_nodes(placing, model_); !placed) return placed.error();
   if (const Status cleared = nodes_.clear(input_.context); !cleared) return cleared.error();
   return end_model(input_.file, std::move(model_));
@@ -284,6 +327,7 @@ Result<model::Model> Importer::run() {
 }  // namespace
 
 FrameDefault stated_frame(const JsonValue& root) {
+  if (neutral_scene(root).exists()) return {1.0, UpAxis::z, true};
   FrameDefault frame{1000.0, UpAxis::y, true};
   const JsonValue extras = root["asset"]["extras"];
   if (const auto unit = extras["unit_mm"].number(); unit && *unit > 0 && *unit < 1e12)

@@ -26,14 +26,22 @@ using geometry::Vec3d;
 constexpr std::size_t kMostAttributeBytes = 4096;
 constexpr int kMostAttributeDepth = 4;
 
-bool is_reserved(const JsonValue& key) {
-  return key.is_text("id") || key.is_text("path") || key.is_text("instances");
+bool is_reserved(const JsonValue& key, bool neutral) {
+  return key.is_text("id") || key.is_text("path") || key.is_text("instances") ||
+         (neutral && key.is_text("strake"));
 }
 
-void add_attributes(const JsonValue& extras, const std::string& prefix, int depth,
-                    model::Attributes& out) {
+/// Adds the attributes below `prefix`, of a neutral scene or of any other.
+struct AttributeCollector {
+  bool neutral = false;
+  model::Attributes& out;
+
+  void add(const JsonValue& extras, const std::string& prefix, int depth) const;
+};
+
+void AttributeCollector::add(const JsonValue& extras, const std::string& prefix, int depth) const {
   extras.members([&](const JsonValue& key, const JsonValue& value) {
-    if (depth == 0 && is_reserved(key)) return;
+    if (depth == 0 && is_reserved(key, neutral)) return;
     if (value.raw().size() > (kMostAttributeBytes << 4U)) return;
     // The writer's own "attributes" are not a level of the user's.
     const bool own = depth == 0 && value.is_object() && key.is_text("attributes");
@@ -42,7 +50,7 @@ void add_attributes(const JsonValue& extras, const std::string& prefix, int dept
     if (name.size() > kMostAttributeBytes) return;
     if (value.is_object()) {
       if (!own) name.push_back('.');
-      if (depth < kMostAttributeDepth) add_attributes(value, name, depth + 1, out);
+      if (depth < kMostAttributeDepth) add(value, name, depth + 1);
       return;
     }
     if (value.raw().size() > kMostAttributeBytes) return;
@@ -108,13 +116,14 @@ namespace {
 /// Returns what few nodes have, if it is anything.
 std::unique_ptr<GltfNode::Unusual> kept_if_any(GltfNode::Unusual unusual) {
   if (!unusual.instancing.exists() && !unusual.instance_extras.exists() &&
-      !unusual.weights.exists() && !unusual.fault)
+      !unusual.features.exists() && !unusual.weights.exists() && !unusual.neutral.exists() &&
+      !unusual.fault)
     return nullptr;
   return std::make_unique<GltfNode::Unusual>(std::move(unusual));
 }
 
-GltfNode parse_node(const JsonValue& json, std::size_t index,
-                    const std::vector<JsonValue>& mesh_names) {
+GltfNode parse_node(const JsonValue& json, std::size_t index, const NodeTable::Before& before) {
+  const std::vector<JsonValue>& mesh_names = before.mesh_names;
   const auto [name, mesh, children, matrix, translation, rotation, scale, extras, extensions, skin,
               weights] =
       json.pick<11>({"name", "mesh", "children", "matrix", "translation", "rotation", "scale",
@@ -138,28 +147,29 @@ GltfNode parse_node(const JsonValue& json, std::size_t index,
   else
     fault =
         GltfFault{fmt::format("/nodes/{}", index), "its transformation is not a finite affine one"};
-  const auto [id, instance_extras] = extras.pick<2>({"id", "instances"});
+  const auto [id, instance_extras, neutral] = extras.pick<3>({"id", "instances", "strake"});
   node.id = id.text_value();
   if (extras.is_object()) {
     constexpr std::size_t kUsual = 4;  // what one allocation holds as well as half of it
     node.attributes.reserve(kUsual);
-    add_attributes(extras, "", 0, node.attributes);
+    AttributeCollector{before.neutral, node.attributes}.add(extras, "", 0);
   }
   node.skinned = skin.exists();
-  node.unusual = kept_if_any({JsonText(extensions["EXT_mesh_gpu_instancing"]),
-                              JsonText(instance_extras), JsonText(weights), std::move(fault)});
+  node.unusual =
+      kept_if_any({JsonText(extensions["EXT_mesh_gpu_instancing"]), JsonText(instance_extras),
+                   JsonText(extensions["EXT_instance_features"]), JsonText(weights),
+                   before.neutral ? JsonText(neutral) : JsonText(), std::move(fault)});
   return node;
 }
 
 /// Returns the nodes of a piece; fewer or more than there should be when it is no valid JSON.
-std::vector<GltfNode> parse_nodes(const ArrayPiece& piece,
-                                  const std::vector<JsonValue>& mesh_names) {
+std::vector<GltfNode> parse_nodes(const ArrayPiece& piece, const NodeTable::Before& before) {
   std::vector<GltfNode> nodes;
   const std::optional<JsonDocument> document = JsonDocument::parse_items(piece.text, kNodeDepth);
   if (!document) return nodes;
   nodes.reserve(piece.count);
   document->each_item([&](const JsonValue& item) {
-    nodes.push_back(parse_node(item, piece.first + nodes.size(), mesh_names));
+    nodes.push_back(parse_node(item, piece.first + nodes.size(), before));
   });
   return nodes;
 }
@@ -174,7 +184,7 @@ void NodeTable::enter(std::size_t node, GltfNode& place) {
 }
 
 Result<std::optional<NodeTable>> NodeTable::read(std::span<const ArrayPiece> pieces,
-                                                 const std::vector<JsonValue>& mesh_names,
+                                                 const Before& before,
                                                  const parallel::Context& context) {
   NodeTable table;
   const std::size_t count = pieces.empty() ? 0 : pieces.back().first + pieces.back().count;
@@ -182,7 +192,7 @@ Result<std::optional<NodeTable>> NodeTable::read(std::span<const ArrayPiece> pie
   table.traits_.resize(count);
   Result<std::vector<std::vector<GltfNode>>> read = parallel::transform(
       context, {.name = "read glTF nodes", .n = pieces.size()}, [&](std::size_t k) {
-        std::vector<GltfNode> nodes = parse_nodes(pieces[k], mesh_names);
+        std::vector<GltfNode> nodes = parse_nodes(pieces[k], before);
         if (nodes.size() == pieces[k].count)
           for (std::size_t i = 0; i < nodes.size(); ++i) table.enter(pieces[k].first + i, nodes[i]);
         return nodes;
@@ -227,11 +237,13 @@ std::optional<GltfFault> open_attribute(const JsonValue& attributes, const char*
   return std::nullopt;
 }
 
+/// Names instances as a list with an entry for each does; without one they are counted.
 void read_names(const JsonValue& extras, std::size_t count, Instances& out) {
-  const std::vector<JsonValue> items = extras.items();
-  if (!extras.is_array() || items.size() != count) return;
-  for (std::size_t i = 0; i < count; ++i) {
-    const JsonValue& item = items[i];
+  std::vector<JsonValue> items;
+  if (extras.is_array()) items = extras.items();
+  if (items.size() != count) items.assign(count, JsonValue());
+  for (const JsonValue& item : items) {
+    const std::size_t i = out.names.size();
     std::string name = item.is_string() ? item.text_value() : item["name"].text_value();
     std::string id = item["id"].text_value();
     out.counted.push_back(name.empty() && id.empty());
@@ -241,14 +253,52 @@ void read_names(const JsonValue& extras, std::size_t count, Instances& out) {
   }
 }
 
+std::vector<FeatureIds> feature_ids(const GltfNode& node, const JsonValue& attributes,
+                                    const Accessors& accessors) {
+  if (!node.features().exists()) return {};
+  const JsonDocument features = node.features().parse();
+  return read_feature_ids(features.root(), attributes, accessors);
+}
+
+/// Gives instances what the rows of their features say; a name of the node's extras stays.
+void read_rows(const std::vector<FeatureIds>& features, const PropertyTables& tables,
+               Instances& out) {
+  if (features.empty()) return;
+  out.attributes.resize(out.placements.size());
+  for (std::size_t i = 0; i < out.placements.size(); ++i) {
+    FeatureRow row;
+    for (const FeatureIds& set : features)
+      if (const auto id = set.of(i)) tables.add_row(set.table, *id, row);
+    out.attributes[i] = std::move(row.attributes);
+    if (!out.counted[i] || (row.name.empty() && row.id.empty())) continue;
+    out.names[i] = row.name.empty() ? row.id : std::move(row.name);
+    out.ids[i] = std::move(row.id);
+    out.counted[i] = false;
+  }
+}
+
 }  // namespace
+
+std::uint64_t instance_attribute_bytes(const GltfNode& node, const Accessors& accessors,
+                                       const PropertyTables& tables) {
+  const JsonDocument instancing = node.instancing().parse();
+  const std::uint64_t count = stated_instances(node, accessors);
+  std::uint64_t bytes = 0;
+  for (const FeatureIds& set : feature_ids(node, instancing.root()["attributes"], accessors)) {
+    const std::uint64_t numbered = set.ids ? std::min<std::uint64_t>(count, set.ids->count) : count;
+    for (std::size_t i = 0; i < numbered; ++i)
+      if (const auto id = set.of(i)) bytes += tables.row_bytes(set.table, *id);
+  }
+  return bytes;
+}
 
 double Instances::half_spacing(std::size_t instance) const {
   const double largest = largest_coordinate(std::array{placements[instance].translation});
   return std::max(float32_half_spacing(largest), translation_step / 2);
 }
 
-Instances read_instances(const GltfNode& node, const Accessors& accessors) {
+Instances read_instances(const GltfNode& node, const Accessors& accessors,
+                         const PropertyTables& tables) {
   Instances result;
   const JsonDocument instancing = node.instancing().parse();
   const JsonValue attributes = instancing.root()["attributes"];
@@ -286,6 +336,7 @@ Instances read_instances(const GltfNode& node, const Accessors& accessors) {
   }
   const JsonDocument extras = node.instance_extras().parse();
   read_names(extras.root(), result.placements.size(), result);
+  read_rows(feature_ids(node, attributes, accessors), tables, result);
   return result;
 }
 

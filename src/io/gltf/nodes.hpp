@@ -10,6 +10,7 @@
 
 #include "io/gltf/accessor.hpp"
 #include "io/gltf/document.hpp"
+#include "io/gltf/features/property_tables.hpp"
 #include "io/gltf/json/json.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
@@ -23,7 +24,9 @@ struct GltfNode {
   struct Unusual {
     JsonText instancing;       ///< EXT_mesh_gpu_instancing
     JsonText instance_extras;  ///< extras.instances
+    JsonText features;         ///< EXT_instance_features
     JsonText weights;          ///< weights of morph targets, in place of the mesh's own
+    JsonText neutral;          ///< extras.strake, of a neutral scene
     std::optional<GltfFault> fault;
   };
 
@@ -41,7 +44,9 @@ struct GltfNode {
   [[nodiscard]] JsonText instance_extras() const {
     return unusual ? unusual->instance_extras : JsonText();
   }
+  [[nodiscard]] JsonText features() const { return unusual ? unusual->features : JsonText(); }
   [[nodiscard]] JsonText weights() const { return unusual ? unusual->weights : JsonText(); }
+  [[nodiscard]] JsonText neutral() const { return unusual ? unusual->neutral : JsonText(); }
   /// If there is one, the node and what is below it cannot be placed.
   [[nodiscard]] const GltfFault* fault() const {
     return unusual && unusual->fault ? &*unusual->fault : nullptr;
@@ -59,11 +64,17 @@ class NodeTable {
   NodeTable& operator=(NodeTable&&) = default;
   ~NodeTable() = default;
 
-  /// Parses all nodes of the pieces; `mesh_names` are the names that the meshes of the document
-  /// state. Nothing when a piece is not valid JSON. Errors: cancelled, out of memory.
-  [[nodiscard]] static Result<std::optional<NodeTable>> read(
-      std::span<const ArrayPiece> pieces, const std::vector<JsonValue>& mesh_names,
-      const parallel::Context& context);
+  /// What is known before nodes are read.
+  struct Before {
+    const std::vector<JsonValue>& mesh_names;  ///< that the meshes of the document state
+    bool neutral = false;                      ///< extras.strake is ours and no attribute
+  };
+
+  /// Parses all nodes of the pieces. Nothing when a piece is not valid JSON. Errors: cancelled, out
+  /// of memory.
+  [[nodiscard]] static Result<std::optional<NodeTable>> read(std::span<const ArrayPiece> pieces,
+                                                             const Before& before,
+                                                             const parallel::Context& context);
 
   [[nodiscard]] std::size_t size() const { return at_.size(); }
   [[nodiscard]] std::span<const std::uint64_t> children(std::size_t node) const {
@@ -94,16 +105,23 @@ class NodeTable {
 struct Instances {
   std::vector<geometry::Placement> placements;
   double translation_step = 0;  ///< spacing of quantised translations; 0: float32
-  /// One entry per instance, or none at all; what has neither name nor id is "instance 12".
+  /// One entry per instance; what has neither name nor id is "instance 12".
   std::vector<std::string> names, ids;
-  std::vector<bool> counted;  ///< the name is "instance 12"
+  std::vector<bool> counted;                  ///< the name is "instance 12"
+  std::vector<model::Attributes> attributes;  ///< those of their features; or none at all
   std::optional<GltfFault> fault;
 
   /// Returns half the spacing of the numbers that say where an instance is.
   [[nodiscard]] double half_spacing(std::size_t instance) const;
 };
 
-[[nodiscard]] Instances read_instances(const GltfNode& node, const Accessors& accessors);
+[[nodiscard]] Instances read_instances(const GltfNode& node, const Accessors& accessors,
+                                       const PropertyTables& tables);
+
+/// Returns at most how many bytes the attributes of a node's instances take.
+[[nodiscard]] std::uint64_t instance_attribute_bytes(const GltfNode& node,
+                                                     const Accessors& accessors,
+                                                     const PropertyTables& tables);
 
 /// Returns how many instances the node's accessors state.
 [[nodiscard]] std::uint64_t stated_instances(const GltfNode& node, const Accessors& accessors);

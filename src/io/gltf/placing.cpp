@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -37,10 +38,10 @@ struct MeshPlacement {
   double half_spacing_mm = 0;
 };
 
-/// An object to be: a node with a mesh, or one of its named instances.
+/// An object to be: a node with a mesh, or one of its instances.
 struct Element {
   GltfNode& node;
-  Instances* instances = nullptr;  ///< where it is a named one of them
+  Instances* instances = nullptr;  ///< where it is one of them
   std::size_t instance = 0;
   bool counted = false;
   std::span<const MeshPlacement> places = {};
@@ -50,7 +51,7 @@ struct Element {
 /// What a visited node becomes, and then where in the model that begins.
 struct Amount {
   std::size_t objects = 0, bodies = 0;
-  bool named_instances = false;
+  bool instances = false;
   bool nameless = false;  ///< an object gets its id from its path
   bool noted = false;     ///< a diagnostic belongs to it
 };
@@ -70,16 +71,6 @@ std::string shortened(std::string path, std::string_view name) {
   return fmt::format("{}/{}", Hasher().add(std::string_view(path)).value().text(), name);
 }
 
-bool is_finite_at(const geometry::Box3d& box, const Placement& placement) {
-  for (unsigned corner = 0; corner < 8; ++corner) {
-    const Vec3d p = placement * Vec3d{(corner & 1U) != 0 ? box.hi.x : box.lo.x,
-                                      (corner & 2U) != 0 ? box.hi.y : box.lo.y,
-                                      (corner & 4U) != 0 ? box.hi.z : box.lo.z};
-    if (!geometry::is_finite(p)) return false;
-  }
-  return true;
-}
-
 /// Nodes with children are placed one after the other, parents first. The others, which are most,
 /// are looked at three times: to count what they become, to write it where it belongs, and those
 /// of which something is to be said, to say it.
@@ -96,6 +87,9 @@ class Placer {
   }
   [[nodiscard]] const MeshShapes& mesh_of(const GltfNode& node) const {
     return input_.meshes[*node.mesh];
+  }
+  [[nodiscard]] const MeshShapes* mesh_of_valid(const GltfNode& node) const {
+    return node.mesh && *node.mesh < input_.meshes.size() ? &mesh_of(node) : nullptr;
   }
   [[nodiscard]] NodePlace above(std::size_t visit) const {
     const std::uint32_t parent = input_.visits[visit].parent;
@@ -118,11 +112,12 @@ class Placer {
   void add_groups();
   void make_paths();
   void write(std::size_t visit);
+  void add_features(const MeshShapes* mesh, model::Object& object) const;
   void write_bodies(const Element& element, std::size_t first);
   void note(std::size_t visit);
   [[nodiscard]] std::string path_id(model::GroupId parent, const std::string& name) const;
   [[nodiscard]] model::GroupId parent_of(std::size_t visit) const {
-    return amounts_[visit].named_instances ? instance_groups_[visit] : above(visit).group;
+    return amounts_[visit].instances ? instance_groups_[visit] : above(visit).group;
   }
 
   const PlacingInput& input_;
@@ -202,7 +197,7 @@ void Placer::each_element(std::size_t visit, Visit&& element) const {
 
 template <class Visit>
 void Placer::each_instance(GltfNode& node, const NodePlace& here, Visit&& element) const {
-  Instances instances = read_instances(node, input_.accessors);
+  Instances instances = read_instances(node, input_.accessors, input_.tables);
   if (!instances.fault && instances.placements.empty())
     instances.fault = GltfFault{fmt::format("/meshes/{}", *node.mesh), "it has no instances"};
   Element whole{.node = node, .counted = here.counted};
@@ -217,7 +212,6 @@ void Placer::each_instance(GltfNode& node, const NodePlace& here, Visit&& elemen
     places.push_back({here.world * instances.placements[i],
                       std::max(here.half_spacing_mm, scale_mm * instances.half_spacing(i))});
   whole.places = places;
-  if (instances.names.empty()) return check_bounds(whole, element);
   for (std::size_t i = 0; i < places.size(); ++i)
     check_bounds({.node = node,
                   .instances = &instances,
@@ -231,7 +225,7 @@ Amount Placer::amount_of(std::size_t visit) const {
   Amount amount;
   each_element(visit, [&](const Element& element) {
     ++amount.objects;
-    amount.named_instances = element.instances != nullptr;
+    amount.instances = element.instances != nullptr;
     const std::string& id =
         element.instances != nullptr ? element.instances->ids[element.instance] : element.node.id;
     amount.nameless = amount.nameless || id.empty();
@@ -261,15 +255,14 @@ Status Placer::number_all() {
   return {};
 }
 
-/// Adds a group for each node with children, and for the named instances of a node.
+/// Adds a group for each node with children, and for the instances of a node.
 void Placer::add_groups() {
   const auto add = [&](std::size_t visit) {
     const auto group = static_cast<model::GroupId>(model_.groups.size());
     model_.groups.push_back({node_of(visit).name, above(visit).group});
     return group;
   };
-  if (std::ranges::any_of(amounts_, &Amount::named_instances))
-    instance_groups_.resize(amounts_.size());
+  if (std::ranges::any_of(amounts_, &Amount::instances)) instance_groups_.resize(amounts_.size());
   for (std::size_t visit = 0; visit < amounts_.size(); ++visit) {
     GltfNode& node = node_of(visit);
     if (inner_of_[visit] != kLeaf) {
@@ -277,7 +270,10 @@ void Placer::add_groups() {
       inner_[inner_of_[visit]].group = group;
       model_.set_attributes(group, node.mesh ? node.attributes : std::move(node.attributes));
     }
-    if (amounts_[visit].named_instances) instance_groups_[visit] = add(visit);
+    if (!amounts_[visit].instances) continue;
+    instance_groups_[visit] = add(visit);
+    if (inner_of_[visit] == kLeaf)
+      model_.set_attributes(instance_groups_[visit], std::move(node.attributes));
   }
 }
 
@@ -306,16 +302,18 @@ void Placer::write(std::size_t visit) {
   each_element(visit, [&](const Element& element) {
     GltfNode& node = element.node;
     model::Object& object = model_.objects[object_at++];
-    if (Instances* const named = element.instances) {
-      object.name = std::move(named->names[element.instance]);
-      object.id = std::move(named->ids[element.instance]);
-      object.attributes = node.attributes;
+    if (Instances* const instances = element.instances) {
+      object.name = std::move(instances->names[element.instance]);
+      object.id = std::move(instances->ids[element.instance]);
+      if (!instances->attributes.empty())
+        object.attributes = std::move(instances->attributes[element.instance]);
     } else {
       // These are not needed again: a node is visited once.
       object.name = node.children.empty() ? std::move(node.name) : node.name;
       object.id = std::move(node.id);
       object.attributes = std::move(node.attributes);
     }
+    add_features(mesh_of_valid(node), object);
     object.positional_id = object.id.empty() && element.counted;
     if (object.id.empty()) object.id = path_id(parent, object.name);
     object.parent = parent;
@@ -326,6 +324,15 @@ void Placer::write(std::size_t visit) {
     object.body_count = static_cast<std::uint32_t>(count);
     body_at += count;
   });
+}
+
+/// Adds what is said of the feature that a mesh is; an id of the node comes first.
+void Placer::add_features(const MeshShapes* mesh, model::Object& object) const {
+  if (mesh == nullptr || mesh->features.empty()) return;
+  FeatureRow row;
+  for (const auto& [table, number] : mesh->features) input_.tables.add_row(table, number, row);
+  object.attributes.insert(object.attributes.end(), std::make_move_iterator(row.attributes.begin()),
+                           std::make_move_iterator(row.attributes.end()));
 }
 
 void Placer::write_bodies(const Element& element, std::size_t first) {
@@ -378,6 +385,16 @@ Status Placer::run() {
 }
 
 }  // namespace
+
+bool is_finite_at(const geometry::Box3d& box, const Placement& placement) {
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vec3d p = placement * Vec3d{(corner & 1U) != 0 ? box.hi.x : box.lo.x,
+                                      (corner & 2U) != 0 ? box.hi.y : box.lo.y,
+                                      (corner & 4U) != 0 ? box.hi.z : box.lo.z};
+    if (!geometry::is_finite(p)) return false;
+  }
+  return true;
+}
 
 Status place_nodes(const PlacingInput& input, model::Model& model) {
   return Placer(input, model).run();

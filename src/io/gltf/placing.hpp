@@ -3,9 +3,11 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/gltf/accessor.hpp"
+#include "io/gltf/features/property_tables.hpp"
 #include "io/gltf/nodes.hpp"
 #include "io/source/reader_support.hpp"
 #include "io/source/units_and_axes.hpp"
@@ -25,6 +27,7 @@ struct MeshShapes {
   std::vector<ColoredShape> parts;
   geometry::Box3d box = geometry::empty_box<double>();
   double half_spacing_mm = 0;  ///< half the spacing of its vertices' numbers
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> features;  ///< tables and rows
   LeftOut left_out;
   std::optional<GltfFault> fault;  ///< if set, it cannot be used
 };
@@ -34,10 +37,14 @@ struct PlacingInput {
   NodeTable& nodes;  ///< names and attributes of the visited ones are taken
   const std::vector<MeshShapes>& meshes;
   const Accessors& accessors;
+  const PropertyTables& tables;
   const SourceFrame& frame;
   std::string file;  ///< for messages
   const parallel::Context& context;
 };
+
+/// Whether the corners of a placed box are finite.
+[[nodiscard]] bool is_finite_at(const geometry::Box3d& box, const geometry::Placement& placement);
 
 /// Gives a model that has none its groups, objects and bodies, in the order of the visits, and says
 /// what is skipped. Errors: cancelled, out of memory, more bodies than can be numbered.

@@ -19,12 +19,15 @@ namespace strake::io {
 namespace {
 
 /// Extensions that change where geometry is, and that are read.
-constexpr std::array<std::string_view, 2> kRead{"KHR_mesh_quantization", "EXT_mesh_gpu_instancing"};
+constexpr std::array<std::string_view, 4> kRead{"KHR_mesh_quantization", "EXT_mesh_gpu_instancing",
+                                                "EXT_meshopt_compression",
+                                                "KHR_meshopt_compression"};
 /// Beginnings of those that change only how it looks.
-constexpr std::array<std::string_view, 9> kHarmless{
-    "KHR_materials_",   "KHR_texture_", "EXT_texture_",   "MSFT_texture_",
-    "KHR_lights_",      "KHR_xmp",      "KHR_animation_", "EXT_structural_metadata",
-    "EXT_mesh_features"};
+constexpr std::array<std::string_view, 10> kHarmless{"KHR_materials_",    "KHR_texture_",
+                                                     "EXT_texture_",      "MSFT_texture_",
+                                                     "KHR_lights_",       "KHR_xmp",
+                                                     "KHR_animation_",    "EXT_structural_metadata",
+                                                     "EXT_mesh_features", "EXT_instance_features"};
 
 bool is_understood(std::string_view extension) {
   if (std::find(kRead.begin(), kRead.end(), extension) != kRead.end()) return true;

@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kProgram = "strake-import";
 
 /// Suffixes that our own readers know: a file with one of them that they do not take is damaged.
-constexpr std::array<std::string_view, 7> kOwn{"rvm", "rev", "rvs", "gltf", "glb", "obj", "stl"};
+constexpr std::array<std::string_view, 8> kOwn{"rvm", "rev", "rvs", "gltf",
+                                               "glb", "obj", "stl", "ply"};
 
 bool is_suffix(std::string_view text) {
   constexpr std::size_t kLongest = 12;

@@ -31,11 +31,13 @@ void damage(const Reader& reader, const std::vector<test::Seed>& seeds) {
 
 TEST(Damage, ObjReaderSurvives) { damage(*make_obj_reader(), test::obj_seeds()); }
 TEST(Damage, StlReaderSurvives) { damage(*make_stl_reader(), test::stl_seeds()); }
+TEST(Damage, PlyReaderSurvives) { damage(*make_ply_reader(), test::ply_seeds()); }
 TEST(Damage, GltfReaderSurvives) { damage(*make_gltf_reader(), test::gltf_seeds()); }
 
 TEST(Damage, ReadersSurviveEachOthersFiles) {
   for (const auto& reader : all_readers())
-    for (const auto& seeds : {test::obj_seeds(), test::stl_seeds(), test::gltf_seeds()})
+    for (const auto& seeds :
+         {test::obj_seeds(), test::stl_seeds(), test::ply_seeds(), test::gltf_seeds()})
       for (const test::Seed& seed : seeds) feed(*reader, seed.name, seed.bytes);
 }
 
@@ -50,6 +52,7 @@ TEST(Damage, SeedsAreSound) {
   };
   check(*make_obj_reader(), test::obj_seeds());
   check(*make_stl_reader(), test::stl_seeds());
+  check(*make_ply_reader(), test::ply_seeds());
   check(*make_gltf_reader(), test::gltf_seeds());
 }
 

@@ -226,7 +226,8 @@ WHOLE_RVM = rvm([('/A', (0, 0, 0))])
 MODELS = [
     ('missing.rvm', None, 'cannot be read'), ('folder', None, 'folder'), ('empty.obj', b'', 'is empty'),
     ('letter.txt', b'Dear reader,\n', 'unsupported format'), ('plan.ifc', b'ISO-10303-21;\n', 'IfcConvert'),
-    ('part.STEP', b'ISO-10303-21;\n', 'export it'), ('scan.ply', b'ply\nformat ascii 1.0\n', 'Blender'),
+    ('part.STEP', b'ISO-10303-21;\n', 'export it'), ('scan.fbx', b'Kaydara\n', 'Blender'),
+    ('scan.ply', b'ply\nformat ascii 1.0\n', 'does not end'),
     ('noise.glb', b'\x00\x01\x02\x03' * 9, 'JSON'),
     ('short.glb', b'glTF\x02\0\0\0', 'ends within the GLB header'),
     ('one.glb', b'glTF\x01\0\0\0' + bytes(12), 'version'),

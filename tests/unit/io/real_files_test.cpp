@@ -21,7 +21,7 @@ std::vector<std::filesystem::path> model_files(const std::filesystem::path& fold
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string extension = entry.path().extension().string();
-    for (const char* known : {".obj", ".stl", ".glb", ".gltf"})
+    for (const char* known : {".obj", ".stl", ".ply", ".glb", ".gltf"})
       if (entry.is_regular_file() && extension == known) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());

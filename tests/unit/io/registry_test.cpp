@@ -72,7 +72,8 @@ TEST(Registry, SaysHowAModelOfAnotherFormatIsConverted) {
   const auto said = [&](const char* name) {
     return read({folder.write(name, "Dear reader,\nno model.\n")}).error().text();
   };
-  const std::string formats = ": unsupported format (Strake reads RVM, glTF/GLB, OBJ and STL; ";
+  const std::string formats =
+      ": unsupported format (Strake reads RVM, glTF/GLB, OBJ, STL and PLY; ";
   EXPECT_NE(said("a.txt").find(formats + "export the model as one of these; a program "
                                          "strake-import-txt in PATH would be taken, too)"),
             std::string::npos);
@@ -80,7 +81,7 @@ TEST(Registry, SaysHowAModelOfAnotherFormatIsConverted) {
   EXPECT_NE(said("a.IFC").find("pip install 'strake[ifc]' (or convert it: IfcConvert"),
             std::string::npos);
   EXPECT_NE(said("a.stp").find(formats + "open it in a CAD program"), std::string::npos);
-  EXPECT_NE(said("a.ply").find(formats + "open it in Blender"), std::string::npos);
+  EXPECT_NE(said("a.fbx").find(formats + "open it in Blender"), std::string::npos);
 }
 
 TEST(Registry, RefusesImpossibleQuestions) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/gltf/glb_plan.hpp"
+#include "io/gltf/writer/glb_plan.hpp"
 
 #include <fmt/format.h>
 
@@ -69,7 +69,6 @@ class GlbPlanner {
   Status body(const model::Object& object, const model::Body& body,
               const std::optional<Placement>& to_mesh, std::vector<MeshPrimitive>& mesh);
   Result<std::uint32_t> piece(const TessellatedShape& shape, const Placement& relative);
-  Status measure(StoredGeometry& piece) const;
   std::uint32_t material(const model::Color& color);
 
   const model::Model& model_;
@@ -88,23 +87,6 @@ std::uint32_t GlbPlanner::material(const model::Color& color) {
   return place->second;
 }
 
-Status GlbPlanner::measure(StoredGeometry& piece) const {
-  const auto& vertices = piece.vertices();
-  bool first = true;
-  for (const Vec3d& vertex : vertices) {
-    const std::array<float, 3> v = plan_.written(piece, vertex);
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (!std::isfinite(v[k]))
-        return Error{ErrorCode::output, "a coordinate is not finite or too large for float32", "",
-                     "mend the model"};
-      piece.lo[k] = first ? v[k] : std::min(piece.lo[k], v[k]);
-      piece.hi[k] = first ? v[k] : std::max(piece.hi[k], v[k]);
-    }
-    first = false;
-  }
-  return {};
-}
-
 Result<std::uint32_t> GlbPlanner::piece(const TessellatedShape& shape, const Placement& relative) {
   const void* const source = shape.mesh != nullptr ? static_cast<const void*>(shape.mesh)
                                                    : static_cast<const void*>(shape.lines);
@@ -118,15 +100,8 @@ Result<std::uint32_t> GlbPlanner::piece(const TessellatedShape& shape, const Pla
   piece.vertex_count = piece.vertices().size();
   piece.index_count =
       piece.mesh != nullptr ? 3 * piece.mesh->triangles.size() : index_count(*piece.lines);
-  constexpr std::uint64_t kNarrowVertices = 65535;  // index 65535 itself is reserved
-  piece.wide = piece.vertex_count > kNarrowVertices;
-  if (const Status measured = measure(piece); !measured) return measured.error();
-  std::uint64_t& used = piece.wide ? plan_.wide_count : plan_.narrow_count;
-  piece.first_vertex = plan_.vertex_count;
-  piece.first_index = used;
-  plan_.vertex_count += piece.vertex_count;
-  used += piece.index_count;
-  plan_.pieces.push_back(piece);
+  if (const Status measured = plan_.measure(piece); !measured) return measured.error();
+  plan_.append(piece);
   return next;
 }
 
@@ -190,6 +165,34 @@ Result<GlbPlan> GlbPlanner::plan() {
 }
 
 }  // namespace
+
+Status GlbPlan::measure(StoredGeometry& piece) const {
+  const auto& vertices = piece.vertices();
+  bool first = true;
+  for (const Vec3d& vertex : vertices) {
+    const std::array<float, 3> v = written(piece, vertex);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!std::isfinite(v[k]))
+        return Error{ErrorCode::output, "a coordinate is not finite or too large for float32", "",
+                     "mend the model"};
+      piece.lo[k] = first ? v[k] : std::min(piece.lo[k], v[k]);
+      piece.hi[k] = first ? v[k] : std::max(piece.hi[k], v[k]);
+    }
+    first = false;
+  }
+  return {};
+}
+
+void GlbPlan::append(StoredGeometry piece) {
+  constexpr std::uint64_t kNarrowVertices = 65535;  // index 65535 itself is reserved
+  piece.wide = piece.vertex_count > kNarrowVertices;
+  std::uint64_t& used = piece.wide ? wide_count : narrow_count;
+  piece.first_vertex = vertex_count;
+  piece.first_index = used;
+  vertex_count += piece.vertex_count;
+  used += piece.index_count;
+  pieces.push_back(piece);
+}
 
 std::array<float, 3> GlbPlan::written(const StoredGeometry& piece, const Vec3d& v) const {
   const Vec3d turned = frame.turn_back(piece.relative * v);

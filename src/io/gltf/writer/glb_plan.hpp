@@ -2,8 +2,11 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "io/source/units_and_axes.hpp"
@@ -37,6 +40,13 @@ struct MeshPrimitive {
   friend auto operator<=>(const MeshPrimitive&, const MeshPrimitive&) = default;
 };
 
+/// Blocks begin at multiples of so many bytes, as doubles need it.
+inline constexpr std::uint64_t kBlockAlignment = 8;
+
+[[nodiscard]] constexpr std::uint64_t padded(std::uint64_t bytes, std::uint64_t alignment) {
+  return (bytes + alignment - 1) / alignment * alignment;
+}
+
 inline constexpr std::uint32_t kNoMesh = 0xffffffffU;
 
 /// The glTF document that a model becomes, before a byte is written.
@@ -51,9 +61,33 @@ struct GlbPlan {
   };
   std::vector<ObjectNode> objects;  ///< per object of the model
   std::uint64_t vertex_count = 0, wide_count = 0, narrow_count = 0;
-  std::deque<geometry::TriangleMesh> made;  ///< the triangles of analytic primitives
+  std::vector<std::string> mesh_extras;            ///< JSON, per mesh; or none at all
+  std::vector<std::span<const std::byte>> blocks;  ///< what else the binary chunk holds
+  std::deque<geometry::TriangleMesh> made;         ///< the triangles of analytic primitives
   std::deque<geometry::Polylines> made_lines;
 
+  /// Returns the bytes of positions and indices.
+  [[nodiscard]] std::uint64_t core_bytes() const {
+    return 12 * vertex_count + 4 * wide_count + 2 * narrow_count;
+  }
+  /// Returns how many buffer views there are before those of the blocks.
+  [[nodiscard]] std::uint32_t core_views() const {
+    return 1U + (wide_count != 0 ? 1U : 0U) + (narrow_count != 0 ? 1U : 0U);
+  }
+  /// Returns where the first block begins; what core_bytes() says is padded for it.
+  [[nodiscard]] std::uint64_t blocks_begin() const {
+    return padded(core_bytes(), blocks.empty() ? 4 : kBlockAlignment);
+  }
+  [[nodiscard]] std::uint64_t binary_bytes() const {
+    std::uint64_t bytes = blocks_begin();
+    for (const std::span<const std::byte> block : blocks)
+      bytes += padded(block.size(), kBlockAlignment);
+    return bytes;
+  }
+  /// Finds the bounds of a piece as it is written. Errors: output, where one is not finite.
+  [[nodiscard]] Status measure(StoredGeometry& piece) const;
+  /// Adds a measured piece, and says where its vertices and indices are.
+  void append(StoredGeometry piece);
   /// Returns a vertex of a piece as it is written.
   [[nodiscard]] std::array<float, 3> written(const StoredGeometry& piece,
                                              const geometry::Vec3d& v) const;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "io/gltf/accessor.hpp"
+#include "io/gltf/json/json.hpp"
+
+namespace strake::io::gltf {
+
+/// The features of EXT_mesh_features that a mesh is.
+struct MeshFeatures {
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> rows;  ///< of tables
+  bool several = false;  ///< parts of the mesh are different ones, and it has no rows
+};
+
+/// Looks at the ids of `left` vertices at most, and takes those that it looked at off it: many
+/// meshes may name the same ones.
+[[nodiscard]] MeshFeatures features_of(const JsonValue& mesh, const Accessors& accessors,
+                                       std::uint64_t& left);
+
+}  // namespace strake::io::gltf

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <stop_token>
+#include <string>
+
+#include "io/gltf/writer/glb_plan.hpp"
+#include "strake/core/result.hpp"
+
+namespace strake::io::gltf {
+
+/// Writes a GLB of a JSON text and the geometry of a plan, whole or not at all. Errors: output,
+/// where it cannot be written or would have more than 4 GiB; cancelled.
+[[nodiscard]] Status write_glb_file(const std::filesystem::path& path, std::string json,
+                                    const GlbPlan& plan, const std::stop_token& stop);
+
+}  // namespace strake::io::gltf

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// Property tables of EXT_structural_metadata as attributes of instances and of meshes.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "strake/io/reader.hpp"
+#include "support/gltf_files.hpp"
+#include "support/io_files.hpp"
+#include "support/model_check.hpp"
+
+namespace strake::io {
+namespace {
+
+using model::Attributes;
+using test::bytes_of;
+
+Result<model::Model> read(const std::string& bytes) {
+  return test::read_bytes(*make_gltf_reader(), bytes, "x.glb");
+}
+
+/// A document of three instances, whose second has row 0, first row 2 and third no row, and of a
+/// mesh that is row 1. Columns of all kinds.
+std::string document() {
+  std::string binary, views;
+  const auto view = [&](const std::string& bytes) {
+    views += (views.empty() ? "" : ",") + std::string(R"({"buffer":0,"byteOffset":)") +
+             std::to_string(binary.size()) + R"(,"byteLength":)" + std::to_string(bytes.size()) +
+             "}";
+    binary += bytes;
+    binary.resize((binary.size() + 7) / 8 * 8);
+  };
+  view(bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}));         // 0
+  view(bytes_of(std::vector<float>{1, 0, 0, 2, 0, 0, 3, 0, 0}));         // 1
+  view(bytes_of(std::vector<std::uint16_t>{2, 0, 9}));                   // 2
+  view("F60F90");                                                        // 3
+  view(bytes_of(std::vector<std::uint32_t>{0, 3, 3, 6}));                // 4
+  view(bytes_of(std::vector<double>{0.5, -1, 2.25}));                    // 5
+  view(std::string(1, '\x05'));                                          // 6
+  view(bytes_of(std::vector<std::uint8_t>{1, 0, 7}));                    // 7
+  view(bytes_of(std::vector<std::int16_t>{1, 2, 3, 4, 5, 6, 7, 8, 9}));  // 8
+  view(bytes_of(std::vector<std::uint32_t>{0, 1, 1, 3}));                // 9
+  view(bytes_of(std::vector<std::uint8_t>{11, 12, 13}));                 // 10
+  view(bytes_of(std::vector<std::uint8_t>{1, 1, 1}));                    // 11
+  view("T1T2T3");                                                        // 12
+  view(std::string("\0\2\4\6", 4));                                      // 13
+  return test::glb(
+      R"({"asset":{"version":"2.0"},"extensionsUsed":["EXT_structural_metadata"],"buffers":[)"
+      R"({"byteLength":)" +
+          std::to_string(binary.size()) + R"(}],"bufferViews":[)" + views +
+          R"(],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+          R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"},)"
+          R"({"bufferView":2,"componentType":5123,"count":3,"type":"SCALAR"},)"
+          R"({"bufferView":11,"componentType":5121,"count":3,"type":"SCALAR"}],)"
+          R"("extensions":{"EXT_structural_metadata":{"schema":{"id":"s","classes":{"Pset_WallCommon":)"
+          R"({"properties":{"FireRating":{"type":"STRING"},"Width":{"type":"SCALAR","componentType":)"
+          R"("FLOAT64","noData":-1},"IsExternal":{"type":"BOOLEAN"},"Status":{"type":"ENUM","enumType":)"
+          R"("status"},"Place":{"type":"VEC3","componentType":"INT16"},"Codes":{"type":"SCALAR",)"
+          R"("componentType":"UINT8","array":true},"Share":{"type":"SCALAR","componentType":"UINT8",)"
+          R"("normalized":true,"scale":100},"Tag":{"type":"STRING","semantic":"ID"}}}},"enums":{"status":)"
+          R"({"valueType":"UINT8","values":[{"name":"NEW","value":0},{"name":"OLD","value":1}]}}},)"
+          R"("propertyTables":[{"class":"Pset_WallCommon","count":3,"properties":{)"
+          R"("FireRating":{"values":3,"stringOffsets":4},"Width":{"values":5},"IsExternal":{"values":6},)"
+          R"("Status":{"values":7},"Place":{"values":8},"Codes":{"values":10,"arrayOffsets":9},)"
+          R"("Share":{"values":11},"Tag":{"values":12,"stringOffsets":13,"stringOffsetType":"UINT8"}}}]}},)"
+          R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},{"primitives":[{"attributes":)"
+          R"({"POSITION":0,"_FEATURE_ID_0":3},"extensions":{"EXT_mesh_features":{"featureIds":)"
+          R"([{"featureCount":1,"attribute":0,"propertyTable":0}]}}}]}],)"
+          R"("nodes":[{"name":"walls","mesh":0,"extras":{"Storey":"1"},"extensions":)"
+          R"({"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":1,"_FEATURE_ID_0":2}},)"
+          R"("EXT_instance_features":{"featureIds":[{"featureCount":2,"attribute":0,"nullFeatureId":9,)"
+          R"("propertyTable":0}]}}},{"name":"one","mesh":1}]})",
+      binary);
+}
+
+TEST(GltfFeatures, RowsBecomeAttributesUnderTheNameOfTheirClass) {
+  const Result<model::Model> model = read(document());
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_TRUE(model->diagnostics.kept().empty());
+  ASSERT_EQ(model->objects.size(), 4U);
+  const std::string set = "Pset_WallCommon.";
+  EXPECT_EQ(model->objects[0].attributes,
+            (Attributes{{set + "FireRating", "F90"},
+                        {set + "Width", "2.25"},
+                        {set + "IsExternal", "true"},
+                        {set + "Status", "7"},
+                        {set + "Place", "7, 8, 9"},
+                        {set + "Codes", "12; 13"},
+                        {set + "Share", model->objects[0].attributes.at(6).second},
+                        {set + "Tag", "T3"}}));
+  EXPECT_NEAR(std::stod(model->objects[0].attributes[6].second), 100.0 / 255, 1e-12);
+  EXPECT_EQ(model->objects[0].id, "T3");
+  EXPECT_FALSE(model->objects[0].positional_id);
+  EXPECT_EQ(model->objects[1].attributes[3].second, "OLD");
+  EXPECT_EQ(model->objects[1].attributes[5],
+            (std::pair<std::string, std::string>{set + "Codes", "11"}));
+  EXPECT_TRUE(model->objects[2].attributes.empty());
+  EXPECT_EQ(model->objects[2].name, "instance 2");
+  EXPECT_EQ(model->path(model->objects[2]), "walls");
+  EXPECT_EQ(model->stated(model->objects[2], "Storey").group, model->objects[2].parent);
+  // Neither its empty text nor what the schema takes for none is said of the mesh.
+  ASSERT_EQ(model->objects[3].attributes.size(), 5U);
+  EXPECT_EQ(model->objects[3].attributes[0].first, set + "IsExternal");
+  EXPECT_EQ(model->objects[3].attributes[0].second, "false");
+}
+
+TEST(GltfFeatures, WhatCannotBeReadIsTold) {
+  std::string bytes = document();
+  const auto replaced = [&](const std::string& from, const std::string& to) {
+    std::string other = bytes;
+    EXPECT_EQ(from.size(), to.size());
+    other.replace(other.find(from), from.size(), to);
+    return read(other);
+  };
+  const auto column = replaced(R"("Width":{"values":5})", R"("Width":{"valuez":5})");
+  ASSERT_TRUE(column);
+  EXPECT_EQ(column->diagnostics.count("gltf-metadata"), 1U);
+  EXPECT_EQ(column->objects[0].attributes.size(), 7U);
+  const auto type = replaced(R"("type":"BOOLEAN")", R"("type":"WHATEVR")");
+  ASSERT_TRUE(type);
+  EXPECT_EQ(type->diagnostics.count("gltf-metadata"), 1U);
+  EXPECT_EQ(type->objects[0].attributes.size(), 7U);
+  // Two features within a mesh.
+  const std::string ids = std::string("\1\1\1\0", 4);
+  const auto several = replaced(ids, std::string("\1\2\1\0", 4));
+  ASSERT_TRUE(several);
+  EXPECT_EQ(several->diagnostics.count("gltf-features"), 1U);
+  EXPECT_TRUE(several->objects[3].attributes.empty());
+}
+
+TEST(GltfFeatures, DamageIsSurvived) {
+  const std::string whole = document();
+  std::mt19937 random(11);
+  for (int round = 0; round < 3000; ++round) {
+    std::string bytes = whole;
+    for (std::size_t k = 0; k < 1 + random() % 3; ++k) {
+      char& byte = bytes[random() % bytes.size()];
+      byte =
+          random() % 2 == 0 ? static_cast<char>('0' + random() % 10) : static_cast<char>(random());
+    }
+    if (round % 10 == 0) bytes.resize(random() % bytes.size());
+    const Result<model::Model> model = read(bytes);
+    if (model) {
+      EXPECT_EQ(test::model_fault(*model), "") << round;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace strake::io

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// Neutral scenes: a model that is written and read again is what it was, to the last bit.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "strake/io/reader.hpp"
+#include "strake/io/writer.hpp"
+#include "support/equal_models.hpp"
+#include "support/io_files.hpp"
+#include "support/io_models.hpp"
+#include "support/io_seeds.hpp"
+#include "support/random_primitives.hpp"
+
+namespace strake::io {
+namespace {
+
+using model::Model;
+
+WriteOptions keeping_all() {
+  WriteOptions options;
+  options.keep_all = true;
+  return options;
+}
+
+Model written_and_read(const Model& model, const ReadOptions& options = {}) {
+  const test::TemporaryFolder folder;
+  const std::vector<std::filesystem::path> files{folder.path() / "x.glb"};
+  const Status written = write_glb(model, files[0], keeping_all(), {});
+  EXPECT_TRUE(written) << (written ? "" : written.error().text());
+  Result<Model> read = read_models(files, options, {});
+  EXPECT_TRUE(read) << (read ? "" : read.error().text());
+  return read ? std::move(*read) : Model{};
+}
+
+/// What two models differ in besides the facts about their files, and what was noticed of them.
+std::string difference(Model a, const Model& b) {
+  a.files = b.files;
+  a.diagnostics = b.diagnostics;
+  return test::model_difference(a, b);
+}
+
+Model finished(Model model) {
+  finish(model);
+  return model;
+}
+
+/// Bodies of every kind of primitive and placement, of all categories and of odd precisions, and
+/// meshes whose doubles and polygons float32 triangles have no place for.
+Model random_model(std::uint64_t seed) {
+  test::PrimitiveDraw draw(seed);
+  Model model;
+  model.files.push_back({"random", "made", "mm (stated)", "z", 0, 0});
+  std::vector<model::GroupId> groups{test::add_group(model, "")};
+  model.set_attributes(groups[0], {{"k", "v"}, {"k", "w"}, {"Pset_WallCommon.FireRating", "F60"}});
+  for (int i = 0; i < 40; ++i) {
+    test::add_object(model, "id " + std::to_string(i), i % 3 == 0 ? "" : "n\"Ä", groups[0])
+        .attributes = {{"long", std::string(static_cast<std::size_t>(i) * 200, 'x')}, {"", ""}};
+    model::Object& object = model.objects.back();
+    object.positional_id = i % 5 == 0;
+    const std::uint64_t bodies = draw.below(4);
+    object.incomplete = i % 7 == 0 || bodies == 0;
+    for (std::uint64_t b = 0; b < bodies; ++b) {
+      geometry::Primitive primitive =
+          draw.convex(draw.below(test::PrimitiveDraw::kConvexKinds), 90);
+      model::ShapeId shape{};
+      if (i % 4 == 1) {
+        geometry::TriangleMesh mesh = test::box_mesh(draw.between(1, 9), 0.1, 1.0 / 3);
+        mesh.faces.assign(mesh.triangles.size(), 3);
+        mesh.faces[5] = geometry::kNoIndex;
+        mesh.sag_mm = draw.between(0, 1);
+        shape = test::add_shape(model, mesh);
+      } else if (i % 4 == 2 && !model.shapes.empty()) {
+        shape = static_cast<model::ShapeId>(draw.below(model.shapes.size()));
+      } else {
+        shape = test::add_shape(model, primitive);
+      }
+      test::add_body(model, shape, {draw.linear(), draw.point(1e6)},
+                     {static_cast<std::uint8_t>(b), 2, 3, static_cast<std::uint8_t>(250 + b)});
+      model.bodies.back().precision_um = static_cast<float>(draw.between(0, 1));
+      model.bodies.back().category = static_cast<model::Category>(b % 3);
+    }
+  }
+  return finished(std::move(model));
+}
+
+/// Its objects are not in the order of its groups, and come back in that order.
+TEST(NeutralScene, ASampleComesBack) {
+  Model model = finished(test::sample_model());
+  const Model read = written_and_read(model);
+  ASSERT_EQ(read.objects.size(), model.objects.size());
+  for (std::size_t i = 0; i < model.objects.size(); ++i)
+    model.objects[i].place = read.objects[i].place;
+  EXPECT_EQ(difference(read, model), "");
+}
+
+/// Shapes are numbered as bodies come to them.
+TEST(NeutralScene, AnyModelComesBackToTheLastBit) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Model model = random_model(seed);
+    Model read = written_and_read(model);
+    ASSERT_EQ(read.bodies.size(), model.bodies.size());
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      const auto shape = [b](const Model& of) { return of.shapes[index(of.bodies[b].shape)]; };
+      ASSERT_TRUE(test::same_shape(shape(read), shape(model))) << seed << ", body " << b;
+      read.bodies[b].shape = model.bodies[b].shape;
+    }
+    read.shapes = model.shapes;
+    ASSERT_EQ(difference(read, model), "") << seed;
+    // What comes back as it was is written as it was.
+    const Model again = written_and_read(written_and_read(model));
+    ASSERT_EQ(difference(again, written_and_read(model)), "") << seed;
+  }
+}
+
+/// Equal shapes of different colours, and a primitive at different scales, are one shape.
+TEST(NeutralScene, SharedShapesStayShared) {
+  Model model;
+  model.files.push_back({"shared", "made", "mm (stated)", "z", 0, 0});
+  const model::ShapeId pipe = test::add_shape(model, geometry::CylinderPrimitive{50, 1000});
+  for (int i = 0; i < 3; ++i) {
+    test::add_object(model, "pipe " + std::to_string(i), "pipe");
+    geometry::Placement placement;
+    for (int k = 0; k < 3; ++k) placement.linear.row[static_cast<std::size_t>(k)][k] = 1 + 2.5 * i;
+    test::add_body(model, pipe, placement, {static_cast<std::uint8_t>(i), 0, 0, 255});
+  }
+  model = finished(std::move(model));
+  EXPECT_EQ(difference(written_and_read(model), model), "");
+}
+
+TEST(NeutralScene, WhatHasNoExtentIsKept) {
+  Model model;
+  model.files.push_back({"flat", "made", "mm (stated)", "z", 0, 0});
+  test::add_object(model, "none", "none");
+  test::add_body(model, test::add_shape(model, geometry::SpherePrimitive{0}), {});
+  test::add_object(model, "one", "one");
+  test::add_body(model, test::add_shape(model, geometry::LinePrimitive{1, 20}), {});
+  model = finished(std::move(model));
+  EXPECT_EQ(difference(written_and_read(model), model), "");
+}
+
+/// Other readers of glTF are shown metres with y up.
+TEST(NeutralScene, AnotherReaderSeesMetres) {
+  const test::TemporaryFolder folder;
+  const Model model = finished(test::sample_model());
+  ASSERT_TRUE(write_glb(model, folder.path() / "x.glb", keeping_all(), {}));
+  std::ifstream file(folder.path() / "x.glb", std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  // Of an asset that says nothing to us, the same length.
+  const std::string ours = R"("strake":{"scene":1})";
+  const std::size_t at = bytes.find(ours);
+  ASSERT_NE(at, std::string::npos);
+  bytes.replace(at, ours.size(), R"("others":{"scene":1})");
+  const Result<Model> read = test::read_bytes(*make_gltf_reader(), bytes, "x.glb");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->files[0].unit, "m (stated)");
+  ASSERT_EQ(read->objects.size(), 6U) << "the bodies of one are two";
+  const geometry::Placement& placed = read->bodies[read->objects[0].first_body].placement;
+  const geometry::Vec3d corner = placed * geometry::Vec3d{};
+  EXPECT_NEAR(corner.x, 10, 1e-6);
+  EXPECT_NEAR(corner.y, 20, 1e-6);
+  EXPECT_NEAR(corner.z, 30, 1e-6);
+}
+
+TEST(NeutralScene, AnotherUnitMovesAndScalesAll) {
+  const Model model = finished(test::sample_model());
+  ReadOptions inches;
+  inches.unit_mm = 25.4;
+  const Model read = written_and_read(model, inches);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const geometry::Vec3d p{1, 2, 3};
+    const geometry::Vec3d far = model.bodies[b].placement * p * 25.4;
+    const geometry::Vec3d moved = read.bodies[b].placement * p - far;
+    EXPECT_LT(dot(moved, moved), 1e-12);
+  }
+}
+
+TEST(NeutralScene, FilesBecomeGroupsAndIdsStayApart) {
+  Model model = test::sample_model();
+  Model other = test::sample_model();
+  other.files[0].label = "other";
+  other.objects[1].id = "alone";
+  append(model, std::move(other));
+  model = finished(std::move(model));
+  const Model read = written_and_read(model);
+  ASSERT_EQ(read.objects.size(), 10U);
+  EXPECT_EQ(read.diagnostics.count("object-id-repeated"), 0U);
+  std::vector<std::string> ids;
+  for (const model::Object& object : read.objects) {
+    ids.push_back(object.id);
+    if (object.id == "alone") {
+      EXPECT_EQ(read.path(object), "other/Deck \"A\"/Frame 7/8");
+    }
+  }
+  EXPECT_EQ(ids, (std::vector<std::string>{"alone", "other:five", "other:four", "other:one",
+                                           "other:three", "sample:five", "sample:four",
+                                           "sample:one", "sample:three", "two"}));
+}
+
+TEST(NeutralScene, WhatWasNoticedIsKept) {
+  Model model = test::sample_model();
+  for (int i = 0; i < 130; ++i)
+    model.diagnostics.add(Severity::skipped, "odd", "an odd \"one\"", "x.rvm, byte 7");
+  model.files[0].ends_early = true;
+  const Model read = written_and_read(finished(std::move(model)));
+  EXPECT_EQ(read.diagnostics.skipped(), 130U);
+  ASSERT_EQ(read.diagnostics.kept().size(), Diagnostics::kMaxPerCode);
+  EXPECT_EQ(read.diagnostics.kept()[0].message, "an odd \"one\"");
+  EXPECT_TRUE(read.files[0].ends_early);
+}
+
+TEST(NeutralScene, DamagedBodiesAreSkippedAndNamed) {
+  std::string bytes = test::neutral_glb();
+  const std::string good = R"("chains":4)";
+  bytes.replace(bytes.find(good), good.size(), R"("chains":3)");
+  const Result<Model> read = test::read_bytes(*make_gltf_reader(), bytes, "x.glb");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->diagnostics.skipped(), 1U);
+  EXPECT_EQ(read->diagnostics.kept().back().code, "gltf-damaged-object");
+  ASSERT_EQ(read->objects.size(), 3U);
+  EXPECT_TRUE(read->objects[1].incomplete);
+  EXPECT_EQ(read->objects[1].body_count, 1U);
+}
+
+TEST(NeutralScene, SeedHasWhatItSays) {
+  const Result<Model> read = test::read_bytes(*make_gltf_reader(), test::neutral_glb(), "x.glb");
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->bodies.size(), 3U);
+  const auto& mesh = std::get<geometry::TriangleMesh>(read->shapes[0]);
+  EXPECT_EQ(mesh.vertices[0].x, 0.1);
+  EXPECT_EQ(mesh.faces, std::vector<std::uint32_t>{7});
+  EXPECT_EQ(read->bodies[2].category, model::Category::insulation);
+  EXPECT_EQ(read->group_attributes[0], (model::Attributes{{"k", "v"}, {"k", "w"}}));
+}
+
+}  // namespace
+}  // namespace strake::io
