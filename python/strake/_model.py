@@ -322,6 +322,24 @@ def _color(given: Sequence[int] | None) -> tuple[int, int, int, int] | None:
     return red, green, blue, parts[3] if len(parts) == 4 else 255
 
 
+def read_arguments(
+    files: PathLike | Iterable[PathLike], unit: str | float | None, up_axis: str | None
+) -> tuple[list[Path], float | None, int | None, Path]:
+    """Returns files, unit in mm, number of the axis and folder of importers. Raises: UsageError."""
+    unit_mm: float | None = None
+    if isinstance(unit, str):
+        unit_mm = _core.unit_mm(unit)
+    elif unit is not None:
+        unit_mm = number(unit, "unit")
+        if unit_mm <= 0:
+            raise UsageError(f"{unit!r} is no length", "unit")
+    if up_axis is not None and up_axis not in _AXES:
+        raise UsageError(f"{up_axis!r} is no axis", "up_axis", "write x, y or z")
+    axis = None if up_axis is None else _AXES[up_axis]
+    # An environment that nobody activated has its importers beside this Python, and not in PATH.
+    return paths(files, "files"), unit_mm, axis, Path(sysconfig.get_path("scripts"))
+
+
 def load(
     files: PathLike | Iterable[PathLike],
     unit: str | float | None = None,
@@ -342,19 +360,7 @@ def load(
 
     Raises: InputError for a file that cannot be read, with where; UsageError.
     """
-    unit_mm: float | None = None
-    if isinstance(unit, str):
-        unit_mm = _core.unit_mm(unit)
-    elif unit is not None:
-        unit_mm = number(unit, "unit")
-        if unit_mm <= 0:
-            raise UsageError(f"{unit!r} is no length", "unit")
-    if up_axis is not None and up_axis not in _AXES:
-        raise UsageError(f"{up_axis!r} is no axis", "up_axis", "write x, y or z")
-    axis = None if up_axis is None else _AXES[up_axis]
-    # An environment that nobody activated has its importers beside this Python, and not in PATH.
-    importers = Path(sysconfig.get_path("scripts"))
-    return Model(_core.load(paths(files, "files"), unit_mm, axis, importers, run_options(threads, progress)))
+    return Model(_core.load(*read_arguments(files, unit, up_axis), run_options(threads, progress)))
 
 
 def generate(

@@ -59,6 +59,13 @@ TileJoin::TileJoin(const WholeTest& test) : test_(test), unknown_sag_(test.model
   RuleMatcher(test.policy, test.options, test.model).begin_report(test.sets, all_);
 }
 
+bool TileJoin::fits(const TileReport& tile) const {
+  return tile.unknown_sag.size() == unknown_sag_.size() &&
+         tile.report.allowed.size() == all_.allowed.size() &&
+         tile.report.exempted.size() == all_.exempted.size() &&
+         tile.report.cells.size() == all_.cells.size();
+}
+
 void TileJoin::add(TileReport tile, std::span<const std::uint32_t> objects) {
   Report& report = tile.report;
   const auto number = [&](model::ObjectId& id) { id = model::ObjectId{objects[index(id)]}; };

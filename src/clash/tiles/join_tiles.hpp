@@ -34,8 +34,11 @@ class TileJoin {
   /// The test must outlive this.
   explicit TileJoin(const WholeTest& test);
 
-  /// Adds the report of a cell, whose objects have these numbers in the model, ascending. Cells may
-  /// come in any order.
+  /// Whether the report of a cell is of this test.
+  [[nodiscard]] bool fits(const TileReport& tile) const;
+
+  /// Adds the report of a cell that fits, whose objects have these numbers in the model, ascending.
+  /// Cells may come in any order.
   void add(TileReport tile, std::span<const std::uint32_t> objects);
 
   /// Returns the report of all. Errors: input where there are so many pairs of boxes for each part
