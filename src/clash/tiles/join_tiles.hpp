@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0085 says who does what of a report.
+
 #include <cstdint>
 #include <span>
 #include <vector>
