@@ -206,7 +206,8 @@ Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& option
       file.reading.remove(io::kSceneNotKept);
     file.label = model.files.front().label;
     file.bytes = model.files.front().bytes;
-    file.names = hash_of_ids(model);
+    // The model of an only file is kept until it is cut.
+    if (reader.files().size() > 1) file.names = hash_of_ids(model);
     file.model = without_geometry(model);
   }
   return Gathering(std::move(remains), reader.files()).run();

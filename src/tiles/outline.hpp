@@ -51,7 +51,7 @@ struct Outline {
   struct File {
     std::uint32_t given = 0;  ///< its number among those that were given
     std::uint32_t first = 0, objects = 0;
-    Hash128 names;  ///< of the ids of its objects
+    Hash128 names;  ///< hash_of_ids(), where there are several files
   };
   std::vector<File> files;
   bool renamed = false;  ///< whether a file has another label than alone, as it has a namesake

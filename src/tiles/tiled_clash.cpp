@@ -73,7 +73,8 @@ class TileWriter {
     const Outline::File& file = run_.outline.files[f];
     const Result<const model::Model*> model = reader_.read(file.given, context_);
     if (!model) return model.error();
-    if ((*model)->objects.size() != file.objects || hash_of_ids(**model) != file.names)
+    const bool several = run_.outline.files.size() > 1;
+    if ((*model)->objects.size() != file.objects || (several && hash_of_ids(**model) != file.names))
       return Error{ErrorCode::input, "changed while it was cut",
                    reader_.files()[file.given].path.string(), "run the test again"};
     return parallel::for_each(
@@ -118,6 +119,11 @@ Hash128 hash_of(std::span<const std::uint32_t> objects) {
   return hash_bytes(std::as_bytes(objects));
 }
 
+/// How many results a tile has of each test.
+struct FoundCounts {
+  std::uint64_t pairs = 0, regions = 0;
+};
+
 /// Encodes the report of a tile: one blob with what joins it, one for the head, then its parts.
 Status append_found(const clash::TileReport& tile, std::size_t objects, std::vector<Blob>& blobs) {
   const std::vector<std::int64_t> rows(tile.report.pairs.size(), 0);
@@ -149,16 +155,27 @@ Status append_found(const clash::TileReport& tile, std::size_t objects, std::vec
 /// Takes the reports of a tile out of their blobs, in order.
 class FoundReader {
  public:
-  FoundReader(std::vector<Blob> blobs, const std::filesystem::path& file)
-      : blobs_(std::move(blobs)), file_(file) {}
+  /// The path must outlive this. Errors: input (kLost).
+  static Result<FoundReader> open(const std::filesystem::path& file,
+                                  const parallel::Context& context) {
+    Result<std::vector<Blob>> blobs = read_blobs(file, 1, context);
+    if (!blobs) return blobs.error();
+    return FoundReader(std::move(*blobs), file);
+  }
 
-  /// Whether it is of that tile.
-  Result<bool> is_of(std::span<const std::uint32_t> objects, std::size_t tests) {
+  /// Returns how much it has of each test. Errors: input where it is not of that tile.
+  Result<std::vector<FoundCounts>> counts(std::span<const std::uint32_t> objects,
+                                          std::size_t tests) {
     Result<BlobReader> in = next();
     if (!in) return in.error();
-    const bool fits =
-        in->number() == objects.size() && in->number() == tests && in->hash() == hash_of(objects);
-    return fits && in->finish();
+    const bool fits = in->number() == objects.size() && in->hash() == hash_of(objects);
+    std::vector<FoundCounts> counts(tests);
+    for (FoundCounts& of_test : counts) {
+      of_test.pairs = in->number();
+      of_test.regions = in->number();
+    }
+    if (!fits || !in->finish()) return lost(file_);
+    return counts;
   }
 
   Result<clash::TileReport> report(std::size_t objects, const parallel::Context& context) {
@@ -184,6 +201,9 @@ class FoundReader {
   }
 
  private:
+  FoundReader(std::vector<Blob> blobs, const std::filesystem::path& file)
+      : blobs_(std::move(blobs)), file_(file) {}
+
   Result<BlobReader> next() {
     if (at_ >= blobs_.size()) return lost(file_);
     Result<BlobReader> in = BlobReader::open(blobs_[at_++], file_.string());
@@ -223,17 +243,19 @@ Status find_in_tile(const std::filesystem::path& tile, const std::filesystem::pa
   if (!scene) return scene.error();
   BlobWriter out;
   out.number(read->objects.size());
-  out.number(read->tests.size());
   out.hash(hash_of(read->objects));
-  Result<Blob> start = out.finish();
-  if (!start) return start.error();
-  std::vector<Blob> blobs{std::move(*start)};
+  std::vector<Blob> blobs(1);
   for (const rules::PlannedTest& test : read->tests) {
     const Result<clash::TileReport> report =
         clash::detect_tile(*scene, test.sets, test.options, test.policy, read->cell, context);
     if (!report) return report.error();
+    out.number(report->report.pairs.size());
+    out.number(report->report.regions.size());
     if (Status s = append_found(*report, read->objects.size(), blobs); !s) return s;
   }
+  Result<Blob> start = out.finish();
+  if (!start) return start.error();
+  blobs.front() = std::move(*start);
   return write_blobs(found, blobs);
 }
 
@@ -245,19 +267,28 @@ Result<clash::Findings> join_found(const CutRun& run, std::span<const std::files
     tests.push_back({run.outline.model, run.outline.lacking, run.scene.weld_mm, test.sets,
                      test.options, test.policy});
   for (const clash::WholeTest& test : tests) joins.emplace_back(test);
+  std::vector<FoundCounts> all(joins.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    Result<FoundReader> reader = FoundReader::open(found[k], context);
+    if (!reader) return reader.error();
+    const auto counts = reader->counts(run.cells[k].objects, joins.size());
+    if (!counts) return counts.error();
+    for (std::size_t t = 0; t < joins.size(); ++t) {
+      all[t].pairs += (*counts)[t].pairs;
+      all[t].regions += (*counts)[t].regions;
+    }
+  }
+  for (std::size_t t = 0; t < joins.size(); ++t) joins[t].make_room(all[t].pairs, all[t].regions);
   for (std::size_t k = 0; k < found.size(); ++k) {
     const std::vector<std::uint32_t>& objects = run.cells[k].objects;
-    Result<std::vector<Blob>> blobs = read_blobs(found[k], 1, context);
-    if (!blobs) return blobs.error();
-    FoundReader reader(std::move(*blobs), found[k]);
-    const Result<bool> of_tile = reader.is_of(objects, tests.size());
-    if (!of_tile) return of_tile.error();
-    if (!*of_tile) return lost(found[k]);
-    for (std::size_t t = 0; t < joins.size(); ++t) {
-      Result<clash::TileReport> report = reader.report(objects.size(), context);
+    Result<FoundReader> reader = FoundReader::open(found[k], context);
+    if (!reader) return reader.error();
+    if (const auto counts = reader->counts(objects, joins.size()); !counts) return counts.error();
+    for (clash::TileJoin& join : joins) {
+      Result<clash::TileReport> report = reader->report(objects.size(), context);
       if (!report) return report.error();
-      if (!joins[t].fits(*report)) return lost(found[k]);
-      joins[t].add(std::move(*report), objects);
+      if (!join.fits(*report)) return lost(found[k]);
+      join.add(std::move(*report), objects);
     }
   }
   clash::Findings findings;

@@ -59,6 +59,11 @@ TileJoin::TileJoin(const WholeTest& test) : test_(test), unknown_sag_(test.model
   RuleMatcher(test.policy, test.options, test.model).begin_report(test.sets, all_);
 }
 
+void TileJoin::make_room(std::size_t pairs, std::size_t regions) {
+  all_.pairs.reserve(pairs);
+  all_.regions.reserve(regions);
+}
+
 bool TileJoin::fits(const TileReport& tile) const {
   return tile.unknown_sag.size() == unknown_sag_.size() &&
          tile.report.allowed.size() == all_.allowed.size() &&

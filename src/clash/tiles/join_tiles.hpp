@@ -3,6 +3,7 @@
 
 // Decision 0085 says who does what of a report.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,6 +36,9 @@ class TileJoin {
  public:
   /// The test must outlive this.
   explicit TileJoin(const WholeTest& test);
+
+  /// Makes room for so many results, as all cells have.
+  void make_room(std::size_t pairs, std::size_t regions);
 
   /// Whether the report of a cell is of this test.
   [[nodiscard]] bool fits(const TileReport& tile) const;

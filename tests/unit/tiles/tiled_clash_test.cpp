@@ -193,8 +193,9 @@ void expect_same(const clash::Findings& whole, const clash::Findings& tiled) {
     EXPECT_EQ(test::ReportDifference::of(whole.tests[t], tiled.tests[t]), "")
         << whole.tests[t].name;
   const auto said = [](const clash::Findings& findings) {
+    const Diagnostics diagnostics = findings.all_diagnostics();
     std::string all;
-    for (const Diagnostic& d : findings.all_diagnostics().kept())
+    for (const Diagnostic& d : diagnostics.kept())
       all += d.code + ": " + d.message + " (" + d.where + ")\n";
     return all;
   };
