@@ -21,7 +21,7 @@ Status write_blobs(const std::filesystem::path& file, std::span<const Blob> blob
     out->write(std::as_bytes(std::span(&size, 1)));
     out->write(std::span<const std::byte>(blob));
   }
-  return out->commit();
+  return out->commit_soon();
 }
 
 Result<std::vector<Blob>> read_blobs(const std::filesystem::path& file, std::size_t at_least,
