@@ -249,4 +249,3 @@ def _bytes(memory: str | int) -> int:
     if size < _LEAST_MEMORY:
         raise UsageError(f"{memory!r} is too little for a worker", "memory", f"give {_LEAST_MEMORY // 2**20}MiB or more")
     return int(size)
-

@@ -210,7 +210,7 @@ TEST(TiledClash, finds_what_is_found_in_the_whole_model) {
     for (const clash::Report& report : whole.tests) pairs += report.pairs.size();
     ASSERT_GT(pairs, 500U);
     for (const std::uint64_t bytes :
-         {std::uint64_t{1} << 40U, std::uint64_t{400'000}, std::uint64_t{60'000}}) {
+         {std::uint64_t{1} << 40U, std::uint64_t{400'000}, std::uint64_t{100'000}}) {
       const CutRun run = files.cut(bytes);
       ASSERT_EQ(run.cells.size() == 1, bytes > 1'000'000'000);
       expect_same(whole, files.by_tiles(run));
@@ -220,7 +220,7 @@ TEST(TiledClash, finds_what_is_found_in_the_whole_model) {
 
 TEST(TiledClash, tells_of_tiles_and_results_that_are_lost) {
   TiledRun files({3});
-  const CutRun run = files.cut(300'000);
+  const CutRun run = files.cut(200'000);
   const auto found = files.found(run);
   ASSERT_GT(found.size(), 2U);
   expect_same(files.whole(), files.by_tiles(run));
@@ -235,7 +235,7 @@ TEST(TiledClash, tells_of_tiles_and_results_that_are_lost) {
     const auto size = std::filesystem::file_size(path);
     std::filesystem::resize_file(path, size - 3);
     EXPECT_EQ(find_in_tile(tile, found[0], {}).error().message, kLost) << path;
-    static_cast<void>(files.cut(300'000));
+    static_cast<void>(files.cut(200'000));
     std::fstream(path, std::ios::in | std::ios::out | std::ios::binary)
         .seekp(static_cast<std::streamoff>(size / 2))
         .put('\x5a')
@@ -243,7 +243,7 @@ TEST(TiledClash, tells_of_tiles_and_results_that_are_lost) {
     EXPECT_EQ(find_in_tile(tile, found[0], {}).error().message, kLost) << path;
     std::filesystem::remove(path);
     EXPECT_EQ(find_in_tile(tile, found[0], {}).error().message, kLost) << path;
-    static_cast<void>(files.cut(300'000));
+    static_cast<void>(files.cut(200'000));
   }
   EXPECT_TRUE(find_in_tile(tile, found[0], {}));
   expect_same(files.whole(), join_found(run, found, {}).value());
