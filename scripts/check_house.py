@@ -22,6 +22,7 @@ MAY_USE = {
     'sheets': ['core', 'parallel', 'geometry', 'model', 'settings', 'hlr', 'drawing'],
     'report': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing'],
     'project': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'settings', 'rules', 'hlr', 'drawing', 'report'],
+    'tiles': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'settings', 'rules', 'project'],
     'generate': ['core', 'parallel', 'geometry', 'model', 'clash'],
 }
 # A room is a folder of a module, for one stage of an algorithm (decision 0060).

@@ -16,7 +16,7 @@ say "python: installed in a clean environment"
 clean=build/python-clean
 rm -rf "$clean"
 python3 -m venv "$clean"
-"$clean/bin/pip" install -q --disable-pip-version-check build/dist/strake-*.whl pytest ruff mypy trimesh pandas pyarrow
+"$clean/bin/pip" install -q --disable-pip-version-check build/dist/strake-*.whl pytest ruff mypy trimesh pandas pyarrow distributed
 "$clean/bin/ruff" check .
 "$clean/bin/ruff" format --check .
 "$clean/bin/mypy" -p strake

@@ -13,5 +13,6 @@ void bind_clash(nanobind::module_& module);
 void bind_drawing(nanobind::module_& module);
 void bind_sheet(nanobind::module_& module);
 void bind_project(nanobind::module_& module);
+void bind_tiles(nanobind::module_& module);
 
 }  // namespace strake::python

@@ -151,6 +151,7 @@ void bind_clash(nb::module_& module) {
       .def_rw("group_distance_mm", &ClashRequest::group_distance_mm)
       .def_rw("group_contacts", &ClashRequest::group_contacts);
   nb::class_<ClashRun>(module, "ClashRun")
+      .def_prop_ro("model", [](const ClashRun& run) { return run.model; })
       .def_prop_ro("summary", &summary_of)
       .def_prop_ro("tests", &tests_of)
       .def_prop_ro("allowing_rules", &allowing_rules)

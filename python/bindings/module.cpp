@@ -31,4 +31,5 @@ NB_MODULE(_core, module) {
   python::bind_drawing(module);
   python::bind_sheet(module);
   python::bind_project(module);
+  python::bind_tiles(module);
 }

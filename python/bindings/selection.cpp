@@ -13,36 +13,48 @@ namespace strake::python {
 
 namespace {
 
-Result<Picked> pick_by_text(const std::vector<std::string>& texts, const model::Scene& scene,
-                            const parallel::Context& context) {
+Result<std::vector<model::Selection>> parsed(const std::vector<std::string>& texts) {
   std::vector<model::Selection> selections;
   for (const std::string& text : texts) {
-    Result<model::Selection> parsed = model::Selection::parse(text);
-    if (!parsed) return parsed.error();
-    selections.push_back(std::move(*parsed));
+    Result<model::Selection> one = model::Selection::parse(text);
+    if (!one) return one.error();
+    selections.push_back(std::move(*one));
   }
-  const auto each = model::pick(selections, scene, context);
-  if (!each) return each.error();
+  return selections;
+}
+
+Result<Picked> pick_by_text(const std::vector<std::string>& texts,
+                            const std::vector<std::vector<bool>>& each, const model::Model& model) {
+  const Result<std::vector<model::Selection>> selections = parsed(texts);
+  if (!selections) return selections.error();
   Picked picked;
-  picked.objects.resize(scene.model->objects.size());
-  for (std::size_t s = 0; s < selections.size(); ++s) {
-    const std::vector<bool>& some = (*each)[s];
+  picked.objects.resize(model.objects.size());
+  for (std::size_t s = 0; s < selections->size(); ++s) {
+    const std::vector<bool>& some = each[s];
     if (std::find(some.begin(), some.end(), true) == some.end())
-      picked.idle.push_back(model::picks_nothing(selections[s], *scene.model));
+      picked.idle.push_back(model::picks_nothing((*selections)[s], model));
     for (std::size_t o = 0; o < some.size(); ++o)
       if (some[o]) picked.objects[o] = true;
-    const std::string& text = selections[s].text();
-    picked.name += selections.size() == 1 ? text : (s == 0 ? "(" : " or (") + text + ")";
+    const std::string& text = (*selections)[s].text();
+    picked.name += selections->size() == 1 ? text : (s == 0 ? "(" : " or (") + text + ")";
   }
   return picked;
 }
 
 }  // namespace
 
-Result<Picked> pick(const Pick& wanted, const model::Scene& scene,
-                    const parallel::Context& context) {
-  const std::size_t objects = scene.model->objects.size();
-  if (!wanted.selections.empty()) return pick_by_text(wanted.selections, scene, context);
+Result<std::vector<std::vector<bool>>> picked_by_each(const Pick& wanted, const model::Scene& scene,
+                                                      const parallel::Context& context) {
+  if (wanted.selections.empty()) return std::vector<std::vector<bool>>();
+  const Result<std::vector<model::Selection>> selections = parsed(wanted.selections);
+  if (!selections) return selections.error();
+  return model::pick(*selections, scene, context);
+}
+
+Result<Picked> pick(const Pick& wanted, const std::vector<std::vector<bool>>& each,
+                    const model::Model& model) {
+  const std::size_t objects = model.objects.size();
+  if (!wanted.selections.empty()) return pick_by_text(wanted.selections, each, model);
   if (wanted.objects.empty()) return Picked{std::vector<bool>(objects, true), "*", {}};
   if (wanted.objects.size() != objects)
     return Error{ErrorCode::usage,
@@ -55,6 +67,13 @@ Result<Picked> pick(const Pick& wanted, const model::Scene& scene,
   picked.name = fmt::format("{} objects of an array", some);
   if (some == 0) picked.idle.emplace_back("no entry of the array is true");
   return picked;
+}
+
+Result<Picked> pick(const Pick& wanted, const model::Scene& scene,
+                    const parallel::Context& context) {
+  const auto each = picked_by_each(wanted, scene, context);
+  if (!each) return each.error();
+  return pick(wanted, *each, *scene.model);
 }
 
 Result<std::vector<bool>> pick_some(const Pick& wanted, const model::Scene& scene,

@@ -27,6 +27,16 @@ struct Picked {
   std::vector<std::string> idle;  ///< for each selection that picks nothing, why
 };
 
+/// Returns what each of the selections picks; nothing where there are none. Errors: usage, for a
+/// text that is no selection; cancelled.
+[[nodiscard]] Result<std::vector<std::vector<bool>>> picked_by_each(
+    const Pick& wanted, const model::Scene& scene, const parallel::Context& context);
+
+/// Returns what is picked, where it is known what each selection picks. Errors: usage, for as many
+/// entries as there are no objects.
+[[nodiscard]] Result<Picked> pick(const Pick& wanted, const std::vector<std::vector<bool>>& each,
+                                  const model::Model& model);
+
 /// Errors: usage, for a text that is no selection, for as many entries as there are no objects;
 /// cancelled.
 [[nodiscard]] Result<Picked> pick(const Pick& wanted, const model::Scene& scene,

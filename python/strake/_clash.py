@@ -336,9 +336,54 @@ def clash(
     Raises: UsageError; InputError for a rules file; KeyboardInterrupt at Ctrl-C.
     """
     core = model_core(model)
+    request = request_of(
+        len(model),
+        a,
+        b,
+        rules=rules,
+        profile=profile,
+        clearance=clearance,
+        touch_gap=touch_gap,
+        touch_overlap=touch_overlap,
+        contacts=contacts,
+        within_files=within_files,
+        contact_distance=contact_distance,
+        thickness_cap=thickness_cap,
+        volumes=volumes,
+        curves=curves,
+        regions=regions,
+        group_by=group_by,
+        group_distance=group_distance,
+        group_contacts=group_contacts,
+    )
+    return Clashes(_core.clash(core, request, run_options(threads, progress)), model)
+
+
+def request_of(
+    objects: int,
+    a: Selection | None,
+    b: Selection | None,
+    *,
+    rules: PathLike | None = None,
+    profile: str | None = None,
+    clearance: Length = 0.0,
+    touch_gap: Length = 1.0,
+    touch_overlap: Length = 1.0,
+    contacts: Literal["list", "count", "off"] = "list",
+    within_files: bool = False,
+    contact_distance: Length | None = None,
+    thickness_cap: bool = True,
+    volumes: bool = False,
+    curves: bool = False,
+    regions: int = 8,
+    group_by: Literal["element", "proximity", "test", "files", "assembly"] | None = None,
+    group_distance: Length | None = None,
+    group_contacts: bool = False,
+) -> _core.ClashRequest:
+    """Returns what clash() is asked for over a model of so many objects. Raises: UsageError."""
     request = _core.ClashRequest()
-    request.a = pick(a, len(model), "a")
-    request.b = pick(b, len(model), "b")
+    request.a = pick(a, objects, "a")
+    request.b = pick(b, objects, "b")
     if rules is not None:
         _refuse_beside_rules(
             {
@@ -372,7 +417,7 @@ def clash(
     request.group_by = "" if group_by is None else text(group_by, "group_by")
     request.group_distance_mm = optional_length(group_distance, "group_distance")
     request.group_contacts = group_contacts
-    return Clashes(_core.clash(core, request, run_options(threads, progress)), model)
+    return request
 
 
 def clearance_text(clearance: Length) -> str:

@@ -349,6 +349,18 @@ def _color(given: Sequence[int] | None) -> tuple[int, int, int, int] | None:
     return red, green, blue, parts[3] if len(parts) == 4 else 255
 
 
+def read_arguments(
+    files: PathLike | Iterable[PathLike], unit: str | float | None, up_axis: str | None
+) -> tuple[list[Path], float | None, int | None, Path]:
+    """Returns files, unit in mm, number of the axis and folder of importers. Raises: UsageError."""
+    unit_mm = None if unit is None else _unit_mm(unit, "unit")
+    if up_axis is not None and (not isinstance(up_axis, str) or up_axis not in _AXES):
+        raise UsageError(f"{shown(up_axis)} is no axis", "up_axis", "write x, y or z")
+    axis = None if up_axis is None else _AXES[up_axis]
+    # An environment that nobody activated has its importers beside this Python, and not in PATH.
+    return paths(files, "files"), unit_mm, axis, Path(sysconfig.get_path("scripts"))
+
+
 def load(
     files: PathLike | Iterable[PathLike],
     unit: str | float | None = None,
@@ -374,11 +386,8 @@ def load(
 
     Raises: InputError for a file that cannot be read, with where; UsageError.
     """
-    unit_mm = None if unit is None else _unit_mm(unit, "unit")
-    if up_axis is not None and (not isinstance(up_axis, str) or up_axis not in _AXES):
-        raise UsageError(f"{shown(up_axis)} is no axis", "up_axis", "write x, y or z")
-    axis = None if up_axis is None else _AXES[up_axis]
-    given, on_map, options = paths(files, "files"), truth(georeference, "georeference"), run_options(threads, progress)
+    given, unit_mm, axis, importers = read_arguments(files, unit, up_axis)
+    on_map, options = truth(georeference, "georeference"), run_options(threads, progress)
     if projects := [file for file in given if _core.is_project(file)]:
         if len(given) > 1:
             raise UsageError(f"{projects[0]} is a project, and is read alone", "files", "Project.add() adds files to it")
@@ -386,8 +395,6 @@ def load(
             if is_given:
                 raise UsageError(f"{projects[0]} is a project, and its files were read already", name, "leave it out")
         return Model(_core.project_model(projects[0], options))
-    # An environment that nobody activated has its importers beside this Python, and not in PATH.
-    importers = Path(sysconfig.get_path("scripts"))
     return Model(_core.load(given, unit_mm, axis, on_map, importers, options))
 
 

@@ -37,13 +37,14 @@ using geometry::IndexPair;
 
 class Engine {
  public:
-  /// `changed`: what the run is about where it is not about all objects.
+  /// `changed`, `cell`: what the run is about where it is not about all objects, or pairs.
   Engine(const model::Scene& scene, const Sets& sets, const Options& options, const Policy& policy,
-         const ChangedObjects* changed, const parallel::Context& context)
+         const ChangedObjects* changed, const Cell* cell, const parallel::Context& context)
       : scene_(scene),
         sets_(sets),
         options_(options),
         changed_(changed),
+        cell_(cell),
         context_(context),
         rules_(
             policy, options, *scene.model,
@@ -71,6 +72,21 @@ class Engine {
     return std::optional(std::move(report));
   }
 
+  /// Returns what joins the report of a cell, which ran, with those of the others.
+  [[nodiscard]] TileReport tile_report(Report report) const {
+    TileReport tile;
+    tile.hash_sum = report.kept->hash_sum;
+    tile.hashed = report.pairs.size() + report.unlisted.contacts + report.unlisted.allowed;
+    tile.box_pairs = report.kept->box_pairs;
+    const auto boxes = object_boxes(list_, rules_.reach(), sets_.in_a.size());
+    for (const ScenePart& part : list_.parts)
+      if (cell_->contains(boxes[part.object].lo)) ++tile.parts;
+    tile.unknown_sag = unknown_sag_;
+    report.kept.reset();
+    tile.report = std::move(report);
+    return tile;
+  }
+
  private:
   [[nodiscard]] bool exact() const { return options_.engine.narrow_phase == NarrowPhase::exact; }
 
@@ -84,7 +100,7 @@ class Engine {
     report.in_a = sets_.in_a;
     report.in_b = sets_.in_b;
     report.within_files = sets_.group.empty();
-    if (options_.engine.keep_for_changes) report.kept.emplace();
+    if (options_.engine.keep_for_changes || cell_ != nullptr) report.kept.emplace();
     rules_.begin_report(sets_, report);
     return report;
   }
@@ -133,7 +149,9 @@ class Engine {
     if (changed_ != nullptr)
       return find_changed_pairs(list_, sets_, rules_.reach(), changed_->change,
                                 changed_->most_box_pairs, context_);
-    auto all = find_candidate_pairs(list_, sets_, rules_.reach(), options_, context_);
+    auto all = cell_ != nullptr
+                   ? find_pairs_of_cell(list_, sets_, rules_.reach(), options_, *cell_, context_)
+                   : find_candidate_pairs(list_, sets_, rules_.reach(), options_, context_);
     if (!all) return all.error();
     return std::optional(std::move(*all));
   }
@@ -213,7 +231,7 @@ class Engine {
     return {};
   }
 
-  Status finish(Report& report) const {
+  Status finish(Report& report) {
     if (const Status s = rules_.finish_report(context_, report); !s) return s.error();
     auto elements = hash_elements();
     if (!elements) return elements.error();
@@ -232,9 +250,10 @@ class Engine {
     report.weld_mm = scene_.weld_mm;
     describe_sets(report);
     count_sheets(list_, report);
-    if (const Status s = warn_of_unknown_sag(list_, *scene_.model, context_, report.diagnostics);
-        !s)
-      return s.error();
+    auto unknown_sag = files_of_unknown_sag(list_, *scene_.model, context_);
+    if (!unknown_sag) return unknown_sag.error();
+    unknown_sag_ = std::move(*unknown_sag);
+    tell_unknown_sag(unknown_sag_, *scene_.model, report.diagnostics);
     return options_.engine.contacts == Contacts::count ? leave_out_contacts(context_, report)
                                                        : Status{};
   }
@@ -260,6 +279,7 @@ class Engine {
   const Sets& sets_;
   const Options& options_;
   const ChangedObjects* changed_;  ///< null: the run is about all
+  const Cell* cell_;               ///< null: the run is about all pairs of these
   const parallel::Context& context_;
   RuleMatcher rules_;
   PairToleranceTable pair_tolerances_;
@@ -271,6 +291,7 @@ class Engine {
   std::vector<Candidate> candidates_;         ///< one per unique pair
   PartRegions regions_;                       ///< where told apart
   std::vector<CommonVolume> common_volumes_;  ///< where a rule or the test limits them
+  std::vector<std::uint8_t> unknown_sag_;     ///< an entry for each file
 };
 
 }  // namespace
@@ -299,15 +320,25 @@ Result<std::optional<Report>> detect_among(const model::Scene& scene, const Sets
                                            const Options& options, const Policy& policy,
                                            const ChangedObjects& changed,
                                            const parallel::Context& context) {
-  return Engine(scene, sets, options, policy, &changed, context).run();
+  return Engine(scene, sets, options, policy, &changed, nullptr, context).run();
 }
 
 Result<Report> detect(const model::Scene& scene, const Sets& sets, const Options& options,
                       const Policy& policy, const parallel::Context& context) {
   if (const Status s = check_inputs(scene, sets, options, policy); !s) return s.error();
-  auto report = Engine(scene, sets, options, policy, nullptr, context).run();
+  auto report = Engine(scene, sets, options, policy, nullptr, nullptr, context).run();
   if (!report) return report.error();
   return std::move(**report);
+}
+
+Result<TileReport> detect_tile(const model::Scene& scene, const Sets& sets, const Options& options,
+                               const Policy& policy, const Cell& cell,
+                               const parallel::Context& context) {
+  if (const Status s = check_inputs(scene, sets, options, policy); !s) return s.error();
+  Engine engine(scene, sets, options, policy, nullptr, &cell, context);
+  auto report = engine.run();
+  if (!report) return report.error();
+  return engine.tile_report(std::move(**report));
 }
 
 Result<Report> detect(const model::Scene& scene, const Sets& sets, const Options& options,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "clash/broad_phase/broad_phase.hpp"
 #include "strake/clash/clash.hpp"
@@ -30,6 +31,25 @@ struct ChangedObjects {
                                                          const Policy& policy,
                                                          const ChangedObjects& changed,
                                                          const parallel::Context& context);
+
+/// What detect() finds of the pairs that belong to a cell.
+struct TileReport {
+  /// Of it what is about pairs; sets, disciplines and what is said of single objects are of those
+  /// of the scene.
+  Report report;
+  Hash128 hash_sum;             ///< the sum, word by word, of the hashes of its pairs
+  std::uint64_t hashed = 0;     ///< how many pairs that are: listed ones and others
+  std::uint64_t box_pairs = 0;  ///< pairs of boxes, before any rule
+  std::uint64_t parts = 0;      ///< parts of objects whose box has its lower corner in the cell
+  std::vector<std::uint8_t>
+      unknown_sag;  ///< of each file, other than 0: it has parts of unknown sag
+};
+
+/// Finds clashes as detect() does, of the pairs of find_pairs_of_cell(). The scene holds all
+/// objects that reach into the cell, and may hold more. Errors: those of detect().
+[[nodiscard]] Result<TileReport> detect_tile(const model::Scene& scene, const Sets& sets,
+                                             const Options& options, const Policy& policy,
+                                             const Cell& cell, const parallel::Context& context);
 
 /// Says how many objects the sets have, and that one has none.
 void describe_sets(Report& report);

@@ -188,10 +188,14 @@ void AtomicFile::write_out(const char* data, std::size_t size) {
   }
 }
 
-Status AtomicFile::commit() {
+Status AtomicFile::commit() { return put_in_place(true); }
+
+Status AtomicFile::commit_soon() { return put_in_place(false); }
+
+Status AtomicFile::put_in_place(bool at_once) {
   flush();
   // A pipe or a terminal has no disk to be brought to.
-  if (error_ == 0 && !direct_ && ::fsync(descriptor_) != 0) error_ = errno;
+  if (error_ == 0 && !direct_ && at_once && ::fsync(descriptor_) != 0) error_ = errno;
   if (::close(std::exchange(descriptor_, -1)) != 0 && error_ == 0) error_ = errno;
   if (error_ == 0 && !direct_ && ::rename(temporary_.c_str(), target_.c_str()) != 0) error_ = errno;
   if (error_ != 0) {
@@ -199,7 +203,7 @@ Status AtomicFile::commit() {
     return failure(target_, error_);
   }
   temporary_.clear();
-  if (!direct_) sync_folder(target_);
+  if (!direct_ && at_once) sync_folder(target_);
   return {};
 }
 

@@ -293,7 +293,7 @@ struct Labelling {
   Test operator()(const EndsRule& ends) const {
     clash::Linked test{{{0}, {}}, {{0}, {}}, {}};
     std::vector<std::vector<std::uint32_t>> refers(rule_context.objects()), answers = refers;
-    const std::vector<model::ObjectEnd> all = model::ends_of(rule_context.scene(), among);
+    const std::vector<model::ObjectEnd> all = rule_context.ends(among);
     const auto joints = model::joints_of(all, std::llround(ends.within_mm * geometry::kGridPerMm),
                                          rule_context.context());
     if (!joints) rule_context.fail(joints.error());

@@ -71,16 +71,11 @@ class LevelBuilder {
     levels_.left_out[i][j] = levels_.left_out[j][i] = rule;
   }
 
-  [[nodiscard]] bool has_bodies(model::Category category) const {
-    return std::ranges::any_of(rule_context_.model().bodies,
-                               [&](const model::Body& body) { return body.category == category; });
-  }
-
   /// Takes the levels that attributes state.
   void read_obstruction(const ObstructionRule& rule) {
     levels_.obstruction_bodies = rule.bodies;
     if (!rule.soft_against_soft) leave_out(Level::soft, Level::soft, kSoftRule);
-    bool some = rule.soft || rule.none || rule.hard || has_bodies(model::Category::obstruction);
+    bool some = rule.soft || rule.none || rule.hard || rule_context_.has_obstructions();
     for (std::size_t o = 0; o < levels_.object.size(); ++o) {
       const auto stated = stated_level(rule_context_.model().objects[o], rule.attributes);
       some = some || stated;
@@ -93,7 +88,7 @@ class LevelBuilder {
   }
 
   void read_insulation(const InsulationRule& rule) {
-    if (!rule.select && !has_bodies(model::Category::insulation))
+    if (!rule.select && !rule_context_.has_insulation())
       rule_context_.warn_no_match(rules_.file + ": [insulation]", "no object has insulation");
     if (!rule.against_insulation) leave_out(Level::insulation, Level::insulation, kInsulationRule);
     if (!rule.against_soft) leave_out(Level::insulation, Level::soft, kInsulationSoftRule);

@@ -13,6 +13,7 @@
 #include "rules/clearances.hpp"
 #include "rules/exemptions.hpp"
 #include "rules/levels.hpp"
+#include "rules/object_facts.hpp"
 #include "rules/rule_context.hpp"
 #include "rules/rule_file.hpp"
 #include "settings/text_file.hpp"
@@ -27,8 +28,9 @@ using clash::Level;
 /// Works the rules out for a scene once; each test takes those that it follows.
 class PlanBuilder {
  public:
-  PlanBuilder(const RuleFile& rules, const model::Scene& scene, const parallel::Context& context)
-      : rules_(rules), rule_context_(scene, choosers_of(rules), context) {}
+  PlanBuilder(const RuleFile& rules, const model::Scene& scene, ObjectFacts facts,
+              const parallel::Context& context)
+      : rules_(rules), rule_context_(scene, choosers_of(rules), std::move(facts), context) {}
 
   Result<Plan> run() {
     for (const NamedSet& set : rules_.sets) rule_context_.pick(set.chooser);
@@ -222,7 +224,17 @@ model::SceneOptions Rules::scene_options() const {
 }
 
 Result<Plan> Rules::plan(const model::Scene& scene, const parallel::Context& context) const {
-  return PlanBuilder(*file_, scene, context).run();
+  ObjectFacts facts;
+  auto picked = picked_by(choosers_of(*file_), scene, context);
+  if (!picked) return picked.error();
+  facts.picked = std::move(*picked);
+  look_for_categories(*scene.model, facts);
+  return plan(scene, std::move(facts), context);
+}
+
+Result<Plan> Rules::plan(const model::Scene& scene, ObjectFacts facts,
+                         const parallel::Context& context) const {
+  return PlanBuilder(*file_, scene, std::move(facts), context).run();
 }
 
 }  // namespace strake::rules

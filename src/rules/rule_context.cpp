@@ -6,15 +6,32 @@
 
 namespace strake::rules {
 
-RuleContext::RuleContext(const model::Scene& scene, const std::vector<const Chooser*>& choosers,
-                         const parallel::Context& context)
-    : scene_(scene), context_(context) {
+Result<std::vector<std::vector<bool>>> picked_by(const std::vector<const Chooser*>& choosers,
+                                                 const model::Scene& scene,
+                                                 const parallel::Context& context) {
   std::vector<model::Selection> selections;
+  selections.reserve(choosers.size());
   for (const Chooser* chooser : choosers) selections.push_back(chooser->selection);
-  auto answers = model::pick(selections, scene, context);
-  if (!answers) error_ = answers.error();
+  return model::pick(selections, scene, context);
+}
+
+RuleContext::RuleContext(const model::Scene& scene, const std::vector<const Chooser*>& choosers,
+                         ObjectFacts facts, const parallel::Context& context)
+    : scene_(scene),
+      context_(context),
+      ends_(std::move(facts.ends)),
+      obstructions_(facts.obstructions),
+      insulation_(facts.insulation) {
   for (std::size_t c = 0; c < choosers.size(); ++c)
-    picked_[choosers[c]] = answers ? std::move((*answers)[c]) : std::vector<bool>(objects());
+    picked_[choosers[c]] = std::move(facts.picked[c]);
+}
+
+std::vector<model::ObjectEnd> RuleContext::ends(const std::vector<bool>& among) const {
+  if (!ends_) return model::ends_of(scene_, among);
+  std::vector<model::ObjectEnd> some;
+  for (const model::ObjectEnd& end : *ends_)
+    if (among[end.object]) some.push_back(end);
+  return some;
 }
 
 std::vector<bool> RuleContext::pick(const Chooser& chooser) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "rules/object_facts.hpp"
 #include "rules/rule_file.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/model/scene.hpp"
@@ -20,21 +21,32 @@ namespace strake::rules {
 inline constexpr std::string_view kMatchesNothing = "rule-matches-nothing",
                                   kShadowed = "rule-shadowed";
 
+/// Evaluates all selections for all objects, in one pass, in the order of the choosers. Errors:
+/// cancelled.
+[[nodiscard]] Result<std::vector<std::vector<bool>>> picked_by(
+    const std::vector<const Chooser*>& choosers, const model::Scene& scene,
+    const parallel::Context& context);
+
 /// The model to which rules are applied. It keeps which rules match nothing, and whether the run
 /// was cancelled; results after that are not used.
 class RuleContext {
  public:
-  /// Evaluates all selections for all objects, in one pass. They and the context must outlive this.
+  /// `facts` has what choosers_of() the rules pick. Scene, rules and context must outlive this.
   RuleContext(const model::Scene& scene, const std::vector<const Chooser*>& choosers,
-              const parallel::Context& context);
+              ObjectFacts facts, const parallel::Context& context);
 
-  [[nodiscard]] const model::Scene& scene() const { return scene_; }
   [[nodiscard]] const model::Model& model() const { return *scene_.model; }
   [[nodiscard]] std::size_t objects() const { return model().objects.size(); }
   [[nodiscard]] Diagnostics& diagnostics() { return diagnostics_; }
   [[nodiscard]] const std::optional<Error>& error() const { return error_; }
   void fail(Error error) { error_ = std::move(error); }
   [[nodiscard]] const parallel::Context& context() const { return context_; }
+
+  /// Whether a body of the model is an obstruction volume, and whether one is insulation.
+  [[nodiscard]] bool has_obstructions() const { return obstructions_; }
+  [[nodiscard]] bool has_insulation() const { return insulation_; }
+  /// Returns the ends of the objects for which `among` holds, by object and body.
+  [[nodiscard]] std::vector<model::ObjectEnd> ends(const std::vector<bool>& among) const;
 
   /// Returns the objects that one of the selections picks, with a warning where there are none.
   std::vector<bool> pick(const Chooser& chooser);
@@ -65,6 +77,8 @@ class RuleContext {
   const model::Scene& scene_;
   const parallel::Context& context_;
   std::map<const Chooser*, std::vector<bool>> picked_;
+  std::optional<std::vector<model::ObjectEnd>> ends_;
+  bool obstructions_ = false, insulation_ = false;
   Diagnostics diagnostics_;
   std::optional<Error> error_;
 };

@@ -36,12 +36,16 @@ class AtomicFile {
   void write(std::string_view text);
   void write(std::span<const std::byte> bytes);
   [[nodiscard]] Status commit();
+  /// The same for a file that is made again where it is lost: the disk gets it when the system
+  /// finds the time.
+  [[nodiscard]] Status commit_soon();
 
  private:
   AtomicFile() = default;
   void flush();
   void write_out(const char* data, std::size_t size);
   void discard() noexcept;
+  [[nodiscard]] Status put_in_place(bool at_once);
 
   int descriptor_ = -1;
   int error_ = 0;

@@ -28,6 +28,7 @@
 namespace strake::rules {
 
 struct RuleFile;
+struct ObjectFacts;
 
 /// What a rules file says of files of the model, as `--unit` and `--up-axis` do.
 struct FileSettings {
@@ -95,6 +96,14 @@ class Rules {
 
   /// Evaluates every selection for every object of the scene, once. Errors: cancelled.
   [[nodiscard]] Result<Plan> plan(const model::Scene& scene,
+                                  const parallel::Context& context) const;
+
+  /// Returns what plan() looks up in geometry, of each object by itself: of a model too large to be
+  /// held it can be gathered piece by piece. Errors: cancelled.
+  [[nodiscard]] Result<ObjectFacts> facts(const model::Scene& scene,
+                                          const parallel::Context& context) const;
+  /// Plans by facts of all objects; the scene needs no bodies. Errors: cancelled.
+  [[nodiscard]] Result<Plan> plan(const model::Scene& scene, ObjectFacts facts,
                                   const parallel::Context& context) const;
 
  private:

@@ -226,6 +226,39 @@ Result<CandidatePairs> find_candidate_pairs(const ScenePartList& list, const Set
   return found;
 }
 
+std::vector<geometry::Box3l> object_boxes(const ScenePartList& list, const SearchReach& reach,
+                                          std::size_t objects) {
+  std::vector<geometry::Box3l> boxes(objects, geometry::empty_box<std::int64_t>());
+  for (const ScenePart& part : list.parts)
+    boxes[part.object].include(inflated_box(part, reach.of(part)));
+  return boxes;
+}
+
+Result<CandidatePairs> find_pairs_of_cell(const ScenePartList& list, const Sets& sets,
+                                          const SearchReach& reach, const Options& options,
+                                          const Cell& cell, const parallel::Context& context) {
+  const auto items = parallel::transform(
+      context, {.name = "boxes", .n = list.parts.size(), .grain = kItemsPerBlock},
+      [&](std::size_t i) { return item_of(list.parts[i], sets, reach); });
+  if (!items) return items.error();
+  const auto all = BoxPairs(*items, options, context).find(options.engine.most_pairs);
+  if (!all) return all.error().code == ErrorCode::input ? too_many(options) : all.error();
+  const std::vector<geometry::Box3l> boxes = object_boxes(list, reach, sets.in_a.size());
+  auto own = parallel::collect<geometry::IndexPair>(
+      context, {.name = "pairs of the cell", .n = all->size(), .grain = kItemsPerBlock},
+      [&](std::size_t i, std::vector<geometry::IndexPair>& out) {
+        const geometry::IndexPair& pair = (*all)[i];
+        const geometry::Box3l& a = boxes[list.parts[pair.first].object];
+        const geometry::Box3l& b = boxes[list.parts[pair.second].object];
+        if (cell.contains(a.common(b).lo)) out.push_back(pair);
+      });
+  if (!own) return own.error();
+  CandidatePairs found{std::move(*own), 0, false};
+  found.boxes = found.pairs.size();
+  if (const Status s = put_in_order(found, list, sets, context); !s) return s.error();
+  return found;
+}
+
 Result<std::optional<CandidatePairs>> find_changed_pairs(const ScenePartList& list,
                                                          const Sets& sets, const SearchReach& reach,
                                                          std::span<const Change> change,

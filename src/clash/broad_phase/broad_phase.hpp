@@ -86,6 +86,31 @@ struct CandidatePairs {
                                                           const Options& options,
                                                           const parallel::Context& context);
 
+/// A part of space on the grid, without its upper faces: of cells that fill a space every point
+/// lies in one.
+struct Cell {
+  geometry::Vec3l lo, hi;
+
+  [[nodiscard]] bool contains(const geometry::Vec3l& p) const {
+    return p.x >= lo.x && p.y >= lo.y && p.z >= lo.z && p.x < hi.x && p.y < hi.y && p.z < hi.z;
+  }
+};
+
+/// Returns of each of so many objects the box of its parts, as the search for pairs sees them;
+/// empty where it has none.
+[[nodiscard]] std::vector<geometry::Box3l> object_boxes(const ScenePartList& list,
+                                                        const SearchReach& reach,
+                                                        std::size_t objects);
+
+/// Returns the pairs of find_candidate_pairs() that belong to a cell: those where the lower corner
+/// of what the boxes of the two objects have in common lies in it. Each belongs to one of the cells
+/// that fill a space, and both its objects reach into that. Boxes along the parts' own faces do not
+/// come in: whether there are too many pairs is a matter of all cells.
+[[nodiscard]] Result<CandidatePairs> find_pairs_of_cell(const ScenePartList& list, const Sets& sets,
+                                                        const SearchReach& reach,
+                                                        const Options& options, const Cell& cell,
+                                                        const parallel::Context& context);
+
 /// Returns the most pairs of boxes that a test over so many parts may have without boxes along
 /// their faces.
 [[nodiscard]] std::uint64_t most_unframed_pairs(std::uint64_t parts, const Options& options);

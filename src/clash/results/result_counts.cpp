@@ -92,10 +92,11 @@ void count_sheets(const ScenePartList& list, Report& report) {
       ++sheets;
 }
 
-Status warn_of_unknown_sag(const ScenePartList& list, const model::Model& model,
-                           const parallel::Context& context, Diagnostics& diagnostics) {
+Result<std::vector<std::uint8_t>> files_of_unknown_sag(const ScenePartList& list,
+                                                       const model::Model& model,
+                                                       const parallel::Context& context) {
   using Unknown = std::vector<std::uint8_t>;
-  const auto unknown = parallel::reduce(
+  return parallel::reduce(
       context, {.name = "parts of unknown sag", .n = list.parts.size(), .grain = kResultsPerBlock},
       Unknown(model.files.size(), 0),
       [&](Unknown& partial, std::size_t i) {
@@ -105,9 +106,6 @@ Status warn_of_unknown_sag(const ScenePartList& list, const model::Model& model,
       [](Unknown& into, const Unknown& partial) {
         for (std::size_t f = 0; f < into.size(); ++f) into[f] |= partial[f];
       });
-  if (!unknown) return unknown.error();
-  tell_unknown_sag(*unknown, model, diagnostics);
-  return {};
 }
 
 void tell_unknown_sag(std::span<const std::uint8_t> by_file, const model::Model& model,

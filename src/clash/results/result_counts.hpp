@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "clash/broad_phase/broad_phase.hpp"
 #include "clash/pairs/pair_tasks.hpp"
@@ -26,12 +27,11 @@ void tell_not_compared(const model::Model& model, Report& report);
 /// Fills Report::sheets.
 void count_sheets(const ScenePartList& list, Report& report);
 
-/// Adds "unknown-sag", once per file.
-[[nodiscard]] Status warn_of_unknown_sag(const ScenePartList& list, const model::Model& model,
-                                         const parallel::Context& context,
-                                         Diagnostics& diagnostics);
+/// Returns an entry for each file: other than 0 where it has parts of unknown sag.
+[[nodiscard]] Result<std::vector<std::uint8_t>> files_of_unknown_sag(
+    const ScenePartList& list, const model::Model& model, const parallel::Context& context);
 
-/// Adds it for the files that an entry other than 0 says to have parts of unknown sag.
+/// Adds "unknown-sag" for each of these files.
 void tell_unknown_sag(std::span<const std::uint8_t> by_file, const model::Model& model,
                       Diagnostics& diagnostics);
 

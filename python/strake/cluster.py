@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Clash detection on several machines (docs/cluster.md).
+
+    from dask.distributed import LocalCluster
+    import strake.cluster
+
+    with LocalCluster(n_workers=4, threads_per_worker=1, memory_limit="1GiB") as cluster:
+        clashes = strake.cluster.clash("ship.glb", scheduler=cluster, memory="1GiB", clearance=25)
+    clashes.save("clashes.json")  # the bytes of one machine
+
+The model is cut into tiles on the disk, each of which is a task of its own. Dask places and repeats them; without a
+scheduler they run one after the other in this process.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import tempfile
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+
+from strake import _core
+from strake._arguments import PathLike, Progress, Selection, number, path, run_options
+from strake._clash import Clashes, request_of
+from strake._errors import Error, InputError, UsageError
+from strake._model import Model, read_arguments
+
+__all__ = ["clash"]
+
+# How often a tile is made or tested again before the run gives up.
+_MOST_TRIES = 4
+# What a worker takes before it has a tile: Python, NumPy, Dask and this package.
+_EMPTY_WORKER = 200 * 2**20
+_LEAST_MEMORY = 2 * _EMPTY_WORKER
+_LOST = "is missing or damaged"
+_UNITS = {"": 1, "B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "KIB": 2**10, "MIB": 2**20, "GIB": 2**30}
+
+
+class _Runner(Protocol):
+    """Runs tasks somewhere, and tells of each that has ended."""
+
+    def submit(self, tile: int, tile_file: Path, found: Path, threads: int, name: str) -> None: ...
+    def ended(self) -> tuple[int, BaseException | None]: ...
+
+
+class _InThisProcess:
+    """One after the other."""
+
+    def __init__(self) -> None:
+        self._waiting: list[tuple[int, Path, Path, int]] = []
+
+    def submit(self, tile: int, tile_file: Path, found: Path, threads: int, name: str) -> None:
+        self._waiting.append((tile, tile_file, found, threads))
+
+    def ended(self) -> tuple[int, BaseException | None]:
+        tile, tile_file, found, threads = self._waiting.pop(0)
+        try:
+            find_in_tile(str(tile_file), str(found), threads)
+        except Error as error:
+            return tile, error
+        return tile, None
+
+
+class _OnDask:
+    """On the workers of a cluster. Which does what, and what is done again, is Dask's affair."""
+
+    def __init__(self, client: Any) -> None:
+        from distributed import as_completed
+
+        self._client = client
+        self._tile_of: dict[Any, int] = {}
+        self._completed = as_completed()
+
+    def submit(self, tile: int, tile_file: Path, found: Path, threads: int, name: str) -> None:
+        future = self._client.submit(find_in_tile, str(tile_file), str(found), threads, key=name, retries=2)
+        self._tile_of[future.key] = tile
+        self._completed.add(future)
+
+    def ended(self) -> tuple[int, BaseException | None]:
+        future = next(self._completed)
+        tile = self._tile_of.pop(future.key)
+        error = future.exception()
+        future.release()
+        return tile, error
+
+
+def find_in_tile(tile_file: str, found: str, threads: int) -> None:
+    """What a worker does: reads one tile, finds its clashes, and writes them beside it."""
+    _core.find_in_tile(Path(tile_file), Path(found), run_options(threads, None))
+
+
+def clash(
+    files: PathLike | Iterable[PathLike],
+    a: Selection | None = None,
+    b: Selection | None = None,
+    *,
+    scheduler: Any = None,
+    folder: PathLike | None = None,
+    memory: str | int = "1GiB",
+    worker_threads: int = 1,
+    unit: str | float | None = None,
+    up_axis: str | None = None,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **test: Any,
+) -> Clashes:
+    """Finds clashes as strake.clash() does in the model of some files, by tiles: the same bytes.
+
+    Args:
+        files: as strake.load() takes them, with `unit` and `up_axis`. They are read one at a time, by this process.
+        a, b: selections.
+        scheduler: a Dask client, a Dask cluster, or the address of a scheduler, as "tcp://10.0.0.1:8786"; None: the
+            tiles are tested one after the other in this process.
+        folder: where the tiles are while the run lasts, seen by this process and all workers under one path; None: a
+            temporary folder, which workers on this machine see.
+        memory: what a worker may take, as "1GiB" or in bytes: tiles are cut so small.
+        worker_threads: how many threads a worker uses for a tile.
+        threads, progress: of what this process does itself.
+        test: what strake.clash() takes besides.
+
+    The model of the result has all names and no geometry.
+
+    Raises: what strake.clash() does; ImportError where Dask is not installed; InputError for a file that changes
+    meanwhile, for tiles that get lost again and again, and for a model whose members lie so askew that only a search
+    over all of them at once tells which are near each other.
+    """
+    for name, some in (("a", a), ("b", b)):
+        if isinstance(some, np.ndarray):
+            raise UsageError("an array needs a model that is held", name, "give selections")
+    request = request_of(0, a, b, **test)
+    options = run_options(threads, progress)
+    arguments = read_arguments(files, unit, up_axis)
+    most = (_bytes(memory) - _EMPTY_WORKER) // 2
+    run_options(worker_threads, None)  # refuses what is no number of threads
+    with _runner(scheduler) as runner, _working_folder(folder) as work:
+        cut = _core.cut(*arguments, request, most, options)
+        run = _Run(cut, work, runner, worker_threads, options)
+        run.write(range(len(cut.sizes)))
+        run.find(range(len(cut.sizes)))
+        core = run.joined()
+    return Clashes(core, Model(core.model))
+
+
+class _Run:
+    """A run over tiles: what is lost is made again."""
+
+    def __init__(self, cut: _core.Cut, folder: Path, runner: _Runner, worker_threads: int, options: _core.RunOptions) -> None:
+        self._cut = cut
+        self._folder = folder
+        self._runner = runner
+        self._worker_threads = worker_threads
+        self._options = options
+        self._tries = [0] * len(cut.sizes)
+
+    def _found(self, tile: int) -> Path:
+        return self._folder / f"tile{tile:06}.found"
+
+    def write(self, tiles: Iterable[int]) -> None:
+        _core.write_tiles(self._cut, self._folder, list(tiles), self._options)
+
+    def find(self, tiles: Iterable[int]) -> None:
+        """Has tiles tested, the largest first."""
+        waiting = 0
+        for tile in sorted(tiles, key=lambda k: -self._cut.sizes[k][1]):
+            self._submit(tile)
+            waiting += 1
+        while waiting > 0:
+            tile, error = self._runner.ended()
+            waiting -= 1
+            if error is None:
+                continue
+            if not _is_lost(error) or self._tries[tile] >= _MOST_TRIES:
+                raise error
+            self.write([tile])
+            self._submit(tile)
+            waiting += 1
+
+    def _submit(self, tile: int) -> None:
+        self._tries[tile] += 1
+        name = f"strake-{self._folder.name}-tile{tile}-{self._tries[tile]}"
+        self._runner.submit(tile, _core.tile_file(self._folder, tile), self._found(tile), self._worker_threads, name)
+
+    def joined(self) -> _core.ClashRun:
+        """Puts what was found together."""
+        tiles = range(len(self._cut.sizes))
+        while True:
+            try:
+                return _core.join_tiles(self._cut, [self._found(tile) for tile in tiles], self._options)
+            except InputError as error:
+                tile = _tile_of(error)
+                if tile is None or self._tries[tile] >= _MOST_TRIES:
+                    raise
+                self.find([tile])
+
+
+def _is_lost(error: BaseException) -> bool:
+    return isinstance(error, InputError) and error.message == _LOST
+
+
+def _tile_of(error: InputError) -> int | None:
+    """The tile whose results are lost."""
+    named = re.search(r"tile(\d+)\.found$", error.where)
+    return int(named[1]) if named and _is_lost(error) else None
+
+
+@contextmanager
+def _working_folder(folder: PathLike | None) -> Iterator[Path]:
+    parent = None if folder is None else path(folder, "folder")
+    if parent is not None:
+        parent.mkdir(parents=True, exist_ok=True)
+    work = Path(tempfile.mkdtemp(prefix="strake-", dir=parent)).resolve()
+    try:
+        yield work
+    finally:
+        shutil.rmtree(work, ignore_errors=True)
+
+
+@contextmanager
+def _runner(scheduler: Any) -> Iterator[_Runner]:
+    if scheduler is None:
+        yield _InThisProcess()
+        return
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise ImportError("strake.cluster with a scheduler needs Dask: pip install 'strake[cluster]'") from error
+    if isinstance(scheduler, Client):
+        yield _OnDask(scheduler)
+        return
+    with Client(scheduler) as client:
+        yield _OnDask(client)
+
+
+def _bytes(memory: str | int) -> int:
+    """What a worker may take. Raises: UsageError."""
+    if isinstance(memory, str):
+        written = re.fullmatch(r"\s*([0-9.]+)\s*([A-Za-z]*)\s*", memory)
+        unit = _UNITS.get(written[2].upper()) if written else None
+        if written is None or unit is None or written[1].count(".") > 1 or written[1] == ".":
+            raise UsageError(f"{memory!r} is no amount of memory", "memory", "write one as '1GiB'")
+        size = float(written[1]) * unit
+    else:
+        size = number(memory, "memory")
+    if size < _LEAST_MEMORY:
+        raise UsageError(f"{memory!r} is too little for a worker", "memory", f"give {_LEAST_MEMORY // 2**20}MiB or more")
+    return int(size)

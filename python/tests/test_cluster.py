@@ -1,0 +1,260 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Clashes by tiles have the bytes of one machine, whatever gets lost on the way."""
+
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from test_same_as_program import CLASH_RUNS
+
+import strake
+import strake.cluster
+from strake import _core
+
+RULES = """
+[sets]
+pipes = "PIP*"
+
+[[discipline]]
+name = "piping"
+select = "set(pipes)"
+
+[[discipline]]
+name = "steel"
+select = "BEA* or PLA* or FRA*"
+
+[matrix]
+name = "by disciplines"
+
+[matrix.cells.piping]
+piping = "not checked"
+steel = { clearance = "40mm" }
+
+[[test]]
+name = "pipes against the rest"
+a = "set(pipes)"
+b = "not set(pipes)"
+clearance = "30mm"
+
+[[test]]
+name = "large hits"
+clearance = "5mm"
+min_volume = "1cm3"
+
+[[exempt]]
+name = "beams and meshes"
+a = "BEA*"
+b = "type = mesh"
+
+[[same_assembly]]
+name = "one room"
+level = 4
+
+[[same_assembly]]
+name = "one room again"
+level = 4
+
+[[connected]]
+name = "joints"
+ends_within = "5mm"
+among = "set(pipes)"
+
+[[allowed]]
+name = "pipes through anything"
+a = "PIP*"
+b = "*"
+max_depth = "1m"
+
+[[allowed]]
+name = "pipes again"
+a = "PIP*"
+b = "*"
+max_depth = "1m"
+"""
+
+
+def bytes_of(clashes: strake.Clashes, folder: Path, name: str = "clashes.json") -> bytes:
+    file = folder / name
+    clashes.save(file)
+    return file.read_bytes()
+
+
+@pytest.fixture
+def small_tiles(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[int]]:
+    """Tiles of few objects, as the memory of workers alone would never cut such small ships."""
+    tiles: list[int] = []
+    whole_cut = _core.cut
+
+    def cut(*arguments: Any) -> Any:
+        made = whole_cut(*arguments[:5], tiles[0] if tiles else 80_000, *arguments[6:])
+        sizes = made.sizes
+        assert len(sizes) > 3
+        assert sum(objects for objects, _ in sizes) > made.objects  # some are in several tiles
+        return made
+
+    monkeypatch.setattr(_core, "cut", cut)
+    yield tiles
+
+
+@pytest.mark.parametrize(("words", "arguments"), CLASH_RUNS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
+@pytest.mark.parametrize("most_bytes", [25_000, 80_000])
+def test_same_bytes(
+    tmp_path: Path,
+    ship: strake.Model,
+    ship_file: Path,
+    small_tiles: list[int],
+    most_bytes: int,
+    words: list[str],
+    arguments: dict[str, Any],
+) -> None:
+    small_tiles.append(most_bytes)
+    whole = strake.clash(ship, **arguments)
+    tiled = strake.cluster.clash(ship_file, **arguments)
+    for name in ("clashes.json", "clashes.csv"):
+        assert bytes_of(tiled, tmp_path, name) == bytes_of(whole, tmp_path, name)
+    assert tiled.diagnostics == whole.diagnostics
+    assert len(tiled) > 0
+
+
+@pytest.mark.parametrize("kind", ["slender", "dense", "repeated", "unlike", "turned"])
+def test_same_bytes_of_other_ships(tmp_path: Path, small_tiles: list[int], kind: str) -> None:
+    file = tmp_path / "ship.glb"
+    strake.generate("usual" if kind == "turned" else kind, objects=900, seed=7, turned=kind == "turned").save(file)
+    arguments: dict[str, Any] = {"clearance": "40mm", "profile": "ship", "volumes": True, "group_by": "proximity"}
+    whole = strake.clash(strake.load(file), **arguments)
+    assert bytes_of(strake.cluster.clash(file, **arguments), tmp_path) == bytes_of(whole, tmp_path)
+
+
+def test_same_bytes_of_several_files_and_rules(tmp_path: Path, small_tiles: list[int]) -> None:
+    rules = tmp_path / "rules.toml"
+    rules.write_text(RULES)
+    files = [tmp_path / name for name in ("b.glb", "a.glb", "c.glb")]
+    for seed, file in enumerate(files):
+        strake.generate(objects=400, seed=seed).save(file)
+    for arguments in ({"rules": rules}, {"within_files": True, "clearance": 10}, {}):
+        whole = strake.clash(strake.load(files), **arguments)
+        tiled = strake.cluster.clash(files, **arguments)
+        assert bytes_of(tiled, tmp_path) == bytes_of(whole, tmp_path)
+        assert tiled.model.diagnostics == whole.model.diagnostics
+
+
+def test_a_lost_tile_and_a_lost_result_are_made_again(
+    tmp_path: Path, ship: strake.Model, ship_file: Path, small_tiles: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    find, join = _core.find_in_tile, _core.join_tiles
+    seen: list[str] = []
+
+    def find_with_losses(tile: Path, found: Path, options: Any) -> None:
+        seen.append(tile.name)
+        if len(seen) == 2:
+            tile.unlink()
+        if len(seen) == 3:
+            part = next(iter(tile.parent.glob(f"{tile.stem}.file*")))
+            part.write_bytes(part.read_bytes()[:-7])
+        find(tile, found, options)
+
+    def join_with_losses(cut: Any, found: list[Path], options: Any) -> Any:
+        if "join" not in seen:
+            seen.append("join")
+            found[1].unlink()
+            damaged = bytearray(found[2].read_bytes())
+            damaged[len(damaged) // 2] ^= 1
+            found[2].write_bytes(damaged)
+        return join(cut, found, options)
+
+    monkeypatch.setattr(_core, "find_in_tile", find_with_losses)
+    monkeypatch.setattr(_core, "join_tiles", join_with_losses)
+    tiled = strake.cluster.clash(ship_file, clearance=25)
+    assert bytes_of(tiled, tmp_path) == bytes_of(strake.clash(ship, clearance=25), tmp_path)
+    assert len(seen) == len(set(seen)) + 4  # two tiles and two results
+
+
+def test_tiles_that_are_always_lost_are_an_error(
+    tmp_path: Path, ship_file: Path, small_tiles: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    find = _core.find_in_tile
+
+    def find_nothing(tile: Path, found: Path, options: Any) -> None:
+        tile.unlink()
+        find(tile, found, options)
+
+    monkeypatch.setattr(_core, "find_in_tile", find_nothing)
+    with pytest.raises(strake.InputError, match="is missing or damaged"):
+        strake.cluster.clash(ship_file, folder=tmp_path / "work")
+    assert not list((tmp_path / "work").iterdir())
+
+
+def test_files_that_change_meanwhile_are_an_error(tmp_path: Path, small_tiles: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
+    files = [tmp_path / "a.glb", tmp_path / "b.glb"]
+    for seed, file in enumerate(files):
+        strake.generate(objects=300, seed=seed).save(file)
+    write = _core.write_tiles
+
+    def write_late(*arguments: Any) -> None:
+        strake.generate(objects=301, seed=0).save(files[0])
+        write(*arguments)
+
+    monkeypatch.setattr(_core, "write_tiles", write_late)
+    with pytest.raises(strake.InputError, match="changed while it was cut"):
+        strake.cluster.clash(files)
+
+
+def test_what_makes_no_sense(tmp_path: Path, ship: strake.Model, ship_file: Path) -> None:
+    with pytest.raises(strake.UsageError, match="amount of memory"):
+        strake.cluster.clash(ship_file, memory="much")
+    with pytest.raises(strake.UsageError, match="too little"):
+        strake.cluster.clash(ship_file, memory="1MiB")
+    with pytest.raises(strake.UsageError, match="selections"):
+        strake.cluster.clash(ship_file, ship.select("PIP*"))  # type: ignore[arg-type]
+    with pytest.raises(TypeError):
+        strake.cluster.clash(ship_file, clearence=25)
+    for folder in ("x", "y"):
+        (tmp_path / folder).mkdir()
+        strake.generate(objects=200, seed=len(folder)).save(tmp_path / folder / "ship.glb")
+    namesakes = [tmp_path / "x" / "ship.glb", tmp_path / "y" / "ship.glb"]
+    with pytest.raises(strake.UsageError, match="one name"):
+        strake.cluster.clash(namesakes, "PIP*")
+    whole = strake.clash(strake.load(namesakes))
+    assert bytes_of(strake.cluster.clash(namesakes), tmp_path) == bytes_of(whole, tmp_path)
+
+
+def test_without_dask(ship_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(ImportError, match=r"pip install 'strake\[cluster\]'"):
+        strake.cluster.clash(ship_file, scheduler="tcp://127.0.0.1:1")
+
+
+def _kill_then_find(tile_file: str, found: str, threads: int) -> None:
+    """What a worker does, but the first two that come end as if they had run out of memory."""
+    for name in ("first", "second"):
+        try:
+            (Path(tile_file).parents[1] / f"{name}.killed").touch(exist_ok=False)
+        except FileExistsError:
+            continue
+        os.kill(os.getpid(), signal.SIGKILL)
+    strake.cluster.find_in_tile(tile_file, found, threads)
+
+
+def test_killed_workers(
+    tmp_path: Path, ship: strake.Model, ship_file: Path, small_tiles: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    distributed = pytest.importorskip("distributed")
+    cloudpickle = pytest.importorskip("cloudpickle")
+    whole = bytes_of(strake.clash(ship, clearance=25), tmp_path)
+    workers = distributed.LocalCluster(n_workers=2, threads_per_worker=1, memory_limit="512MiB", dashboard_address=None)
+    with workers as cluster, distributed.Client(cluster) as client:
+        assert bytes_of(strake.cluster.clash(ship_file, scheduler=client, clearance=25), tmp_path) == whole
+        submit = client.submit
+        cloudpickle.register_pickle_by_value(sys.modules[__name__])  # workers do not see this file
+
+        def submit_killer(_: Any, *arguments: Any, **options: Any) -> Any:
+            return submit(_kill_then_find, *arguments, **options)
+
+        monkeypatch.setattr(client, "submit", submit_killer)
+        tiled = strake.cluster.clash(ship_file, scheduler=client, folder=tmp_path / "work", clearance=25)
+    assert bytes_of(tiled, tmp_path) == whole
+    assert len(list(tmp_path.glob("work/*.killed"))) == 2

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tiles/outline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "clash/rules/options.hpp"
+#include "io/importer/importing_reader.hpp"
+#include "project/model/stored_diagnostics.hpp"
+
+namespace strake::tiles {
+namespace {
+
+/// What a worker holds of a part, with the pairs that it makes, and of a triangle of a shape: on
+/// ships of a million objects 600 bytes a part were measured.
+constexpr double kBytesOfPart = 800, kBytesOfTriangle = 160;
+
+/// Returns of each shape of a scene what one body of it takes, which shares it with the others.
+std::vector<double> bytes_by_shape(const model::Scene& scene) {
+  std::vector<double> bytes(scene.shapes.size(), 0);
+  std::vector<std::uint32_t> uses(scene.shapes.size(), 0);
+  for (const model::GridBody& body : scene.bodies) ++uses[body.grid_shape];
+  for (std::size_t s = 0; s < bytes.size(); ++s) {
+    std::size_t triangles = 0;
+    for (const geometry::Part& part : scene.shapes[s].parts) triangles += part.triangles.size();
+    bytes[s] = kBytesOfPart * static_cast<double>(scene.shapes[s].parts.size()) +
+               kBytesOfTriangle * static_cast<double>(triangles) / std::max(uses[s], 1U);
+  }
+  return bytes;
+}
+
+/// Returns how far the true surface of a shape may stand out of its box.
+std::int64_t sag_of(const model::GridShape& shape) {
+  double most = 0;
+  for (const geometry::Part& part : shape.parts) most = std::max(most, part.sag);
+  return static_cast<std::int64_t>(std::ceil(most));
+}
+
+void append_extents(const model::Scene& scene, std::vector<Extent>& extents) {
+  const std::vector<double> bytes = bytes_by_shape(scene);
+  std::vector<std::int64_t> sags(scene.shapes.size());
+  for (std::size_t s = 0; s < sags.size(); ++s) sags[s] = sag_of(scene.shapes[s]);
+  for (std::uint32_t o = 0; o < scene.model->objects.size(); ++o) {
+    Extent& extent = extents.emplace_back();
+    double sum = 0;
+    for (const model::GridBody& body : scene.bodies_of(model::ObjectId{o})) {
+      const model::GridShape& shape = scene.shapes[body.grid_shape];
+      if (shape.box.empty()) continue;
+      const float precision = scene.model->bodies[body.body].precision_um;
+      const auto step =
+          static_cast<std::int64_t>(std::ceil(clash::coarse_step(clash::Options{}, precision)));
+      extent.box.include(body.box(shape).inflated(sags[body.grid_shape] + step));
+      sum += bytes[body.grid_shape];
+    }
+    extent.bytes = static_cast<std::uint32_t>(std::min(sum, 4e9));
+  }
+}
+
+/// A file of which the geometry is gone.
+struct Remains {
+  model::Model model;
+  std::vector<Extent> extents;
+  std::vector<model::IncompleteObject> lacking;
+  Diagnostics reading, scene;
+  std::string label;
+  std::uint64_t bytes = 0;
+  Hash128 names;
+};
+
+model::Model without_geometry(const model::Model& model) {
+  model::Model rest;
+  rest.files = model.files;
+  rest.groups = model.groups;
+  rest.group_attributes = model.group_attributes;
+  rest.objects = model.objects;
+  for (model::Object& object : rest.objects) object.first_body = object.body_count = 0;
+  return rest;
+}
+
+/// Appends what was said of a file that has another label now.
+void append_renamed(const Diagnostics& said, std::string_view was, std::string_view now,
+                    Diagnostics& all) {
+  Diagnostics renamed;
+  for (Diagnostic one : said.kept()) {
+    if (was != now && one.where.starts_with(was)) one.where.replace(0, was.size(), now);
+    renamed.add(std::move(one));
+  }
+  for (const Diagnostics::Count& count : said.counts())
+    if (count.count > Diagnostics::kMaxPerCode)
+      renamed.count_more(count.code, count.count - Diagnostics::kMaxPerCode);
+  all.append(renamed);
+}
+
+/// Puts files together as if they had been read at once.
+class Gathering {
+ public:
+  Gathering(std::vector<Remains> remains, const std::vector<io::FileToRead>& files)
+      : remains_(std::move(remains)), given_(files) {}
+
+  Outline run() {
+    join_names();
+    join_objects();
+    join_diagnostics();
+    return std::move(all_);
+  }
+
+ private:
+  void join_names() {
+    if (remains_.size() == 1) {
+      all_.model = std::move(remains_.front().model);
+      order_ = {0};
+      return;
+    }
+    std::vector<model::Model> models;
+    for (std::size_t f = 0; f < remains_.size(); ++f) {
+      // Files are put in order: until they are, each carries its number.
+      remains_[f].model.files.front().bytes = f;
+      models.push_back(std::move(remains_[f].model));
+    }
+    all_.model = model::join(models);
+    for (model::SourceFile& file : all_.model.files) {
+      order_.push_back(static_cast<std::uint32_t>(file.bytes));
+      file.bytes = remains_[order_.back()].bytes;
+    }
+  }
+
+  void join_objects() {
+    for (const std::uint32_t f : order_) {
+      Remains& file = remains_[f];
+      const auto first = static_cast<std::uint32_t>(all_.extents.size());
+      all_.files.push_back({f, first, static_cast<std::uint32_t>(file.extents.size()), file.names});
+      for (model::IncompleteObject lacking : file.lacking) {
+        lacking.object = model::ObjectId{index(lacking.object) + first};
+        all_.lacking.push_back(lacking);
+      }
+      all_.extents.insert(all_.extents.end(), file.extents.begin(), file.extents.end());
+      file.extents = {};
+    }
+  }
+
+  void join_diagnostics() {
+    std::vector<project::FileDiagnostics> said;
+    for (std::size_t f = 0; f < order_.size(); ++f) {
+      const Remains& file = remains_[order_[f]];
+      all_.renamed = all_.renamed || file.label != all_.model.files[f].label;
+      said.push_back(
+          {file.reading, file.label, all_.model.files[f].label, given_[order_[f]].path.string()});
+    }
+    all_.model.diagnostics =
+        said.size() == 1 ? said.front().diagnostics : project::joined_diagnostics(said);
+    all_.loading = all_.model.diagnostics;
+    for (std::size_t f = 0; f < order_.size(); ++f)
+      append_renamed(remains_[order_[f]].scene, remains_[order_[f]].label,
+                     all_.model.files[f].label, all_.loading);
+  }
+
+  std::vector<Remains> remains_;
+  const std::vector<io::FileToRead>& given_;
+  std::vector<std::uint32_t> order_;  ///< which file is which of the model
+  Outline all_;
+};
+
+}  // namespace
+
+Result<const model::Model*> FileReader::read(std::size_t file, const parallel::Context& context) {
+  if (last_ && number_ == file) return &*last_;
+  last_.reset();
+  const std::array one{files_[file]};
+  // An environment that says no settings tells of it where an importer is needed.
+  Result<model::Model> model =
+      settings_ ? io::read_models(one, *settings_, context) : io::read_models(one, context);
+  if (!model) return model.error();
+  number_ = file;
+  last_.emplace(std::move(*model));
+  return &*last_;
+}
+
+Hash128 hash_of_ids(const model::Model& model) {
+  WordHash hash;
+  hash.add(std::uint64_t{model.objects.size()});
+  for (const model::Object& object : model.objects) hash.add(std::string_view(object.id));
+  return hash.value();
+}
+
+Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& options, Look look,
+                           const parallel::Context& context) {
+  std::vector<Remains> remains;
+  bool keeps_scenes = true;
+  for (std::size_t f = 0; f < reader.files().size(); ++f) {
+    const Result<const model::Model*> read = reader.read(f, context);
+    if (!read) return read.error();
+    const model::Model& model = **read;
+    Result<model::Scene> scene = model::make_scene(model, options, context);
+    if (!scene) return scene.error();
+    if (const Status s = look(*scene, f); !s) return s.error();
+    Remains& file = remains.emplace_back();
+    append_extents(*scene, file.extents);
+    file.lacking = std::move(scene->lacking);
+    file.scene = std::move(scene->diagnostics);
+    file.reading = model.diagnostics;
+    // That is of the run and not of a file, and said once.
+    if (file.reading.count(io::kSceneNotKept) > 0 && !std::exchange(keeps_scenes, false))
+      file.reading.remove(io::kSceneNotKept);
+    file.label = model.files.front().label;
+    file.bytes = model.files.front().bytes;
+    // The model of an only file is kept until it is cut.
+    if (reader.files().size() > 1) file.names = hash_of_ids(model);
+    file.model = without_geometry(model);
+  }
+  return Gathering(std::move(remains), reader.files()).run();
+}
+
+}  // namespace strake::tiles

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "strake/core/diagnostics.hpp"
+#include "strake/core/hash.hpp"
+#include "strake/core/result.hpp"
+#include "strake/io/importer.hpp"
+#include "strake/io/reader.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/context.hpp"
+#include "strake/parallel/detail/function_ref.hpp"
+#include "tiles/split.hpp"
+
+/// A model that is too large to be held, file by file.
+namespace strake::tiles {
+
+/// Reads model files one at a time, each alone in its model and finished.
+class FileReader {
+ public:
+  FileReader(std::vector<io::FileToRead> files, Result<io::ImportSettings> settings)
+      : files_(std::move(files)), settings_(std::move(settings)) {}
+
+  [[nodiscard]] const std::vector<io::FileToRead>& files() const { return files_; }
+  /// Returns the model of one file, which lasts until the next call. Errors: those of
+  /// io::read_models().
+  [[nodiscard]] Result<const model::Model*> read(std::size_t file,
+                                                 const parallel::Context& context);
+  /// Frees the last one.
+  void forget() { last_.reset(); }
+
+ private:
+  std::vector<io::FileToRead> files_;
+  Result<io::ImportSettings> settings_;
+  std::size_t number_ = 0;
+  std::optional<model::Model> last_;
+};
+
+/// What is held of a model of which the geometry is not.
+struct Outline {
+  model::Model model;                            ///< finished, without bodies and shapes
+  std::vector<model::IncompleteObject> lacking;  ///< Scene::lacking
+  Diagnostics loading;          ///< of reading the files and putting them on the grid
+  std::vector<Extent> extents;  ///< an entry per object
+  /// The model's files, in its order.
+  struct File {
+    std::uint32_t given = 0;  ///< its number among those that were given
+    std::uint32_t first = 0, objects = 0;
+    Hash128 names;  ///< hash_of_ids(), where there are several files
+  };
+  std::vector<File> files;
+  bool renamed = false;  ///< whether a file has another label than alone, as it has a namesake
+};
+
+/// Takes from the scene of one file what is asked of all objects; the file's label is that which it
+/// has alone.
+using Look = parallel::FunctionRef<Status(const model::Scene& scene, std::size_t given)>;
+
+/// Reads all files, one at a time, and returns their outline: it is the model that
+/// io::read_models() and model::make_scene() make of all, without geometry. Errors: theirs; those
+/// of `look`.
+[[nodiscard]] Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& options,
+                                         Look look, const parallel::Context& context);
+
+/// Returns the hash of the ids of a model's objects, by which one that changed is known.
+[[nodiscard]] Hash128 hash_of_ids(const model::Model& model);
+
+}  // namespace strake::tiles
