@@ -86,7 +86,10 @@ std::vector<std::int64_t> rows_of_now(const std::vector<std::int64_t>& rows,
       now.insert(now.end(), rows.begin() + static_cast<std::ptrdiff_t>(from),
                  rows.begin() + static_cast<std::ptrdiff_t>(last));
       from = last;
-      if (from == next && gone < changes.gone_from.size()) ++gone, ++from;
+      if (from == next && gone < changes.gone_from.size()) {
+        ++gone;
+        ++from;
+      }
     }
   };
   for (const std::size_t place : changes.put_in) {
