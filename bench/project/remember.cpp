@@ -59,12 +59,18 @@ class Night {
     const project::Snapshot snapshot{now->rules, *identities, std::move(now->objects)};
     tell("signatures");
     project::TestWork work;
-    const Result<clash::Report> report = test(*scene, sets, *before, snapshot, work);
+    std::optional<clash::PairChanges> changes;
+    const Result<clash::Report> report = test(*scene, sets, *before, snapshot, work, changes);
     if (!report) return report.error();
     tell("clash");
     const clash::Policy policy;
-    const project::TestedTest tested{
-        &*report, &snapshot, &sets, &policy, *before ? &**before : nullptr, work};
+    const project::TestedTest tested{&*report,
+                                     &snapshot,
+                                     &sets,
+                                     &policy,
+                                     *before ? &**before : nullptr,
+                                     work,
+                                     changes ? &*changes : nullptr};
     Result<project::Transaction> transaction = project::Transaction::begin(project_.database());
     if (!transaction) return transaction.error();
     const project::RunFacts facts{"2026-01-31T00:00:00Z", "bench", 1, 1};
@@ -80,15 +86,23 @@ class Night {
  private:
   Result<clash::Report> test(const model::Scene& scene, const clash::Sets& sets,
                              std::optional<project::StoredTest>& before,
-                             const project::Snapshot& snapshot, project::TestWork& work) {
+                             const project::Snapshot& snapshot, project::TestWork& work,
+                             std::optional<clash::PairChanges>& changes) {
     if (!before) return clash::detect(scene, sets, options_, {}, context_);
     const auto now_of = project::unchanged(before->snapshot, snapshot, context_);
     if (!now_of) return now_of.error();
     work.how =
         before->snapshot == snapshot ? project::Retested::nothing : project::Retested::changes;
     if (work.how == project::Retested::nothing) return std::move(before->results.report);
-    return clash::detect_changes(scene, sets, options_, {}, {before->results.report, *now_of},
-                                 context_);
+    Result<clash::FollowedRun> run =
+        clash::follow_changes(scene, sets, options_, {},
+                              {std::move(before->results.report), *now_of,
+                               before->snapshot.identities == snapshot.identities},
+                              context_);
+    if (!run) return run.error();
+    before->results.report = std::move(run->earlier);
+    changes = std::move(run->changes);
+    return std::move(run->report);
   }
   void tell(const char* step) { fmt::print("  {:<20} {}\n", step, clock_.text()); }
 

@@ -17,6 +17,7 @@
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
+#include "core/text_encoding.hpp"
 #include "project/history/compare_runs.hpp"
 #include "project/history/last_document.hpp"
 #include "report/report_writers.hpp"
@@ -122,6 +123,17 @@ Result<Compared> compare_files(Session& session, const ClashDiffOptions& given,
   return compared;
 }
 
+/// Returns how many results both runs counted in a test, in one line.
+std::string told(const project::TestCounts& test) {
+  const project::ResultCounts &was = test.before, &is = test.after;
+  return fmt::format(
+      "{}counted: {} -> {} hits, {} -> {} contacts, {} -> {} clearance violations, {} -> {} "
+      "allowed by rules",
+      test.test.empty() ? std::string() : "test " + in_quotes(test.test) + ": ", was.hit, is.hit,
+      was.contact, is.contact, was.clearance_violation, is.clearance_violation, was.allowed,
+      is.allowed);
+}
+
 Result<Compared> compare_runs(Session& session, const ClashDiffOptions& given,
                               const std::string& file) {
   Result<OpenedProject> opened = open_project(session, file);
@@ -137,6 +149,7 @@ Result<Compared> compare_runs(Session& session, const ClashDiffOptions& given,
     return error;
   }
   session.console().note((*made)->before.name + " against " + (*made)->after.name);
+  for (const project::TestCounts& test : (*made)->counts) session.console().note(told(test));
   return Compared{{}, std::move(*made), {}};
 }
 
@@ -217,7 +230,8 @@ merged is told first. Two that are equally like it are told and not guessed: --m
 
 A project stands for its last run, beside a file or another project. Alone, two of its runs are compared by
 what each said of each clash: what was new in between is new, what was resolved is gone, and what the run
-could not tell is 'cannot tell', as the run had it.
+could not tell is 'cannot tell', as the run had it. What has no row of its own, contacts that are only counted
+and results that a rule has allowed all along, is compared by its number alone: a line has what both counted.
 
 Examples:
   strake clash diff monday.json tuesday.json

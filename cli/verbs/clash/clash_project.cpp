@@ -53,6 +53,14 @@ std::string told(std::string_view test, const project::TestWork& work) {
   return fmt::format("{}all of {} objects tested", called(test), work.objects);
 }
 
+/// Whether a run finds what the one before found, and has it under the same names: where files have
+/// other labels, what is written of the same results is other, too.
+Result<bool> is_same_run(Session& session, const Loaded& loaded, const project::StoredTest& before,
+                         const std::vector<std::uint32_t>& now_of) {
+  if (!is_same(now_of, loaded.model->objects.size())) return false;
+  return clash::have_same_names(before.results.report, *loaded.model, session.context());
+}
+
 /// Counts the results of the earlier run whose objects are as they were.
 std::uint64_t count_kept(const clash::Report& report, const std::vector<std::uint32_t>& now_of) {
   return static_cast<std::uint64_t>(
@@ -170,13 +178,11 @@ Result<clash::Report> ProjectClashes::follow(Session& session, const Loaded& loa
       project::unchanged(before.snapshot, tested.snapshot, session.context());
   if (!now_of) return now_of.error();
   project::TestWork& work = tested.work;
-  work.kept_results = count_kept(before.results.report, *now_of);
-  // Where files have other labels, what is written of the same results is other, too.
-  const Result<bool> same_names =
-      clash::have_same_names(before.results.report, *loaded.model, session.context());
-  if (!same_names) return same_names.error();
-  if (*same_names && is_same(*now_of, loaded.model->objects.size())) {
+  const Result<bool> nothing_changed = is_same_run(session, loaded, before, *now_of);
+  if (!nothing_changed) return nothing_changed.error();
+  if (*nothing_changed) {
     work.how = project::Retested::nothing;
+    work.kept_results = before.results.report.pairs.size();
     work.changed_objects = 0;
     clash::Report report = std::move(before.results.report);
     report.counters = {};
@@ -186,11 +192,19 @@ Result<clash::Report> ProjectClashes::follow(Session& session, const Loaded& loa
   work.how = project::Retested::changes;
   work.changed_objects = work.objects - static_cast<std::uint64_t>(now_of->size()) +
                          static_cast<std::uint64_t>(std::ranges::count(*now_of, model::kNoObject));
-  Result<clash::Report> report =
-      clash::detect_changes(loaded.scene, planned.sets, planned.options, planned.policy,
-                            {before.results.report, *now_of}, session.context());
-  if (report) work.tested_pairs = report->counters.candidate_pairs;
-  return report;
+  const std::size_t had = before.results.report.pairs.size();
+  Result<clash::FollowedRun> run =
+      clash::follow_changes(loaded.scene, planned.sets, planned.options, planned.policy,
+                            {std::move(before.results.report), *now_of,
+                             before.snapshot.identities == tested.snapshot.identities},
+                            session.context());
+  if (!run) return run.error();
+  before.results.report = std::move(run->earlier);
+  tested.changes = std::move(run->changes);
+  work.kept_results = tested.changes ? had - tested.changes->gone.size()
+                                     : count_kept(before.results.report, *now_of);
+  work.tested_pairs = run->report.counters.candidate_pairs;
+  return std::move(run->report);
 }
 
 Status ProjectClashes::verify(Session& session, const Loaded& loaded,
@@ -233,7 +247,8 @@ Status ProjectClashes::remember(Session& session, const Loaded& loaded,
     if (differs_) tested.work.how = project::Retested::full;
     if (differs_) tested.before.reset();
     tests.push_back({&findings.tests[t], &tested.snapshot, &tested.sets, &tested.policy,
-                     tested.before ? &*tested.before : nullptr, tested.work});
+                     tested.before ? &*tested.before : nullptr, tested.work,
+                     tested.before && tested.changes ? &*tested.changes : nullptr});
   }
   const project::RunFacts facts{started_,
                                 input_.by.empty() ? person() : input_.by,

@@ -11,6 +11,7 @@
 #include "cli/run/session.hpp"
 #include "project/results/remember.hpp"
 #include "strake/clash/clash.hpp"
+#include "strake/clash/incremental.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/report/decisions.hpp"
@@ -72,6 +73,7 @@ class ProjectClashes {
     clash::Policy policy;
     project::Snapshot snapshot;
     std::optional<project::StoredTest> before;
+    std::optional<clash::PairChanges> changes;  ///< of the results of `before`, where known
     project::TestWork work;
   };
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +48,10 @@ struct EarlierRun {
   /// For each object of that run, its number now; model::kNoObject where there is none with the
   /// same identity and signature. Files may have other labels.
   std::span<const std::uint32_t> now;
+  /// The caller knows that there are as many objects now, each with the id that the one of its
+  /// number had, ordered by the labels of their files, which may be other ones than they were: then
+  /// ids need not be read again.
+  bool same_ids = false;
 };
 
 /// Whether all objects of an earlier run, which has KeptForChanges, have the file labels and ids of
@@ -67,5 +73,29 @@ struct EarlierRun {
 [[nodiscard]] Result<Report> detect_changes(const model::Scene& scene, const Sets& sets,
                                             const Options& options, const Policy& policy,
                                             EarlierRun earlier, const parallel::Context& context);
+
+/// Which results of a run are not those of the run before it. All others are the same, bit for bit
+/// and in the same order, but for where their regions lie.
+struct PairChanges {
+  std::vector<Pair> gone;              ///< results that were taken out, by (a, b)
+  std::vector<std::size_t> gone_from;  ///< their numbers in the earlier report
+  std::vector<std::size_t> put_in;     ///< the numbers that those put in have now
+};
+
+/// A report that follows changes, and what it is to be compared with.
+struct FollowedRun {
+  Report report;
+  /// The earlier report; where `changes` are there, without pairs, regions and what it kept.
+  Report earlier;
+  /// Nothing where the run was a full one, or where objects have other numbers than before.
+  std::optional<PairChanges> changes;
+};
+
+/// Returns the report that detect_changes() returns, for a caller that compares the two runs: of a
+/// small change it need not look at all results. Errors: those of detect_changes().
+[[nodiscard]] Result<FollowedRun> follow_changes(const model::Scene& scene, const Sets& sets,
+                                                 const Options& options, const Policy& policy,
+                                                 EarlierRun earlier,
+                                                 const parallel::Context& context);
 
 }  // namespace strake::clash

@@ -36,25 +36,48 @@ Report taken_over(Report report, const Options& options, const Policy& policy) {
   return report;
 }
 
-}  // namespace
+/// Returns a report without the lists that a run which follows it takes over.
+Report head_of(Report& report) {
+  auto pairs = std::exchange(report.pairs, {});
+  auto regions = std::exchange(report.regions, {});
+  auto exempted = std::exchange(report.exempted_pairs, {});
+  auto kept = std::exchange(report.kept, {});
+  Report head = report;
+  report.pairs = std::move(pairs);
+  report.regions = std::move(regions);
+  report.exempted_pairs = std::move(exempted);
+  report.kept = std::move(kept);
+  return head;
+}
 
-Result<Report> detect_changes(const model::Scene& scene, const Sets& sets, const Options& options,
-                              const Policy& policy, EarlierRun earlier,
-                              const parallel::Context& context) {
+/// Returns the report that follows the changes. `followed`, where somebody asks, takes what the two
+/// runs are compared by; where the earlier report is still needed whole, it is copied.
+Result<Report> run_after(const model::Scene& scene, const Sets& sets, const Options& options,
+                         const Policy& policy, EarlierRun earlier, const parallel::Context& context,
+                         FollowedRun* followed) {
   if (const Status s = check_inputs(scene, sets, options, policy); !s) return s.error();
   const std::size_t objects = scene.model->objects.size();
   auto map = map_objects(earlier.now, objects);
   if (!map) return map.error();
-  const auto full = [&] { return detect(scene, sets, options, policy, context); };
+  const auto full = [&] {
+    if (followed != nullptr) followed->earlier = std::move(earlier.report);
+    return detect(scene, sets, options, policy, context);
+  };
   if (!can_follow(earlier.report, options)) return full();
   const Error misfit{ErrorCode::usage, "the report of an earlier run is not about this test",
                      "earlier run", "give one whose rules had the same signature"};
   const KeptForChanges& kept = *earlier.report.kept;
   if (kept.elements.size() != earlier.now.size()) return misfit;
-  const auto names = hashes_of_names(*scene.model, context);
+  const auto names = earlier.same_ids ? hashes_of_names(kept.elements, *scene.model, context)
+                                      : hashes_of_names(*scene.model, context);
   if (!names) return names.error();
-  if (map->is_identity() && kept.elements == *names && earlier.report.in_a.size() == objects)
+  if (map->is_identity() && kept.elements == *names && earlier.report.in_a.size() == objects) {
+    if (followed != nullptr) {
+      followed->earlier = head_of(earlier.report);
+      followed->changes.emplace();
+    }
     return taken_over(std::move(earlier.report), options, policy);
+  }
   let_go_of_hashed_contacts(kept, *names, *map);
   if (map->changed > objects / kFewChanged) return full();
 
@@ -74,8 +97,33 @@ Result<Report> detect_changes(const model::Scene& scene, const Sets& sets, const
   if (!*fresh) return full();
   if (!fits(earlier.report, **fresh, earlier.now.size())) return misfit;
   timer.emplace(context.report, "results put together");
+  const bool same_numbers = !map->renumbered && map->now.size() == objects;
+  PairChanges* changes = nullptr;
+  if (followed != nullptr) {
+    followed->earlier = same_numbers ? head_of(earlier.report) : earlier.report;
+    if (same_numbers) changes = &followed->changes.emplace();
+  }
   return merge(std::move(earlier.report), std::move(**fresh),
-               {policy, options, *scene.model, *map, *neighbours, *names}, context);
+               {policy, options, *scene.model, *map, *neighbours, *names}, context, changes);
+}
+
+}  // namespace
+
+Result<Report> detect_changes(const model::Scene& scene, const Sets& sets, const Options& options,
+                              const Policy& policy, EarlierRun earlier,
+                              const parallel::Context& context) {
+  return run_after(scene, sets, options, policy, std::move(earlier), context, nullptr);
+}
+
+Result<FollowedRun> follow_changes(const model::Scene& scene, const Sets& sets,
+                                   const Options& options, const Policy& policy, EarlierRun earlier,
+                                   const parallel::Context& context) {
+  FollowedRun followed;
+  Result<Report> report =
+      run_after(scene, sets, options, policy, std::move(earlier), context, &followed);
+  if (!report) return report.error();
+  followed.report = std::move(*report);
+  return followed;
 }
 
 }  // namespace strake::clash

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clash/incremental/renamed.hpp"
 
+#include <algorithm>
 #include <cstddef>
+#include <string_view>
 
 #include "clash/results/result_hash.hpp"
 #include "strake/clash/incremental.hpp"
@@ -51,6 +53,25 @@ Result<std::vector<std::uint64_t>> hashes_of_names(const model::Model& model,
       [&](std::size_t o) { return elements.of(static_cast<std::uint32_t>(o)).low; });
 }
 
+Result<std::vector<std::uint64_t>> hashes_of_names(const std::vector<std::uint64_t>& earlier,
+                                                   const model::Model& model,
+                                                   const parallel::Context& context) {
+  const std::vector<model::Object>& objects = model.objects;
+  if (earlier.size() != objects.size()) return hashes_of_names(model, context);
+  const ElementHashes elements(model);
+  // Objects are ordered by label: one of each tells it.
+  const auto label = [&](const model::Object& o) -> std::string_view {
+    return model.files[o.file].label;
+  };
+  for (std::size_t o = 0; o < objects.size();) {
+    if (elements.of(static_cast<std::uint32_t>(o)).low != earlier[o])
+      return hashes_of_names(model, context);
+    const auto end = std::ranges::upper_bound(objects, label(objects[o]), {}, label);
+    o = std::max(o + 1, static_cast<std::size_t>(end - objects.begin()));
+  }
+  return earlier;
+}
+
 Result<bool> have_same_names(const Report& earlier, const model::Model& model,
                              const parallel::Context& context) {
   const auto names = hashes_of_names(model, context);
@@ -68,6 +89,7 @@ void let_go_of_hashed_contacts(const KeptForChanges& kept, std::span<const std::
 
 Result<HashChange> rehash_renamed(const Report& earlier, std::span<const std::uint64_t> names,
                                   const ObjectMap& map, const parallel::Context& context) {
+  if (!map.renumbered && std::ranges::equal(earlier.kept->elements, names)) return HashChange{};
   const RenamedObjects renamed(earlier.kept->elements, names, map);
   return parallel::reduce(
       context, {.name = "pairs under other names", .n = earlier.pairs.size(), .grain = kGrain},

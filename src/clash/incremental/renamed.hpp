@@ -19,6 +19,12 @@ namespace strake::clash {
 [[nodiscard]] Result<std::vector<std::uint64_t>> hashes_of_names(const model::Model& model,
                                                                  const parallel::Context& context);
 
+/// Returns the same of objects whose ids are those that an earlier run had, with its hashes: where
+/// the labels of files are, too, these are taken over. Errors: cancelled.
+[[nodiscard]] Result<std::vector<std::uint64_t>> hashes_of_names(
+    const std::vector<std::uint64_t>& earlier, const model::Model& model,
+    const parallel::Context& context);
+
 /// Counts as changed the objects that have other names and a contact of which only the hash was
 /// kept: it has to be found again to be hashed under the new name. `names` are those of today.
 void let_go_of_hashed_contacts(const KeptForChanges& kept, std::span<const std::uint64_t> names,

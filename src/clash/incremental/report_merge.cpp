@@ -34,11 +34,12 @@ std::uint64_t updated(std::uint64_t before, std::uint64_t gone, std::uint64_t ca
 class ReportMerge {
  public:
   ReportMerge(Report earlier, Report fresh, const MergeInputs& inputs,
-              const parallel::Context& context)
+              const parallel::Context& context, PairChanges* changes)
       : was_(std::move(earlier)),
         now_(std::move(fresh)),
         inputs_(inputs),
         context_(context),
+        changes_(changes),
         gone_(now_.allowed.size(), now_.cells.size()) {}
 
   Result<Report> run() {
@@ -60,7 +61,8 @@ class ReportMerge {
   /// Brings a list up to date and leaves it in the new report.
   template <class T, class Gone>
   Status take(std::vector<T>& was, std::vector<T>& now, const Gone& gone) const {
-    if (const Status s = follow(was, now, inputs_.map, context_, gone); !s) return s;
+    const auto places = follow(was, now, inputs_.map, context_, gone);
+    if (!places) return places.error();
     now = std::move(was);
     return {};
   }
@@ -102,13 +104,20 @@ class ReportMerge {
     const auto behind = static_cast<std::uint32_t>(was_.regions.size());
     for (Pair& pair : now_.pairs)
       if (listed_regions(pair, now_.options) > 0) pair.first_region += behind;
-    const Status done = take(was_.pairs, now_.pairs, [&](const Pair& pair) {
-      count_gone(pair);
-      hash_gone_ =
-          sum(hash_gone_, hash_of(pair, was_, elements[index(pair.a)], elements[index(pair.b)]));
-      listed = listed || listed_regions(pair, was_.options) > 0;
-    });
-    if (!done) return done;
+    const auto places =
+        follow(was_.pairs, now_.pairs, inputs_.map, context_, [&](const Pair& pair) {
+          count_gone(pair);
+          if (changes_ != nullptr) {
+            changes_->gone.push_back(pair);
+            changes_->gone_from.push_back(static_cast<std::size_t>(&pair - was_.pairs.data()));
+          }
+          hash_gone_ = sum(hash_gone_,
+                           hash_of(pair, was_, elements[index(pair.a)], elements[index(pair.b)]));
+          listed = listed || listed_regions(pair, was_.options) > 0;
+        });
+    if (!places) return places.error();
+    now_.pairs = std::move(was_.pairs);
+    if (changes_ != nullptr) changes_->put_in = *places;
     was_.regions.insert(was_.regions.end(), now_.regions.begin(), now_.regions.end());
     now_.regions = std::move(was_.regions);
     if (listed) put_regions_in_order(now_);
@@ -249,6 +258,7 @@ class ReportMerge {
   Report was_, now_;
   const MergeInputs& inputs_;
   const parallel::Context& context_;
+  PairChanges* changes_;
   ClassTotals gone_;  ///< the pairs of changed objects before
   Hash128 hash_gone_;
 };
@@ -267,8 +277,8 @@ bool fits(const Report& earlier, const Report& fresh, std::size_t objects) {
 }
 
 Result<Report> merge(Report earlier, Report fresh, const MergeInputs& inputs,
-                     const parallel::Context& context) {
-  return ReportMerge(std::move(earlier), std::move(fresh), inputs, context).run();
+                     const parallel::Context& context, PairChanges* changes) {
+  return ReportMerge(std::move(earlier), std::move(fresh), inputs, context, changes).run();
 }
 
 }  // namespace strake::clash

@@ -8,6 +8,7 @@
 #include "clash/incremental/neighbours.hpp"
 #include "clash/incremental/object_map.hpp"
 #include "strake/clash/clash.hpp"
+#include "strake/clash/incremental.hpp"
 #include "strake/clash/policy.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
@@ -29,8 +30,9 @@ struct MergeInputs {
 [[nodiscard]] bool fits(const Report& earlier, const Report& fresh, std::size_t objects);
 
 /// Brings the report of an earlier run up to date by one about the pairs of changed objects, from
-/// detect_among(). Errors: cancelled.
+/// detect_among(). `changes` takes what that does to its pairs; null: nobody asks. Errors:
+/// cancelled.
 [[nodiscard]] Result<Report> merge(Report earlier, Report fresh, const MergeInputs& inputs,
-                                   const parallel::Context& context);
+                                   const parallel::Context& context, PairChanges* changes);
 
 }  // namespace strake::clash

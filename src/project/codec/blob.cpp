@@ -148,6 +148,8 @@ void BlobWriter::texts(std::span<const std::string> values) {
   for (const std::string& value : values) bytes_ += value;
 }
 
+Hash128 BlobWriter::raw_hash() const { return hash_bytes(std::as_bytes(std::span(bytes_))); }
+
 Result<std::vector<std::byte>> BlobWriter::finish(int level) {
   const auto values = std::as_bytes(std::span(bytes_));
   BlobHead head;

@@ -40,6 +40,18 @@ class BlobWriter {
   void planes(std::span<const std::uint32_t> values);
   void flags(const std::vector<bool>& values);
   void texts(std::span<const std::string> values);
+  /// Appends what text() does of texts(0), texts(1), … of so many put together.
+  template <class Texts>
+  void joined_text(std::size_t count, const Texts& texts) {
+    std::uint64_t size = 0;
+    for (std::size_t i = 0; i < count; ++i) size += std::string_view(texts(i)).size();
+    number(size);
+    bytes_.reserve(bytes_.size() + size);
+    for (std::size_t i = 0; i < count; ++i) bytes_ += std::string_view(texts(i));
+  }
+
+  /// Returns the hash of what has been appended, as BlobReader::raw_hash() has it of finish().
+  [[nodiscard]] Hash128 raw_hash() const;
 
   /// Returns the head and the compressed bytes; `level` is that of zstd. Errors: memory.
   [[nodiscard]] Result<std::vector<std::byte>> finish(int level = 1);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -71,6 +72,22 @@ class DocumentOfRun {
   std::map<std::pair<std::string, std::string>, std::uint32_t> numbers_;
 };
 
+Result<ResultCounts> counts_of(Database& database, std::int64_t run, std::int64_t test) {
+  Result<Statement> select = database.prepare(
+      "SELECT hit, contact, clearance_violation, allowed FROM run_test WHERE run = ?1 AND test = "
+      "?2");
+  if (!select) return select.error();
+  const Result<bool> there = select->bind(1, run).bind(2, test).step();
+  if (!there) return there.error();
+  if (!*there) return database.damaged(fmt::format("run {} has no counts of a test", run));
+  ResultCounts counts;
+  int column = 0;
+  for (std::uint64_t* const count :
+       {&counts.hit, &counts.contact, &counts.clearance_violation, &counts.allowed})
+    *count = static_cast<std::uint64_t>(std::max<std::int64_t>(select->integer(column++), 0));
+  return counts;
+}
+
 /// Fills a comparison with the clashes of its tests.
 class RunComparer {
  public:
@@ -101,6 +118,7 @@ class RunComparer {
         continue;
       }
       compare_settings(*then, now);
+      if (const Status status = count(*then, now); !status) return status;
       const auto of_before = static_cast<std::uint32_t>(then - before.tests.begin());
       const Status status =
           sights->each(now.test, runs_, [&](const ClashRow& row, const SightPair& seen) {
@@ -134,6 +152,16 @@ class RunComparer {
 
   static std::string no_test(const RunResult& test) {
     return "there is no test '" + test.name + "'";
+  }
+
+  /// Takes what both runs counted in a test.
+  Status count(const RunResult& then, const RunResult& now) {
+    const Result<ResultCounts> before = counts_of(database_, runs_.first, then.test);
+    if (!before) return before.error();
+    const Result<ResultCounts> after = counts_of(database_, runs_.second, now.test);
+    if (!after) return after.error();
+    made_.counts.push_back({now.name, *before, *after});
+    return {};
   }
 
   void compare_settings(const RunResult& then, const RunResult& now) {

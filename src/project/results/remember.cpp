@@ -173,22 +173,23 @@ class RunMemory {
     if (!*row) {
       Result<TestRow> added = add_test(database_, name, run_.number);
       if (!added) return added.error();
-      return add(test, *added, nullptr, context);
+      return add(test, *added, nullptr, nullptr, context);
     }
     if (test.before != nullptr && test.before->run == (**row).run)
-      return add(test, **row, test.before, context);
+      return add(test, **row, test.before, test.changes, context);
     // Another process remembered a run meanwhile: this one follows that.
     Result<std::optional<StoredTest>> before = read_test(database_, name, context);
     if (!before) return before.error();
-    return add(test, **row, *before ? &**before : nullptr, context);
+    return add(test, **row, *before ? &**before : nullptr, nullptr, context);
   }
 
   void finish() { decided_.finish(database_.file().filename().string(), facts_.deeper_mm); }
 
  private:
   Status add(const TestedTest& test, TestRow row, const StoredTest* before,
-             const parallel::Context& context) {
-    TestMemory memory(database_, rows_, history_, model_, facts_, run_.number, test, row, before);
+             const clash::PairChanges* changes, const parallel::Context& context) {
+    TestMemory memory(database_, rows_, history_, model_, facts_, run_.number, test, row, before,
+                      changes);
     if (const Status status = memory.run(context); !status) return status;
     const std::array<std::uint64_t, 5> counted = run_.decided.counts;
     decided_.add_test(*test.report, memory);
@@ -199,7 +200,8 @@ class RunMemory {
                               settings_text(*test.report),
                               *test.snapshot,
                               {*test.report, memory.rows()},
-                              memory.is_unchanged()};
+                              memory.is_unchanged(),
+                              changes};
     if (const Status status = write_test(database_, written, before, context); !status)
       return status;
     if (const Status status = write_test_objects(database_, row.id, model_, memory.is_unchanged());

@@ -14,6 +14,7 @@
 #include "project/results/stored_tests.hpp"
 #include "project/snapshot/snapshot.hpp"
 #include "strake/clash/clash.hpp"
+#include "strake/clash/incremental.hpp"
 #include "strake/clash/policy.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
@@ -36,7 +37,8 @@ struct TestWork {
   std::uint64_t kept_results = 0;  ///< results of the earlier run that hold
 };
 
-/// A test of a run, to be remembered. All pointers must be there but `before`.
+/// A test of a run, to be remembered. All pointers must be there but `before` and
+/// `changes`.
 struct TestedTest {
   const clash::Report* report = nullptr;  ///< Report::name is the test's
   const Snapshot* snapshot = nullptr;     ///< what it was computed from
@@ -44,6 +46,9 @@ struct TestedTest {
   const clash::Policy* policy = nullptr;
   const StoredTest* before = nullptr;  ///< as read before the run; null: there was none
   TestWork work;
+  /// What the run did to the results of `before`, whose report then is clash::FollowedRun::earlier;
+  /// null: all of them are to be compared.
+  const clash::PairChanges* changes = nullptr;
 };
 
 /// What a run found, beside what its report counts.

@@ -61,10 +61,24 @@ Result<Bytes> encode_snapshot(const Snapshot& snapshot) {
   return out.finish();
 }
 
+/// Returns the numbers of the parts, of so many, that have a result which a run took out or put in.
+std::vector<std::size_t> touched_parts(const TestToWrite& test, std::size_t parts) {
+  std::vector<bool> is_touched(parts, false);
+  for (const clash::Pair& pair : test.changes->gone)
+    is_touched[index(pair.a) / kObjectsPerPart] = true;
+  for (const std::size_t i : test.changes->put_in)
+    is_touched[index(test.results.report.pairs[i].a) / kObjectsPerPart] = true;
+  std::vector<std::size_t> touched;
+  for (std::size_t k = 0; k < parts; ++k)
+    if (is_touched[k]) touched.push_back(k);
+  return touched;
+}
+
 /// Returns the numbers of the parts that differ from those stored.
 Result<std::vector<std::size_t>> changed_parts(const TestToWrite& test, const StoredTest* before,
                                                const std::vector<PartRange>& parts,
                                                const parallel::Context& context) {
+  if (before != nullptr && test.changes != nullptr) return touched_parts(test, parts.size());
   const std::vector<PartRange> stored =
       before == nullptr ? std::vector<PartRange>()
                         : parts_of(before->results.report, before->snapshot.identities.size());
@@ -273,10 +287,11 @@ Status write_test_objects(Database& database, std::int64_t test, const model::Mo
   const Result<bool> there = select->bind(1, test).step();
   if (!there) return there.error();
   if (*there && is_unchanged) return {};
-  const Result<Bytes> names = encode_names(model);
-  if (!names) return names.error();
-  if (*there && BlobReader::raw_hash(select->bytes(0)) == BlobReader::raw_hash(*names)) return {};
+  BlobWriter values = names_of(model);
+  if (*there && BlobReader::raw_hash(select->bytes(0)) == values.raw_hash()) return {};
   select->reset();
+  const Result<Bytes> names = values.finish();
+  if (!names) return names.error();
   Result<Statement> put =
       database.prepare("INSERT OR REPLACE INTO test_objects (test, names) VALUES (?1, ?2)");
   if (!put) return put.error();

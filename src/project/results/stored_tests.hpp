@@ -9,6 +9,7 @@
 #include "project/database/database.hpp"
 #include "project/snapshot/snapshot.hpp"
 #include "project/stored_report/report_codec.hpp"
+#include "strake/clash/incremental.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
@@ -68,6 +69,8 @@ struct TestToWrite {
   const Snapshot& snapshot;
   ReportRows results;
   bool is_unchanged = false;  ///< the report is the one that is stored
+  /// What the run did to the results that are stored; null: they are to be compared.
+  const clash::PairChanges* changes = nullptr;
 };
 
 /// Writes a test over `before`, which is null where there is none: of the parts of its report those

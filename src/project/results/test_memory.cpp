@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 #include "clash/results/clash_key.hpp"
@@ -78,7 +76,8 @@ bool was_there(const ClashRow& row) { return !row.gone_run; }
 
 TestMemory::TestMemory(Database& database, ClashRows& rows, ClashHistory& history,
                        const model::Model& model, const RunFacts& facts, std::int64_t run,
-                       const TestedTest& test, TestRow row, const StoredTest* before)
+                       const TestedTest& test, TestRow row, const StoredTest* before,
+                       const clash::PairChanges* changes)
     : database_(database),
       table_(rows),
       history_(history),
@@ -89,24 +88,26 @@ TestMemory::TestMemory(Database& database, ClashRows& rows, ClashHistory& histor
       report_(*test.report),
       row_(row),
       before_(before),
+      changes_(changes),
       is_unchanged_(before != nullptr && before == test.before &&
                     test.work.how == Retested::nothing),
       coverage_(model, *test.sets, *test.policy, *test.report) {}
 
+Result<ReportMatch> TestMemory::match(const parallel::Context& context) const {
+  if (is_unchanged_) return ReportMatch{before_->results.rows, {}};
+  if (before_ != nullptr)
+    return changes_ == nullptr ? match_reports(*before_, *test_.snapshot, report_, context)
+                               : match_changes(*before_, *changes_, report_);
+  ReportMatch all;
+  all.rows.assign(report_.pairs.size(), 0);
+  for (std::size_t i = 0; i < report_.pairs.size(); ++i) all.different.push_back({std::nullopt, i});
+  return all;
+}
+
 Status TestMemory::run(const parallel::Context& context) {
-  if (is_unchanged_) {
-    match_.rows = before_->results.rows;
-    match_.before_of.resize(model_.objects.size());
-    std::iota(match_.before_of.begin(), match_.before_of.end(), 0U);
-  } else if (before_ != nullptr) {
-    Result<ReportMatch> match = match_reports(*before_, *test_.snapshot, report_, context);
-    if (!match) return match.error();
-    match_ = std::move(*match);
-  } else {
-    match_.rows.assign(report_.pairs.size(), 0);
-    for (std::size_t i = 0; i < report_.pairs.size(); ++i)
-      match_.different.push_back({std::nullopt, i});
-  }
+  Result<ReportMatch> matched = match(context);
+  if (!matched) return matched.error();
+  match_ = std::move(*matched);
   is_new_.assign(report_.pairs.size(), false);
   if (const Status status = take_match(context); !status) return status;
   if (const Status status = take_watched(); !status) return status;
@@ -146,8 +147,8 @@ Status TestMemory::take_match(const parallel::Context& context) {
   if (!keys) return keys.error();
   for (std::size_t i = 0; i < match_.different.size(); ++i) {
     const PairMatch& match = match_.different[i];
-    const std::int64_t id = match.now ? match_.rows[*match.now]
-                                      : (match.before ? before_->results.rows[*match.before] : 0);
+    const std::int64_t id =
+        match.now ? match_.rows[*match.now] : (match.before ? match.before->row : 0);
     if (id == 0) {
       if (!match.now) continue;
       if (const Status status = appear(*match.now, (*keys)[i]); !status) return status;
@@ -155,13 +156,13 @@ Status TestMemory::take_match(const parallel::Context& context) {
     }
     Result<ClashRow> row = existing(id);
     if (!row) return row.error();
-    if (match.before) keep_open_parts(*row, before_->results.report.pairs[*match.before]);
+    if (match.before) keep_open_parts(*row, *match.before->pair);
     if (!match.now) {
       if (const Status status = miss(std::move(*row)); !status) return status;
       continue;
     }
     const Pair& pair = report_.pairs[*match.now];
-    const bool moved = pair.point_mm != before_->results.report.pairs[*match.before].point_mm;
+    const bool moved = pair.point_mm != match.before->pair->point_mm;
     if (is_positional(pair) && moved) {
       // The number of an object may be another's now: what is where decides.
       match_.rows[*match.now] = 0;
@@ -405,13 +406,20 @@ Status TestMemory::take_watched() {
   Result<std::vector<ClashRow>> rows = watched();
   if (!rows) return rows.error();
   if (rows->empty()) return {};
-  std::unordered_map<std::int64_t, std::size_t> results;
-  for (std::size_t i = 0; i < match_.rows.size(); ++i)
-    if (match_.rows[i] != 0) results.emplace(match_.rows[i], i);
-  for (ClashRow& row : *rows) {
-    const auto at = results.find(row.id);
-    const Status status =
-        at == results.end() ? miss(std::move(row)) : see(std::move(row), at->second);
+  // Few of very many results have such a row: rows come by their ids.
+  std::vector<std::optional<std::size_t>> results(rows->size());
+  const std::int64_t first = rows->front().id;
+  std::vector<bool> is_watched(static_cast<std::size_t>(rows->back().id - first) + 1, false);
+  for (const ClashRow& row : *rows) is_watched[static_cast<std::size_t>(row.id - first)] = true;
+  for (std::size_t i = 0; i < match_.rows.size(); ++i) {
+    const auto offset = static_cast<std::size_t>(match_.rows[i] - first);
+    if (match_.rows[i] < first || offset >= is_watched.size() || !is_watched[offset]) continue;
+    const auto at = std::ranges::lower_bound(*rows, match_.rows[i], {}, &ClashRow::id);
+    results[static_cast<std::size_t>(at - rows->begin())] = i;
+  }
+  for (std::size_t r = 0; r < rows->size(); ++r) {
+    ClashRow& row = (*rows)[r];
+    const Status status = results[r] ? see(std::move(row), *results[r]) : miss(std::move(row));
     if (!status) return status;
   }
   return {};

@@ -33,10 +33,11 @@ struct WaitingRow {
 /// told what this run says of it.
 class TestMemory {
  public:
-  /// What it is given must outlive it; `before` is null where the test was never run.
+  /// What it is given must outlive it; `before` is null where the test was never run, `changes`
+  /// where nothing tells what the run did to the results of that.
   TestMemory(Database& database, ClashRows& rows, ClashHistory& history, const model::Model& model,
              const RunFacts& facts, std::int64_t run, const TestedTest& test, TestRow row,
-             const StoredTest* before);
+             const StoredTest* before, const clash::PairChanges* changes);
 
   [[nodiscard]] Status run(const parallel::Context& context);
 
@@ -53,6 +54,7 @@ class TestMemory {
   [[nodiscard]] const std::vector<ClashRow>& not_found() const { return not_found_; }
 
  private:
+  [[nodiscard]] Result<ReportMatch> match(const parallel::Context& context) const;
   [[nodiscard]] Status take_match(const parallel::Context& context);
   [[nodiscard]] Status take_positional();
   [[nodiscard]] Status take_watched();
@@ -89,6 +91,7 @@ class TestMemory {
   const clash::Report& report_;
   TestRow row_;
   const StoredTest* before_;
+  const clash::PairChanges* changes_;
   bool is_unchanged_;
   Coverage coverage_;
   ReportMatch match_;

@@ -4,22 +4,19 @@
 #include <cstdint>
 #include <string_view>
 #include <utility>
-
-#include "project/codec/blob.hpp"
+#include <vector>
 
 namespace strake::project {
 namespace {
 
 /// Texts behind each other, which compress as such.
 void write_texts(BlobWriter& out, const model::Model& model, std::string model::Object::* text) {
-  std::vector<std::uint32_t> lengths;
-  std::string all;
-  for (const model::Object& object : model.objects) {
-    lengths.push_back(static_cast<std::uint32_t>((object.*text).size()));
-    all += object.*text;
-  }
+  std::vector<std::uint32_t> lengths(model.objects.size());
+  for (std::size_t o = 0; o < lengths.size(); ++o)
+    lengths[o] = static_cast<std::uint32_t>((model.objects[o].*text).size());
   out.planes(std::span<const std::uint32_t>(lengths));
-  out.text(all);
+  out.joined_text(lengths.size(),
+                  [&](std::size_t o) -> std::string_view { return model.objects[o].*text; });
 }
 
 void read_texts(BlobReader& in, model::Model& model, std::string model::Object::* text) {
@@ -37,13 +34,15 @@ void read_texts(BlobReader& in, model::Model& model, std::string model::Object::
 
 }  // namespace
 
-Result<std::vector<std::byte>> encode_names(const model::Model& model) {
+BlobWriter names_of(const model::Model& model) {
   BlobWriter out;
   std::vector<std::string> labels;
   for (const model::SourceFile& file : model.files) labels.push_back(file.label);
   out.texts(labels);
   std::vector<std::uint32_t> files;
   std::vector<bool> positional;
+  files.reserve(model.objects.size());
+  positional.reserve(model.objects.size());
   for (const model::Object& object : model.objects) {
     files.push_back(object.file);
     positional.push_back(object.positional_id);
@@ -52,7 +51,11 @@ Result<std::vector<std::byte>> encode_names(const model::Model& model) {
   out.flags(positional);
   write_texts(out, model, &model::Object::id);
   write_texts(out, model, &model::Object::name);
-  return out.finish();
+  return out;
+}
+
+Result<std::vector<std::byte>> encode_names(const model::Model& model) {
+  return names_of(model).finish();
 }
 
 Result<model::Model> decode_names(std::span<const std::byte> bytes, const std::string& what) {

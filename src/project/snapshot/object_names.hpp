@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "project/codec/blob.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 
@@ -13,7 +14,11 @@
 /// model is another one by now.
 namespace strake::project {
 
-/// Returns the names of the objects and of the files of a model as bytes of a row. Errors: memory.
+/// Returns the names of the objects and of the files of a model as the values of a row: whether
+/// they are those that are stored shows before they are compressed.
+[[nodiscard]] BlobWriter names_of(const model::Model& model);
+
+/// Returns them as bytes of a row. Errors: memory.
 [[nodiscard]] Result<std::vector<std::byte>> encode_names(const model::Model& model);
 
 /// Returns a model that has files with labels and objects with ids, names and whether these ids are

@@ -209,15 +209,29 @@ Hash128 seal_of(std::span<const std::byte> head, std::span<const std::byte> kept
   return seal.value();
 }
 
+/// Returns where the regions of the pairs [first, last) end; `before` where those before them end.
+std::size_t end_of_regions(const clash::Report& report, std::size_t first, std::size_t last,
+                           std::size_t before) {
+  for (std::size_t i = last; i > first; --i) {
+    const Pair& pair = report.pairs[i - 1];
+    if (const std::uint32_t count = listed(pair, report.options); count > 0)
+      return std::size_t{pair.first_region} + count;
+  }
+  return before;
+}
+
 std::vector<PartRange> parts_of(const clash::Report& report, std::size_t objects) {
   std::vector<PartRange> parts(count_parts(objects));
   std::size_t pair = 0, region = 0;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     parts[k].first_pair = pair;
     parts[k].first_region = region;
-    for (; pair < report.pairs.size() && index(report.pairs[pair].a) / kObjectsPerPart == k; ++pair)
-      if (const std::uint32_t count = listed(report.pairs[pair], report.options); count > 0)
-        region = std::size_t{report.pairs[pair].first_region} + count;
+    // Of a million results few are looked at: those where parts end.
+    const auto end = std::partition_point(
+        report.pairs.begin() + static_cast<std::ptrdiff_t>(pair), report.pairs.end(),
+        [&](const Pair& p) { return index(p.a) / kObjectsPerPart <= k; });
+    pair = static_cast<std::size_t>(end - report.pairs.begin());
+    if (!report.regions.empty()) region = end_of_regions(report, parts[k].first_pair, pair, region);
     // Regions of contacts that are only counted lie behind those of the pairs before them.
     if (k + 1 == parts.size()) region = report.regions.size();
     parts[k].last_pair = pair;

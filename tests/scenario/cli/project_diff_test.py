@@ -109,6 +109,17 @@ class Runs(Projects):
         self.assertEqual([(e['a']['name'], e['why']) for e in told['added']], [('c0', "allowed by rule 'first'")])
         self.assertEqual([change['test'] for change in told['settings_changed']], ['all'])
 
+    def test_what_has_no_rows_is_compared_by_its_number(self):
+        """Contacts that are only counted, and results that a rule allows all along."""
+        self.write('all.toml', '[[test]]\nname = "all"\n[[allowed]]\nname = "built"\na = "c0"\nb = "*"\nmax_depth = "30mm"\n')
+        self.night(None, '--rules', 'all.toml', '--contacts', 'count')
+        # The first comes away from the second; the third and the fourth now touch.
+        self.night([(0, 500, 0), (80, 0, 0), (160, 0, 0), (260, 0, 0)], '--rules', 'all.toml', '--contacts', 'count')
+        done = self.done('clash', 'diff', 'ship.strake')
+        self.assertIn("test 'all': counted: 2 -> 1 hits, 0 -> 1 contacts, 0 -> 0 clearance violations, "
+                      '1 -> 0 allowed by rules', done.stderr)
+        self.assertNotIn('c0', done.stdout)
+
     def test_tests_have_runs_of_their_own(self):
         self.write('two.toml', '[[test]]\nname = "one"\n[[test]]\nname = "two"\na = "c0"\nb = "c1"\n')
         self.night(None, '--rules', 'two.toml')

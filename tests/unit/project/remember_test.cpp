@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <set>
@@ -52,9 +53,29 @@ class Remembered : public ::testing::Test {
         clash::signatures(scene, sets, options, policy, context_).value();
     const Snapshot snapshot{signed_by.rules, identities(m.model, context_).value(),
                             signed_by.objects};
-    const clash::Report report = clash::detect(scene, sets, options, policy, context_).value();
-    const std::optional<StoredTest> before = read_test(*database_, "", context_).value();
-    const TestedTest tested{&report, &snapshot, &sets, &policy, before ? &*before : nullptr, {}};
+    std::optional<StoredTest> before = read_test(*database_, "", context_).value();
+    clash::FollowedRun found;
+    if (follows_ && before) {
+      const std::vector<std::uint32_t> now_of =
+          unchanged(before->snapshot, snapshot, context_).value();
+      const bool same_ids = before->snapshot.identities == snapshot.identities;
+      found = clash::follow_changes(scene, sets, options, policy,
+                                    {before->results.report, now_of, same_ids}, context_)
+                  .value();
+      if (!tells_) found.changes.reset();
+      if (found.changes) before->results.report = std::move(found.earlier);
+    } else {
+      found.report = clash::detect(scene, sets, options, policy, context_).value();
+    }
+    if (found.changes) ++told_;
+    found.report.counters = {};
+    const TestedTest tested{&found.report,
+                            &snapshot,
+                            &sets,
+                            &policy,
+                            before ? &*before : nullptr,
+                            {},
+                            found.changes ? &*found.changes : nullptr};
     Result<RememberedRun> run = remember(
         *database_, m.model, {"2026-01-01T00:00:00Z", "ann", 1, deeper_mm}, {&tested, 1}, context_);
     EXPECT_TRUE(run) << run.error().text();
@@ -82,6 +103,9 @@ class Remembered : public ::testing::Test {
   }
   std::unique_ptr<Database> database_;
   parallel::Context context_;
+  bool follows_ = false;  ///< whether runs follow changes
+  bool tells_ = false;    ///< whether such runs tell what they did to the results
+  int told_ = 0;          ///< runs that told
 };
 
 using Statuses = std::vector<std::string>;
@@ -112,6 +136,40 @@ TEST_F(Remembered, bytes_do_not_depend_on_the_number_of_workers) {
     context_ = {};
   }
   EXPECT_EQ(seen.size(), 1U);
+}
+
+TEST_F(Remembered, what_a_run_tells_of_its_changes_is_remembered_as_what_is_compared) {
+  clash::Options options;
+  options.engine.keep_for_changes = true;
+  options.engine.most_regions = 8;
+  // Deeper, apart, longer, shorter, beside, and as it was: of some clashes people decided.
+  const auto week = [&] {
+    SetUp();
+    ClashModel m = row(1500, 10);
+    run(m, options);
+    for (const std::size_t clash : {3U, 700U, 1400U}) decide(clash, DecisionStatus::approved);
+    decide(5, DecisionStatus::resolved);
+    const auto move = [&](const std::string& id, const geometry::Vec3d& by) {
+      const auto object = std::ranges::find(m.model.objects, id, &model::Object::id);
+      m.model.bodies[object->first_body].placement.translation =
+          m.model.bodies[object->first_body].placement.translation + by;
+      run(m, options);
+    };
+    for (const char* const id : {"c3", "c701", "c1499", "c0"}) {
+      move(id, {4, 0, 0});
+      move(id, {0, 300, 0});
+      run(row(1501, 10), options);
+      move(id, {0, -295, 0});
+    }
+    run(row(1498, 10), options);
+    return database_->serialized().value();
+  };
+  follows_ = true;
+  const std::string compared = week();
+  EXPECT_EQ(told_, 0);
+  tells_ = true;
+  EXPECT_TRUE(week() == compared);  // two databases are no text to be shown
+  EXPECT_EQ(told_, 8);
 }
 
 TEST_F(Remembered, results_that_are_not_all_there_are_damage_and_not_less_clashes) {
