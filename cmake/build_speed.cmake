@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Builds from nothing are quick by unity builds and precompiled headers (decision 0060; measured in decision 0082).
+# Builds from nothing are quick by unity builds and precompiled headers (decision 0060; measured in decision 0076).
 #
 # Headers of other projects that most sources include, read once instead of once a source. What is
 # ours is left out: a change of it would rebuild everything. The sources include what they use all the

@@ -14,7 +14,7 @@
 #include "tiles/outline.hpp"
 #include "tiles/split.hpp"
 
-/// Clash detection by tiles: cut here, find anywhere, join here (decision 0085).
+/// Clash detection by tiles: cut here, find anywhere, join here (decision 0077).
 ///
 /// What is found is what the tests find over the whole model, bit for bit but for Report::counters.
 namespace strake::tiles {

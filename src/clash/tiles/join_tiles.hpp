@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Decision 0085 says who does what of a report.
+// Decision 0077 says who does what of a report.
 
 #include <cstddef>
 #include <cstdint>

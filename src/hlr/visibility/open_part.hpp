@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where on paper the part of an edge lies that is still to be decided, and queries for what may
-// hide any of it; orthographic. Decision 0080 says why its sides count.
+// hide any of it; orthographic. Decision 0074 says why its sides count.
 #pragma once
 
 #include "hlr/view/projection.hpp"

@@ -46,7 +46,7 @@ struct SelfOcclusion {
 };
 
 /// Bodies of one shape and one contact distance that stand behind each other in the line of sight:
-/// all of them hide the same of what lies deep under them (decision 0080). In perspective, and
+/// all of them hide the same of what lies deep under them (decision 0074). In perspective, and
 /// where limits cut it, a body stands alone.
 struct BodyColumns {
   std::vector<std::uint32_t> first;   ///< first body per column, and the end

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Decision 0080 says why it is a GLB, and what it has beside what viewers show.
+// Decision 0075 says why it is a GLB, and what it has beside what viewers show.
 
 #include <cstdint>
 #include <vector>
