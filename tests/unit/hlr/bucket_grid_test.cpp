@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hlr/visibility/open_part.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/lattice_scene.hpp"
 
@@ -105,6 +106,41 @@ TEST(BucketGrid, MeetAllThatMayHideOnceEach) {
     }
   }
   EXPECT_LT(4 * met, all);
+}
+
+TEST(BucketGrid, MeetWhatMayHideTheOpenPartOfAnEdge) {
+  // Buckets narrower than a unit, and ends within one.
+  BucketMarks marks;
+  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+    Random random(seed);
+    const std::vector<ViewBox> boxes = some_boxes(random, 1);
+    const BucketGrid buckets = made(boxes, 1U << (5 + random.below(4)));
+    for (int round = 0; round < 8; ++round) {
+      const ViewPoint a{draw(random, 120), draw(random, 120), -200};
+      const ViewPoint b{a.u + draw(random, 30) * 2 + 1, a.v + draw(random, 60), -200};
+      const auto from = static_cast<int>(random.below(16));
+      const auto to = from + 1 + static_cast<int>(random.below(7));
+      const OpenRange open(RationalParam::of(from, 23), RationalParam::of(to, 23));
+      std::vector<bool> seen(boxes.size());
+      buckets.traverse(open_query(a, b, open_box(a, b, open)), marks, [&](std::uint32_t i) {
+        seen[i] = true;
+        return true;
+      });
+      for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const auto inside = [](double x, std::int64_t lo, std::int64_t hi) {
+          return x > static_cast<double>(lo) + 1e-9 && x < static_cast<double>(hi) - 1e-9;
+        };
+        for (int k = 1; k < 32 && !seen[i]; ++k) {
+          const double t = (from + (to - from) * k / 32.0) / 23;
+          const double u = static_cast<double>(a.u) + t * static_cast<double>(b.u - a.u);
+          const double v = static_cast<double>(a.v) + t * static_cast<double>(b.v - a.v);
+          ASSERT_FALSE(inside(u, boxes[i].lo.u, boxes[i].hi.u) &&
+                       inside(v, boxes[i].lo.v, boxes[i].hi.v))
+              << "seed " << seed << " box " << i;
+        }
+      }
+    }
+  }
 }
 
 TEST(BucketGrid, AWalkEndsWhenTold) {
