@@ -80,7 +80,8 @@ TEST(Registry, SaysHowAModelOfAnotherFormatIsConverted) {
   EXPECT_NE(said("a").find(formats + "export the model as one of these)"), std::string::npos);
   EXPECT_NE(said("a.IFC").find("pip install 'strake[ifc]' (or convert it: IfcConvert"),
             std::string::npos);
-  EXPECT_NE(said("a.stp").find(formats + "open it in a CAD program"), std::string::npos);
+  EXPECT_NE(said("a.stp").find("./run step"), std::string::npos);
+  EXPECT_NE(said("a.brep").find(formats + "open it in a CAD program"), std::string::npos);
   EXPECT_NE(said("a.fbx").find(formats + "open it in Blender"), std::string::npos);
 }
 
