@@ -77,6 +77,11 @@ class ProjectClash(RowProject):
         self.assertEqual(told['results'], plain['results'])
         self.assertEqual(told['tests'], plain['tests'])
 
+    def test_changes_are_followed_where_no_regions_are_asked_for(self):
+        self.clash('--regions', '0')
+        self.change([(-500, 0, 0), *ROW[1:]])
+        self.assertIn('the same as by a full test', self.clash('--regions', '0', '--verify').stderr)
+
     def test_decisions_stop_no_fail_on_and_hold_for_a_renamed_file(self):
         self.clash()
         self.set('--select', '*', '--status', 'approved')
