@@ -224,8 +224,13 @@ class Engine {
     if (options_.engine.log_pairs)
       if (const Status s = log_pairs(evaluated(), objects_, rules_, context_, report); !s) return s;
     if (const Status s = keep_reported(results, sets_, context_, report); !s) return s;
-    if (report.options.engine.most_regions > 0 || !report.allowed.empty())
+    if (report.options.engine.most_regions > 0 || !report.allowed.empty()) {
       if (const Status s = aggregate_regions(results, context_, report); !s) return s;
+    } else {
+      // Where nothing asks for regions it would go on being the place of a pair's part results,
+      // which a run that follows changes has others of.
+      for (Pair& pair : report.pairs) pair.first_region = 0;
+    }
     if (options_.engine.volumes == Volumes::on)
       return measure_volumes(results, cache_, context_, report);
     return {};

@@ -49,8 +49,8 @@ struct EarlierRun {
   /// same identity and signature. Files may have other labels.
   std::span<const std::uint32_t> now;
   /// The caller knows that there are as many objects now, each with the id that the one of its
-  /// number had, ordered by the labels of their files, which may be other ones than they were: then
-  /// ids need not be read again.
+  /// number had, ordered by the labels of their files, which may be other ones than they were, but
+  /// no two of them one: then ids need not be read again.
   bool same_ids = false;
 };
 

@@ -39,7 +39,7 @@ std::uint32_t listed(const Pair& pair, const clash::Options& options) {
 
 /// A pair knows its first region by its place in the part; 0: it has none.
 std::uint32_t first_region_in_part(const Pair& pair, std::uint32_t regions, std::size_t first) {
-  if (regions == 0 && pair.first_region == 0) return 0;
+  if (regions == 0) return 0;
   return pair.first_region - static_cast<std::uint32_t>(first) + 1;
 }
 

@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -136,6 +138,29 @@ NewIdentities new_identities(const model::Model& before, const Labels& labels) {
   return all;
 }
 
+/// Returns whether the objects that a test was last run on are told apart by today's labels as they
+/// were by those of then: a file may now have the label of one that is no more, and objects that
+/// the model has no longer keep their identities.
+Result<bool> keeps_files_apart(Database& database, std::int64_t test, const Labels& labels,
+                               const NewIdentities& identities) {
+  Result<Statement> select = database.prepare("SELECT names FROM test_objects WHERE test = ?1");
+  if (!select) return select.error();
+  const Result<bool> there = select->bind(1, test).step();
+  if (!there) return there.error();
+  if (!*there) return false;
+  const Result<model::Model> model = decode_names(select->bytes(0), "names of objects");
+  if (!model) return false;
+  std::vector<std::string> of_file;
+  for (const model::SourceFile& file : model->files) of_file.push_back(valid_utf8(file.label));
+  std::set<std::string_view> labels_of_today;
+  for (const std::string& label : of_file)
+    if (!labels_of_today.insert(today(labels, label)).second) return false;
+  return std::ranges::all_of(model->objects, [&](const model::Object& object) {
+    const std::string& label = of_file[object.file];
+    return !labels.contains(label) || identities.contains(clash::element_hash(label, object.id));
+  });
+}
+
 }  // namespace
 
 Status rename_files(Database& database, const model::Model& before,
@@ -153,6 +178,10 @@ Status rename_files(Database& database, const model::Model& before,
     if (!stored) return stored.error();
     if (!*stored) continue;
     rename_objects((**stored).snapshot, identities);
+    const Result<bool> apart = keeps_files_apart(database, (**stored).id, labels, identities);
+    if (!apart) return apart.error();
+    // What was kept knows the objects by their former names: the next run does not follow it.
+    if (!*apart) (**stored).snapshot.whole = {};
     if (const Status status = write_snapshot(database, (**stored).id, (**stored).snapshot); !status)
       return status;
   }

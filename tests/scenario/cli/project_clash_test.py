@@ -11,7 +11,7 @@ import sqlite3
 import subprocess
 
 from row_project import ROW, RowProject, cubes
-from scenario import main
+from scenario import cube, main
 
 
 class ProjectClash(RowProject):
@@ -77,6 +77,11 @@ class ProjectClash(RowProject):
         self.assertEqual(told['results'], plain['results'])
         self.assertEqual(told['tests'], plain['tests'])
 
+    def test_changes_are_followed_where_no_regions_are_asked_for(self):
+        self.clash('--regions', '0')
+        self.change([(-500, 0, 0), *ROW[1:]])
+        self.assertIn('the same as by a full test', self.clash('--regions', '0', '--verify').stderr)
+
     def test_decisions_stop_no_fail_on_and_hold_for_a_renamed_file(self):
         self.clash()
         self.set('--select', '*', '--status', 'approved')
@@ -85,6 +90,18 @@ class ProjectClash(RowProject):
         self.done('project', 'update', 'ship.strake', 'row_revB.obj', '--match-files', 'row.obj=row_revB.obj')
         self.clash('--fail-on', 'hit', '--verify')
         self.assertEqual({(c['status'], c['a_file']) for c in self.listed()}, {('approved', 'row_revB.obj')})
+
+    def test_a_file_gets_the_label_of_one_that_is_no_more(self):
+        self.write('early.obj', cube('a0', 0, (-80, 0, 0), 100))
+        self.done('project', 'add', 'ship.strake', 'early.obj', '--unit', 'mm')
+        self.clash('--self')
+        self.done('project', 'remove', 'ship.strake', 'early.obj')
+        self.write('early.obj', cubes(ROW) + cube('a0', len(ROW), (-80, 0, 0), 100))
+        self.done('project', 'update', 'ship.strake', 'early.obj', '--match-files', 'row.obj=early.obj')
+        self.clash('--self', '--verify')
+        told = json.loads(self.clash('--self', '--json').stdout)
+        plain = json.loads(self.done('clash', 'early.obj', '--self', '--unit', 'mm', '--json').stdout)
+        self.assertEqual(told['hash'], plain['hash'])
 
     def test_a_group_is_decided_about_at_once(self):
         self.clash('--group-by', 'element')
