@@ -64,6 +64,7 @@ strake_component(geometry
 # The pages of all components from here on refer to each other, so they come together.
 set(manual
   docs/clash.md
+  docs/cluster.md
   docs/decisions
   docs/drawing.md
   docs/evaluation.md
@@ -71,6 +72,7 @@ set(manual
   docs/formats/gltf.md
   docs/formats/ifc.md
   docs/formats/importers.md
+  docs/formats/primitives.md
   docs/formats/step.md
   docs/hidden-line-algorithms.md
   docs/hlr.md

@@ -36,9 +36,11 @@ Status check_place(const std::string& file) {
   return {};
 }
 
-/// The first bytes of a file; none where it cannot be read.
+/// The first bytes of a file; none where it cannot be read, or is a pipe, which gives them once.
 std::string head_of(const fs::path& file) {
   constexpr std::size_t kHead = 65536;
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return {};
   std::ifstream in(file, std::ios::binary);
   std::string head(kHead, '\0');
   in.read(head.data(), kHead);
