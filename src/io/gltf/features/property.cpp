@@ -101,22 +101,37 @@ std::size_t offset_bytes(const JsonValue& type) {
   return type.is_text("UINT64") ? 8 : 4;
 }
 
+/// Returns a number of the schema as the text of one that is stored.
+std::string number_of_schema(const JsonValue& json, Property::Number number) {
+  const double value = json.number().value_or(NAN);
+  constexpr double kMostExact = 9007199254740992.0;  // 2^53
+  if (number == Property::Number::f64 && std::isfinite(value)) return fmt::format("{}", value);
+  if (number == Property::Number::f32 && std::fabs(value) <= std::numeric_limits<float>::max())
+    return fmt::format("{}", static_cast<float>(value));
+  if (std::fabs(value) < kMostExact && value == std::floor(value))
+    return fmt::format("{}", static_cast<std::int64_t>(value));
+  return std::string(json.raw());
+}
+
 /// Returns a value of the schema as text() gives values.
-std::optional<std::string> text_of(const JsonValue& json) {
-  if (!json.exists()) return std::nullopt;
+std::string schema_text(const JsonValue& json, const Property& property,
+                        std::string_view separator) {
   if (json.is_string()) return json.text_value();
-  if (!json.is_array()) return std::string(json.raw());
+  if (!json.is_array())
+    return property.kind == Property::Kind::number ? number_of_schema(json, property.number)
+                                                   : std::string(json.raw());
   std::string all;
+  bool first = true;
   json.elements([&](const JsonValue& item) {
-    if (!all.empty()) all += ", ";
-    all += text_of(item).value_or("");
+    if (!std::exchange(first, false)) all += separator;
+    all += schema_text(item, property, ", ");
   });
   return all;
 }
 
 }  // namespace
 
-std::optional<std::string> Property::number_text(std::uint64_t index) const {
+std::optional<std::string> Property::number_text(std::uint64_t index, bool stored) const {
   const std::size_t bytes_each = bytes_of_number(number);
   std::string all;
   for (std::size_t k = 0; k < width; ++k) {
@@ -124,7 +139,7 @@ std::optional<std::string> Property::number_text(std::uint64_t index) const {
     if (at >= values.size() / bytes_each) return std::nullopt;
     if (k > 0) all += ", ";
     all += visit_number(number, values.data() + at * bytes_each, [&](auto value) {
-      if (!normalized && !offset && !scale) return fmt::format("{}", value);
+      if (stored || !is_derived()) return fmt::format("{}", value);
       double real = static_cast<double>(value);
       if (normalized)
         real =
@@ -135,10 +150,10 @@ std::optional<std::string> Property::number_text(std::uint64_t index) const {
   return all;
 }
 
-std::optional<std::string> Property::element(std::uint64_t index) const {
+std::optional<std::string> Property::element(std::uint64_t index, bool stored) const {
   switch (kind) {
     case Kind::number:
-      return number_text(index);
+      return number_text(index, stored);
     case Kind::boolean: {
       if (index / 8 >= values.size()) return std::nullopt;
       const auto bits = std::to_integer<unsigned>(values[index / 8]);
@@ -171,18 +186,24 @@ std::optional<Property::Range> Property::elements(std::uint64_t row) const {
   return Range{*begin, *end};
 }
 
-std::optional<std::string> Property::text(std::uint64_t row) const {
+std::optional<std::string> Property::row_text(std::uint64_t row, bool stored) const {
   const std::optional<Range> range = elements(row);
   if (!range) return std::nullopt;
   std::string all;
   for (std::uint64_t i = range->begin; i < range->end && all.size() < kMostPropertyBytes; ++i) {
-    const std::optional<std::string> one = element(i);
+    const std::optional<std::string> one = element(i, stored);
     if (!one) return std::nullopt;
     if (i > range->begin) all += "; ";
     all += *one;
   }
-  if (!no_data || all != *no_data) return all;
-  return default_text;
+  return all;
+}
+
+std::optional<std::string> Property::text(std::uint64_t row) const {
+  std::optional<std::string> all = row_text(row, false);
+  if (!all || !no_data) return all;
+  const bool none = is_derived() ? row_text(row, true) == no_data : all == no_data;
+  return none ? default_text : all;
 }
 
 std::uint64_t Property::text_bytes(std::uint64_t row) const {
@@ -212,8 +233,6 @@ std::optional<Property> read_property(const JsonValue& schema, const std::string
   property.normalized = normalized.boolean().value_or(false);
   property.offset = offset.number();
   property.scale = scale.number();
-  property.no_data = text_of(no_data);
-  property.default_text = text_of(fallback);
   const std::string type_name = type.text_value();
   std::optional<Property::Number> number;
   if (type_name == "STRING") {
@@ -237,6 +256,9 @@ std::optional<Property> read_property(const JsonValue& schema, const std::string
     if (property.width == 0 || !number) return std::nullopt;
   }
   property.number = number.value_or(property.number);
+  const std::string_view separator = property.array ? "; " : ", ";
+  if (no_data.exists()) property.no_data = schema_text(no_data, property, separator);
+  if (fallback.exists()) property.default_text = schema_text(fallback, property, separator);
   return property;
 }
 
