@@ -105,6 +105,7 @@ class NeutralImporter {
   std::vector<std::optional<model::ShapeId>> shape_ids_;  ///< per loaded shape
   std::vector<NeutralFacts> facts_;                       ///< per visit
   std::vector<Placement> worlds_;                         ///< per visit
+  std::vector<const GltfFault*> faults_;                  ///< per visit: its own or one's above
   std::vector<model::GroupId> groups_;                    ///< per visit: that of what is below it
   std::size_t object_visit_ = 0;                          ///< of the last object
 };
@@ -236,7 +237,7 @@ void NeutralImporter::add_body(std::size_t visit) {
   };
   if (object == nullptr)
     return lose({fmt::format("/nodes/{}", number), "it is a body of no object"});
-  if (const GltfFault* const fault = node.fault()) return lose(*fault);
+  if (const GltfFault* const fault = faults_[visit]) return lose(*fault);
   if (!node.mesh) return lose({fmt::format("/nodes/{}", number), "it has no mesh"});
   const Mesh& mesh = mesh_of(*node.mesh);
   NeutralShape& shape = shapes_[mesh.loaded];
@@ -265,6 +266,8 @@ void NeutralImporter::place(std::size_t visit) {
   const std::uint32_t parent = input_.visits[visit].parent;
   groups_[visit] = parent == kNoParent ? model::GroupId::none : groups_[parent];
   worlds_[visit] = world_of(visit);
+  faults_[visit] = input_.nodes[input_.visits[visit].node].fault();
+  if (faults_[visit] == nullptr && parent != kNoParent) faults_[visit] = faults_[parent];
   switch (facts_[visit].role) {
     case Role::frame:
       break;
@@ -282,6 +285,7 @@ Result<model::Model> NeutralImporter::run() {
   if (const Status loaded = load_shapes(); !loaded) return loaded.error();
   if (const Status read = read_facts(); !read) return read.error();
   worlds_.resize(input_.visits.size());
+  faults_.resize(input_.visits.size());
   groups_.resize(input_.visits.size());
   model_.diagnostics.append(diagnostics_of(input_.scene));
   for (std::size_t visit = 0; visit < input_.visits.size(); ++visit) place(visit);
