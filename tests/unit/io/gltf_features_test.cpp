@@ -4,11 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/gltf/features/schema.hpp"
 #include "strake/io/reader.hpp"
 #include "support/gltf_files.hpp"
 #include "support/io_files.hpp"
@@ -131,6 +133,24 @@ TEST(GltfFeatures, WhatStandsForNothingIsComparedAsStored) {
             Attribute("Pset_WallCommon.Share", "0.25"));
   EXPECT_EQ(attributes(codes, R"(,"noData":[12,13],"default":[1,2])", 0)[5],
             Attribute("Pset_WallCommon.Codes", "1; 2"));
+}
+
+/// Thousands of columns may be of an enumeration of thousands of values.
+TEST(GltfFeatures, ColumnsShareTheWordsOfAnEnumeration) {
+  const std::string text =
+      R"({"classes":{"c":{"properties":{"p":{"type":"STRING"},"p":7}}},"enums":{"e":{"valueType":)"
+      R"("INT8","values":[{"name":"A","value":-1},{"name":"B","value":2}]}}})";
+  const Result<gltf::JsonDocument> document = gltf::JsonDocument::parse(text);
+  ASSERT_TRUE(document);
+  gltf::Schema schema(document->root());
+  const auto words = schema.enumeration("e");
+  ASSERT_NE(words, nullptr);
+  EXPECT_EQ(words->words, (std::map<std::int64_t, std::string>{{-1, "A"}, {2, "B"}}));
+  EXPECT_EQ(schema.enumeration("e"), words);
+  EXPECT_EQ(schema.enumeration("f"), nullptr);
+  EXPECT_TRUE(schema.property("c", "p").is_object()) << "of repeated keys the first counts";
+  EXPECT_FALSE(schema.property("c", "q").exists());
+  EXPECT_FALSE(schema.property("d", "p").exists());
 }
 
 TEST(GltfFeatures, WhatCannotBeReadIsTold) {

@@ -164,8 +164,8 @@ std::optional<std::string> Property::element(std::uint64_t index, bool stored) c
       if (index >= values.size() / bytes_each) return std::nullopt;
       const auto value = visit_number(number, values.data() + index * bytes_each,
                                       [](auto one) { return static_cast<std::int64_t>(one); });
-      const auto word = words.find(value);
-      return word == words.end() ? fmt::format("{}", value) : word->second;
+      const auto word = words->words.find(value);
+      return word == words->words.end() ? fmt::format("{}", value) : word->second;
     }
     case Kind::text:
       break;
@@ -219,14 +219,15 @@ std::uint64_t Property::text_bytes(std::uint64_t row) const {
   return array ? 2 * kMostPropertyBytes : std::min<std::uint64_t>(most, kMostPropertyBytes);
 }
 
-std::optional<Property> read_property(const JsonValue& schema, const std::string& class_name,
-                                      const JsonValue& key, const JsonValue& json) {
+std::optional<Property> read_property(Schema& schema, const std::string& class_name,
+                                      const std::string& name) {
+  const JsonValue json = schema.property(class_name, name);
   const auto [type, component, enum_type, array, count, normalized, offset, scale, no_data,
               fallback, semantic] =
       json.pick<11>({"type", "componentType", "enumType", "array", "count", "normalized", "offset",
                      "scale", "noData", "default", "semantic"});
   Property property;
-  property.name = class_name + '.' + key.text_value();
+  property.name = class_name + '.' + name;
   property.semantic = semantic.text_value();
   property.array = array.boolean().value_or(false);
   property.fixed_count = std::min<std::uint64_t>(count.index().value_or(1), 1U << 16U);
@@ -241,15 +242,11 @@ std::optional<Property> read_property(const JsonValue& schema, const std::string
     property.kind = Property::Kind::boolean;
   } else if (type_name == "ENUM") {
     property.kind = Property::Kind::enumeration;
-    const JsonValue stated = schema["enums"][enum_type.text_value()];
-    const std::string value_type = stated["valueType"].text_value();
+    property.words = schema.enumeration(enum_type.text_value());
+    if (!property.words) return std::nullopt;
+    const std::string value_type = property.words->value_type.text_value();
     number = number_named(value_type.empty() ? "UINT16" : value_type);
-    if (!stated.exists() || !number || *number >= Property::Number::f32) return std::nullopt;
-    stated["values"].elements([&](const JsonValue& value) {
-      const std::optional<double> code = value["value"].number();
-      if (code && std::fabs(*code) < 1e15)
-        property.words[static_cast<std::int64_t>(*code)] = value["name"].text_value();
-    });
+    if (!number || *number >= Property::Number::f32) return std::nullopt;
   } else {
     property.width = width_of(type_name);
     number = number_named(component.text_value());
