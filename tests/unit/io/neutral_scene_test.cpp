@@ -213,6 +213,32 @@ TEST(NeutralScene, WhatWasNoticedIsKept) {
   EXPECT_TRUE(read.files[0].ends_early);
 }
 
+/// Each colour of a shape is a mesh, and all name the same bytes.
+TEST(NeutralScene, AShapeInManyColoursComesBack) {
+  constexpr std::uint32_t kSide = 100;
+  geometry::TriangleMesh sheet;
+  for (std::uint32_t y = 0; y <= kSide; ++y)
+    for (std::uint32_t x = 0; x <= kSide; ++x)
+      sheet.vertices.push_back({static_cast<double>(x), static_cast<double>(y), 0});
+  for (std::uint32_t y = 0; y < kSide; ++y)
+    for (std::uint32_t x = 0; x < kSide; ++x) {
+      const std::uint32_t a = y * (kSide + 1) + x, b = a + kSide + 1;
+      sheet.triangles.push_back({a, a + 1, b});
+      sheet.triangles.push_back({a + 1, b + 1, b});
+    }
+  Model model;
+  model.files.push_back({"sheets", "made", "mm (stated)", "z", 0, 0});
+  const model::ShapeId shape = test::add_shape(model, sheet);
+  for (int i = 0; i < 1000; ++i) {
+    test::add_object(model, "id " + std::to_string(i), "sheet");
+    test::add_body(
+        model, shape, {},
+        {static_cast<std::uint8_t>(i % 256), static_cast<std::uint8_t>(i / 256), 0, 255});
+  }
+  const Model written = finished(std::move(model));
+  EXPECT_EQ(difference(written_and_read(written), written), "");
+}
+
 /// None is long, and all together are more than a reader takes of what others call attributes.
 TEST(NeutralScene, ManyAttributesComeBack) {
   Model model = test::sample_model();

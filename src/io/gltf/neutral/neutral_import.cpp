@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -81,7 +82,8 @@ class NeutralImporter {
     model::Color color;
   };
 
-  Status check_amount() const;
+  /// `shown` are meshes, one per shape.
+  [[nodiscard]] Status check_amount(std::span<const std::uint32_t> shown) const;
   Status load_shapes();
   Status read_facts();
   void place(std::size_t visit);
@@ -110,15 +112,14 @@ class NeutralImporter {
   std::size_t object_visit_ = 0;                          ///< of the last object
 };
 
-/// All vertices of a mesh are read, so that few bytes of JSON could name the same ones again and
-/// again.
-Status NeutralImporter::check_amount() const {
+/// Few bytes of JSON could have shapes that name the same numbers again and again.
+Status NeutralImporter::check_amount(std::span<const std::uint32_t> shown) const {
   const std::uint64_t most =
       64 * (input_.file.bytes.size() + input_.buffers.total_bytes()) + (1U << 20U);
-  std::uint64_t vertices = 0;
-  for (const std::uint32_t mesh : input_.used) {
-    vertices += std::min(stated_vertices(input_.accessors, input_.meshes[mesh]), most);
-    if (vertices > most)
+  std::uint64_t numbers = 0;
+  for (const std::uint32_t mesh : shown) {
+    numbers += std::min(stated_numbers(input_.accessors, input_.meshes[mesh]), most);
+    if (numbers > most)
       return Error{ErrorCode::input,
                    "refers to the same vertices so often that they would not fit into the memory",
                    input_.file.path.string(), "export the model again"};
@@ -143,6 +144,7 @@ Status NeutralImporter::load_shapes() {
     if (material && *material < input_.materials.size()) added.color = input_.materials[*material];
     meshes_.push_back(added);
   }
+  if (const Status bounded = check_amount(first); !bounded) return bounded.error();
   shapes_.resize(first.size());
   shape_ids_.resize(first.size());
   return parallel::for_each(
@@ -281,7 +283,6 @@ void NeutralImporter::place(std::size_t visit) {
 }
 
 Result<model::Model> NeutralImporter::run() {
-  if (const Status bounded = check_amount(); !bounded) return bounded.error();
   if (const Status loaded = load_shapes(); !loaded) return loaded.error();
   if (const Status read = read_facts(); !read) return read.error();
   worlds_.resize(input_.visits.size());
