@@ -59,6 +59,13 @@ std::uint64_t Diagnostics::skipped() const {
   return sum;
 }
 
+bool is_code(std::string_view text) {
+  constexpr std::size_t kLongest = 64;
+  return !text.empty() && text.size() <= kLongest && std::ranges::all_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
+  });
+}
+
 std::string_view severity_name(Severity severity) {
   switch (severity) {
     case Severity::note:

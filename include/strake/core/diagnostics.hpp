@@ -55,6 +55,11 @@ class Diagnostics {
   std::vector<Count> counts_;
 };
 
+/// Whether a text can be a `code`: words of small letters and digits with hyphens between them, not
+/// too long. What others wrote is to be asked, since scripts and terminals are shown codes as they
+/// are.
+[[nodiscard]] bool is_code(std::string_view text);
+
 /// Returns how every output spells a severity: "note", "warning", "skipped".
 [[nodiscard]] std::string_view severity_name(Severity severity);
 

@@ -90,15 +90,15 @@ class ContouredTorus {
  public:
   ContouredTorus(const CircularTorusPrimitive& p, const TessellationTarget& target, int segments,
                  double rest)
-      : p_(p),
+      : p_{p.centre_radius, p.tube_radius, std::min(p.angle, 2 * kPi)},
         linear_(target.linear),
         towards_(*target.towards),
         segments_(segments),
         full_(is_full_turn(p.angle)),
         in_plane_(std::sqrt(towards_.x * towards_.x + towards_.y * towards_.y)) {
     const double outer = p.centre_radius + p.tube_radius;
-    sweep_step_ = p.angle / std::max({1, quarter_turns(p.angle),
-                                      arc_segments(outer, p.angle, rest, kMostTorusSegments)});
+    sweep_step_ = p_.angle / std::max({1, quarter_turns(p_.angle),
+                                       arc_segments(outer, p_.angle, rest, kMostTorusSegments)});
   }
 
   [[nodiscard]] Tessellation make() {
@@ -210,7 +210,7 @@ class ContouredTorus {
     return largest / 6;
   }
 
-  const CircularTorusPrimitive& p_;
+  const CircularTorusPrimitive p_;  ///< which turns once at most
   const Mat3d& linear_;
   Vec3d towards_;
   int segments_;

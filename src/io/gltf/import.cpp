@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -155,7 +156,10 @@ Status Importer::check_amount() const {
                     what));
   };
   std::uint64_t corners = 0, instances = 0, copied = 0;
-  for (const std::uint32_t mesh : used_) {
+  // Shapes of a neutral scene are read once, in however many colours meshes show them.
+  const std::span<const std::uint32_t> read_as_often =
+      neutral_.exists() ? std::span<const std::uint32_t>() : used_;
+  for (const std::uint32_t mesh : read_as_often) {
     corners += stated_corners(accessors_, meshes_[mesh]);
     if (corners > 64 * bytes + (1U << 20U)) return refuse("vertices");
   }

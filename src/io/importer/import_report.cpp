@@ -21,13 +21,6 @@ std::string short_text(const gltf::JsonValue& value, std::size_t most) {
   return text.substr(0, kept) + "...";
 }
 
-bool is_code(std::string_view text) {
-  constexpr std::size_t kLongest = 64;
-  return !text.empty() && text.size() <= kLongest && std::ranges::all_of(text, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-';
-  });
-}
-
 std::optional<Severity> severity_of(std::string_view name) {
   for (const Severity severity : {Severity::note, Severity::warning, Severity::skipped})
     if (name == severity_name(severity)) return severity;

@@ -104,7 +104,9 @@ Status PlyParser::each(const ElementHead& head, const PropertyHead* list, Visit&
       }
       double count = 0;
       if (!value(*property.count_type, count)) return ends_early(head, i);
-      if (!(count >= 0 && count <= static_cast<double>(values_.left()))) return ends_early(head, i);
+      if (!(count >= 0 && count <= static_cast<double>(values_.left())) ||
+          count != std::floor(count))
+        return ends_early(head, i);
       for (double k = 0; k < count; ++k) {
         if (!value(property.type, number)) return ends_early(head, i);
         if (&property == list) listed_.push_back(number);
@@ -187,17 +189,19 @@ Status PlyParser::element(const ElementHead& head, model::Model& model) {
     return Error{ErrorCode::input, "has more elements than can be numbered", file_.path.string(),
                  "split the file"};
   if (head.name == "vertex") return vertices(head);
+  // Elements without properties have no bytes that would bound their count.
+  const bool bodiless = head.properties.empty();
   const auto list = std::ranges::find_if(head.properties, [](const PropertyHead& property) {
     return property.count_type &&
            (property.name == "vertex_indices" || property.name == "vertex_index");
   });
   if (head.name == "face" && list != head.properties.end()) return faces(head, *list);
-  if (head.name == "edge") return edges(head);
+  if (head.name == "edge" && !bodiless) return edges(head);
   if (head.count > 0 && (list != head.properties.end() || head.name == "face"))
     model.diagnostics.add(Severity::skipped, "ply-element",
                           fmt::format("the elements '{}' are not read; export polygons", head.name),
                           file_.path.string());
-  return least == 0 ? Status{} : each(head, nullptr, [] {});
+  return bodiless ? Status{} : each(head, nullptr, [] {});
 }
 
 Result<PlyContent> PlyParser::parse(model::Model& model) {

@@ -241,6 +241,20 @@ TEST(Contours, RimsOfPipeAndSphericalDishMeet) {
   EXPECT_GT(met, 20 * missed);
 }
 
+/// Sections at which a ring is seen edge-on are those of one turn, however many are stated.
+TEST(Contours, OfATorusThatTurnsOftenAreThoseOfARing) {
+  const Vec3d towards{1, 0, 0};
+  const auto mesh_of = [&](double angle) {
+    return tessellate(CircularTorusPrimitive{100, 10, angle}, {}, 1, towards).mesh;
+  };
+  const TriangleMesh ring = mesh_of(2 * kPi);
+  for (const double angle : {7.0, 1e9, 1e300}) {
+    const TriangleMesh mesh = mesh_of(angle);
+    EXPECT_EQ(mesh.vertices, ring.vertices) << angle;
+    EXPECT_EQ(mesh.triangles, ring.triangles) << angle;
+  }
+}
+
 TEST(Contours, OfATorusLieOnTheTrueOnes) {
   PrimitiveDraw draw(5);
   double worst = 0;

@@ -4,11 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/gltf/features/schema.hpp"
 #include "strake/io/reader.hpp"
 #include "support/gltf_files.hpp"
 #include "support/io_files.hpp"
@@ -25,8 +27,8 @@ Result<model::Model> read(const std::string& bytes) {
 }
 
 /// A document of three instances, whose second has row 0, first row 2 and third no row, and of a
-/// mesh that is row 1. Columns of all kinds.
-std::string document() {
+/// mesh that is row 1. Columns of all kinds. `from` of its JSON is written as `to`.
+std::string document(const std::string& from = "", const std::string& to = "") {
   std::string binary, views;
   const auto view = [&](const std::string& bytes) {
     views += (views.empty() ? "" : ",") + std::string(R"({"buffer":0,"byteOffset":)") +
@@ -49,33 +51,34 @@ std::string document() {
   view(bytes_of(std::vector<std::uint8_t>{1, 1, 1}));                    // 11
   view("T1T2T3");                                                        // 12
   view(std::string("\0\2\4\6", 4));                                      // 13
-  return test::glb(
+  std::string json =
       R"({"asset":{"version":"2.0"},"extensionsUsed":["EXT_structural_metadata"],"buffers":[)"
       R"({"byteLength":)" +
-          std::to_string(binary.size()) + R"(}],"bufferViews":[)" + views +
-          R"(],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
-          R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"},)"
-          R"({"bufferView":2,"componentType":5123,"count":3,"type":"SCALAR"},)"
-          R"({"bufferView":11,"componentType":5121,"count":3,"type":"SCALAR"}],)"
-          R"("extensions":{"EXT_structural_metadata":{"schema":{"id":"s","classes":{"Pset_WallCommon":)"
-          R"({"properties":{"FireRating":{"type":"STRING"},"Width":{"type":"SCALAR","componentType":)"
-          R"("FLOAT64","noData":-1},"IsExternal":{"type":"BOOLEAN"},"Status":{"type":"ENUM","enumType":)"
-          R"("status"},"Place":{"type":"VEC3","componentType":"INT16"},"Codes":{"type":"SCALAR",)"
-          R"("componentType":"UINT8","array":true},"Share":{"type":"SCALAR","componentType":"UINT8",)"
-          R"("normalized":true,"scale":100},"Tag":{"type":"STRING","semantic":"ID"}}}},"enums":{"status":)"
-          R"({"valueType":"UINT8","values":[{"name":"NEW","value":0},{"name":"OLD","value":1}]}}},)"
-          R"("propertyTables":[{"class":"Pset_WallCommon","count":3,"properties":{)"
-          R"("FireRating":{"values":3,"stringOffsets":4},"Width":{"values":5},"IsExternal":{"values":6},)"
-          R"("Status":{"values":7},"Place":{"values":8},"Codes":{"values":10,"arrayOffsets":9},)"
-          R"("Share":{"values":11},"Tag":{"values":12,"stringOffsets":13,"stringOffsetType":"UINT8"}}}]}},)"
-          R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},{"primitives":[{"attributes":)"
-          R"({"POSITION":0,"_FEATURE_ID_0":3},"extensions":{"EXT_mesh_features":{"featureIds":)"
-          R"([{"featureCount":1,"attribute":0,"propertyTable":0}]}}}]}],)"
-          R"("nodes":[{"name":"walls","mesh":0,"extras":{"Storey":"1"},"extensions":)"
-          R"({"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":1,"_FEATURE_ID_0":2}},)"
-          R"("EXT_instance_features":{"featureIds":[{"featureCount":2,"attribute":0,"nullFeatureId":9,)"
-          R"("propertyTable":0}]}}},{"name":"one","mesh":1}]})",
-      binary);
+      std::to_string(binary.size()) + R"(}],"bufferViews":[)" + views +
+      R"(],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+      R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"},)"
+      R"({"bufferView":2,"componentType":5123,"count":3,"type":"SCALAR"},)"
+      R"({"bufferView":11,"componentType":5121,"count":3,"type":"SCALAR"}],)"
+      R"("extensions":{"EXT_structural_metadata":{"schema":{"id":"s","classes":{"Pset_WallCommon":)"
+      R"({"properties":{"FireRating":{"type":"STRING"},"Width":{"type":"SCALAR","componentType":)"
+      R"("FLOAT64","noData":-1},"IsExternal":{"type":"BOOLEAN"},"Status":{"type":"ENUM","enumType":)"
+      R"("status"},"Place":{"type":"VEC3","componentType":"INT16"},"Codes":{"type":"SCALAR",)"
+      R"("componentType":"UINT8","array":true},"Share":{"type":"SCALAR","componentType":"UINT8",)"
+      R"("normalized":true,"scale":100},"Tag":{"type":"STRING","semantic":"ID"}}}},"enums":{"status":)"
+      R"({"valueType":"UINT8","values":[{"name":"NEW","value":0},{"name":"OLD","value":1}]}}},)"
+      R"("propertyTables":[{"class":"Pset_WallCommon","count":3,"properties":{)"
+      R"("FireRating":{"values":3,"stringOffsets":4},"Width":{"values":5},"IsExternal":{"values":6},)"
+      R"("Status":{"values":7},"Place":{"values":8},"Codes":{"values":10,"arrayOffsets":9},)"
+      R"("Share":{"values":11},"Tag":{"values":12,"stringOffsets":13,"stringOffsetType":"UINT8"}}}]}},)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]},{"primitives":[{"attributes":)"
+      R"({"POSITION":0,"_FEATURE_ID_0":3},"extensions":{"EXT_mesh_features":{"featureIds":)"
+      R"([{"featureCount":1,"attribute":0,"propertyTable":0}]}}}]}],)"
+      R"("nodes":[{"name":"walls","mesh":0,"extras":{"Storey":"1"},"extensions":)"
+      R"({"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":1,"_FEATURE_ID_0":2}},)"
+      R"("EXT_instance_features":{"featureIds":[{"featureCount":2,"attribute":0,"nullFeatureId":9,)"
+      R"("propertyTable":0}]}}},{"name":"one","mesh":1}]})";
+  json.replace(json.find(from), from.size(), to);
+  return test::glb(json, binary);
 }
 
 TEST(GltfFeatures, RowsBecomeAttributesUnderTheNameOfTheirClass) {
@@ -107,6 +110,47 @@ TEST(GltfFeatures, RowsBecomeAttributesUnderTheNameOfTheirClass) {
   ASSERT_EQ(model->objects[3].attributes.size(), 5U);
   EXPECT_EQ(model->objects[3].attributes[0].first, set + "IsExternal");
   EXPECT_EQ(model->objects[3].attributes[0].second, "false");
+}
+
+/// What stands for nothing is stated as it is stored, before what makes values of that, and however
+/// a writer of JSON spells numbers.
+TEST(GltfFeatures, WhatStandsForNothingIsComparedAsStored) {
+  const auto attributes = [](const std::string& column, const std::string& more,
+                             std::size_t object) {
+    const Result<model::Model> model = read(document(column, column + more));
+    EXPECT_TRUE(model) << model.error().text();
+    return model ? model->objects[object].attributes : Attributes{};
+  };
+  const std::string width = R"("componentType":"FLOAT64")", share = R"("scale":100)",
+                    codes = R"("componentType":"UINT8","array":true)";
+  using Attribute = Attributes::value_type;
+  // Of repeated keys the first counts.
+  EXPECT_EQ(attributes(width, R"(,"noData":-1.0,"default":7.50)", 3)[0],
+            Attribute("Pset_WallCommon.Width", "7.5"));
+  EXPECT_EQ(attributes(width, R"(,"noData":-10,"offset":-9,"default":1)", 3)[0],
+            Attribute("Pset_WallCommon.Width", "-10"));
+  EXPECT_EQ(attributes(share, R"(,"noData":1,"default":0.25)", 0)[6],
+            Attribute("Pset_WallCommon.Share", "0.25"));
+  EXPECT_EQ(attributes(codes, R"(,"noData":[12,13],"default":[1,2])", 0)[5],
+            Attribute("Pset_WallCommon.Codes", "1; 2"));
+}
+
+/// Thousands of columns may be of an enumeration of thousands of values.
+TEST(GltfFeatures, ColumnsShareTheWordsOfAnEnumeration) {
+  const std::string text =
+      R"({"classes":{"c":{"properties":{"p":{"type":"STRING"},"p":7}}},"enums":{"e":{"valueType":)"
+      R"("INT8","values":[{"name":"A","value":-1},{"name":"B","value":2}]}}})";
+  const Result<gltf::JsonDocument> document = gltf::JsonDocument::parse(text);
+  ASSERT_TRUE(document);
+  gltf::Schema schema(document->root());
+  const auto words = schema.enumeration("e");
+  ASSERT_NE(words, nullptr);
+  EXPECT_EQ(words->words, (std::map<std::int64_t, std::string>{{-1, "A"}, {2, "B"}}));
+  EXPECT_EQ(schema.enumeration("e"), words);
+  EXPECT_EQ(schema.enumeration("f"), nullptr);
+  EXPECT_TRUE(schema.property("c", "p").is_object()) << "of repeated keys the first counts";
+  EXPECT_FALSE(schema.property("c", "q").exists());
+  EXPECT_FALSE(schema.property("d", "p").exists());
 }
 
 TEST(GltfFeatures, WhatCannotBeReadIsTold) {

@@ -213,6 +213,84 @@ TEST(NeutralScene, WhatWasNoticedIsKept) {
   EXPECT_TRUE(read.files[0].ends_early);
 }
 
+/// Each colour of a shape is a mesh, and all name the same bytes.
+TEST(NeutralScene, AShapeInManyColoursComesBack) {
+  constexpr std::uint32_t kSide = 100;
+  geometry::TriangleMesh sheet;
+  for (std::uint32_t y = 0; y <= kSide; ++y)
+    for (std::uint32_t x = 0; x <= kSide; ++x)
+      sheet.vertices.push_back({static_cast<double>(x), static_cast<double>(y), 0});
+  for (std::uint32_t y = 0; y < kSide; ++y)
+    for (std::uint32_t x = 0; x < kSide; ++x) {
+      const std::uint32_t a = y * (kSide + 1) + x, b = a + kSide + 1;
+      sheet.triangles.push_back({a, a + 1, b});
+      sheet.triangles.push_back({a + 1, b + 1, b});
+    }
+  Model model;
+  model.files.push_back({"sheets", "made", "mm (stated)", "z", 0, 0});
+  const model::ShapeId shape = test::add_shape(model, sheet);
+  for (int i = 0; i < 1000; ++i) {
+    test::add_object(model, "id " + std::to_string(i), "sheet");
+    test::add_body(
+        model, shape, {},
+        {static_cast<std::uint8_t>(i % 256), static_cast<std::uint8_t>(i / 256), 0, 255});
+  }
+  const Model written = finished(std::move(model));
+  EXPECT_EQ(difference(written_and_read(written), written), "");
+}
+
+/// None is long, and all together are more than a reader takes of what others call attributes.
+TEST(NeutralScene, ManyAttributesComeBack) {
+  Model model = test::sample_model();
+  model.objects[0].attributes.clear();  // whose names repeat, which alone would keep them
+  for (int i = 0; i < 400; ++i)
+    model.objects[0].attributes.emplace_back("name " + std::to_string(i), std::string(300, 'v'));
+  model.set_attributes(model::GroupId{}, model.objects[0].attributes);
+  const Model written = finished(std::move(model));
+  const Model read = written_and_read(written);
+  ASSERT_EQ(read.objects.size(), written.objects.size());
+  for (std::size_t i = 0; i < written.objects.size(); ++i)
+    EXPECT_EQ(read.objects[i].attributes, written.objects[i].attributes);
+  EXPECT_EQ(read.group_attributes, written.group_attributes);
+}
+
+/// A cylinder below a group, of which something more is said.
+std::string cylinder(const std::string& diagnostics, const std::string& of_group) {
+  return R"({"asset":{"version":"2.0","extras":{"strake":{"scene":1,"diagnostics":[)" +
+         diagnostics +
+         R"(]}}},"meshes":[{"extras":{"strake":{"shape":0,"primitive":{"kind":"cylinder",)"
+         R"("lengths":[5,20]}}}}],"nodes":[{"children":[1],"extras":{"strake":{"is":"frame"}}},)"
+         R"({"name":"g","children":[2])" +
+         of_group + R"(},{"name":"a","mesh":0,"extras":{"id":"a","strake":{"is":"object"}}}]})";
+}
+
+Result<Model> read_cylinder(const std::string& diagnostics, const std::string& of_group) {
+  return test::read_bytes(*make_gltf_reader(), cylinder(diagnostics, of_group), "x.gltf");
+}
+
+/// Codes are shown as they are, and each is looked for among all.
+TEST(NeutralScene, CodesThatAreNoneAndTooManyAreToldAsOthers) {
+  const auto odd =
+      read_cylinder(R"(["skipped","\u001b[31m","text","where"],["note","","",""])", "");
+  ASSERT_TRUE(odd) << odd.error().text();
+  EXPECT_EQ(odd->diagnostics.count("gltf-other-skipped"), 1U);
+  EXPECT_EQ(odd->diagnostics.count("gltf-other-note"), 1U);
+  EXPECT_EQ(odd->diagnostics.counts().size(), 2U);
+  std::string many = R"(["note","c","",""])";
+  for (int i = 0; i < 2000; ++i) many += R"(,["note","c)" + std::to_string(i) + R"(","",""])";
+  const auto read = read_cylinder(many, "");
+  ASSERT_TRUE(read) << read.error().text();
+  EXPECT_LE(read->diagnostics.counts().size(), 501U);
+  EXPECT_GT(read->diagnostics.count("gltf-other-note"), 1000U);
+}
+
+TEST(NeutralScene, BodiesBelowAPlacementThatIsNoneAreSkipped) {
+  EXPECT_TRUE(read_cylinder("", R"(,"translation":[1,2,3])"));
+  const auto read = read_cylinder("", R"(,"scale":[1,2])");
+  ASSERT_FALSE(read) << "it would stand where it does not belong";
+  EXPECT_NE(read.error().text().find("transformation"), std::string::npos);
+}
+
 TEST(NeutralScene, DamagedBodiesAreSkippedAndNamed) {
   std::string bytes = test::neutral_glb();
   const std::string good = R"("chains":4)";

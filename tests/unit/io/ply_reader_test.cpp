@@ -113,6 +113,20 @@ TEST(PlyReader, WhatIsWrongIsSaidAndWhere) {
   refused("solid x", "is no PLY");
 }
 
+TEST(PlyReader, ListsHaveWholeNumbersOfItems) {
+  EXPECT_FALSE(read(text(kVertices + kFaces, "0 0 0\n1 0 0\n0 1 0\n0 0 1\n2.5 0 1 2\n")));
+}
+
+/// Each would take a second of a file that has none of their bytes.
+TEST(PlyReader, ElementsWithoutPropertiesAreNotCounted) {
+  std::string none;
+  for (int i = 0; i < 1000; ++i) none += "element edge 4294967295\nelement other 4294967295\n";
+  const Result<model::Model> model =
+      read(text(kVertices + kFaces + none, "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n"));
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_EQ(std::get<TriangleMesh>(model->shapes[0]).triangles.size(), 1U);
+}
+
 /// Counts that no file of this size can hold are refused before memory is asked for.
 TEST(PlyReader, HostileCountsAreRefused) {
   for (const char* const count : {"4294967295", "18446744073709551615", "1000000000000"}) {

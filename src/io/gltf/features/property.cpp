@@ -101,22 +101,37 @@ std::size_t offset_bytes(const JsonValue& type) {
   return type.is_text("UINT64") ? 8 : 4;
 }
 
+/// Returns a number of the schema as the text of one that is stored.
+std::string number_of_schema(const JsonValue& json, Property::Number number) {
+  const double value = json.number().value_or(NAN);
+  constexpr double kMostExact = 9007199254740992.0;  // 2^53
+  if (number == Property::Number::f64 && std::isfinite(value)) return fmt::format("{}", value);
+  if (number == Property::Number::f32 && std::fabs(value) <= std::numeric_limits<float>::max())
+    return fmt::format("{}", static_cast<float>(value));
+  if (std::fabs(value) < kMostExact && value == std::floor(value))
+    return fmt::format("{}", static_cast<std::int64_t>(value));
+  return std::string(json.raw());
+}
+
 /// Returns a value of the schema as text() gives values.
-std::optional<std::string> text_of(const JsonValue& json) {
-  if (!json.exists()) return std::nullopt;
+std::string schema_text(const JsonValue& json, const Property& property,
+                        std::string_view separator) {
   if (json.is_string()) return json.text_value();
-  if (!json.is_array()) return std::string(json.raw());
+  if (!json.is_array())
+    return property.kind == Property::Kind::number ? number_of_schema(json, property.number)
+                                                   : std::string(json.raw());
   std::string all;
+  bool first = true;
   json.elements([&](const JsonValue& item) {
-    if (!all.empty()) all += ", ";
-    all += text_of(item).value_or("");
+    if (!std::exchange(first, false)) all += separator;
+    all += schema_text(item, property, ", ");
   });
   return all;
 }
 
 }  // namespace
 
-std::optional<std::string> Property::number_text(std::uint64_t index) const {
+std::optional<std::string> Property::number_text(std::uint64_t index, bool stored) const {
   const std::size_t bytes_each = bytes_of_number(number);
   std::string all;
   for (std::size_t k = 0; k < width; ++k) {
@@ -124,7 +139,7 @@ std::optional<std::string> Property::number_text(std::uint64_t index) const {
     if (at >= values.size() / bytes_each) return std::nullopt;
     if (k > 0) all += ", ";
     all += visit_number(number, values.data() + at * bytes_each, [&](auto value) {
-      if (!normalized && !offset && !scale) return fmt::format("{}", value);
+      if (stored || !is_derived()) return fmt::format("{}", value);
       double real = static_cast<double>(value);
       if (normalized)
         real =
@@ -135,10 +150,10 @@ std::optional<std::string> Property::number_text(std::uint64_t index) const {
   return all;
 }
 
-std::optional<std::string> Property::element(std::uint64_t index) const {
+std::optional<std::string> Property::element(std::uint64_t index, bool stored) const {
   switch (kind) {
     case Kind::number:
-      return number_text(index);
+      return number_text(index, stored);
     case Kind::boolean: {
       if (index / 8 >= values.size()) return std::nullopt;
       const auto bits = std::to_integer<unsigned>(values[index / 8]);
@@ -149,8 +164,8 @@ std::optional<std::string> Property::element(std::uint64_t index) const {
       if (index >= values.size() / bytes_each) return std::nullopt;
       const auto value = visit_number(number, values.data() + index * bytes_each,
                                       [](auto one) { return static_cast<std::int64_t>(one); });
-      const auto word = words.find(value);
-      return word == words.end() ? fmt::format("{}", value) : word->second;
+      const auto word = words->words.find(value);
+      return word == words->words.end() ? fmt::format("{}", value) : word->second;
     }
     case Kind::text:
       break;
@@ -171,18 +186,24 @@ std::optional<Property::Range> Property::elements(std::uint64_t row) const {
   return Range{*begin, *end};
 }
 
-std::optional<std::string> Property::text(std::uint64_t row) const {
+std::optional<std::string> Property::row_text(std::uint64_t row, bool stored) const {
   const std::optional<Range> range = elements(row);
   if (!range) return std::nullopt;
   std::string all;
   for (std::uint64_t i = range->begin; i < range->end && all.size() < kMostPropertyBytes; ++i) {
-    const std::optional<std::string> one = element(i);
+    const std::optional<std::string> one = element(i, stored);
     if (!one) return std::nullopt;
     if (i > range->begin) all += "; ";
     all += *one;
   }
-  if (!no_data || all != *no_data) return all;
-  return default_text;
+  return all;
+}
+
+std::optional<std::string> Property::text(std::uint64_t row) const {
+  std::optional<std::string> all = row_text(row, false);
+  if (!all || !no_data) return all;
+  const bool none = is_derived() ? row_text(row, true) == no_data : all == no_data;
+  return none ? default_text : all;
 }
 
 std::uint64_t Property::text_bytes(std::uint64_t row) const {
@@ -198,22 +219,21 @@ std::uint64_t Property::text_bytes(std::uint64_t row) const {
   return array ? 2 * kMostPropertyBytes : std::min<std::uint64_t>(most, kMostPropertyBytes);
 }
 
-std::optional<Property> read_property(const JsonValue& schema, const std::string& class_name,
-                                      const JsonValue& key, const JsonValue& json) {
+std::optional<Property> read_property(Schema& schema, const std::string& class_name,
+                                      const std::string& name) {
+  const JsonValue json = schema.property(class_name, name);
   const auto [type, component, enum_type, array, count, normalized, offset, scale, no_data,
               fallback, semantic] =
       json.pick<11>({"type", "componentType", "enumType", "array", "count", "normalized", "offset",
                      "scale", "noData", "default", "semantic"});
   Property property;
-  property.name = class_name + '.' + key.text_value();
+  property.name = class_name + '.' + name;
   property.semantic = semantic.text_value();
   property.array = array.boolean().value_or(false);
   property.fixed_count = std::min<std::uint64_t>(count.index().value_or(1), 1U << 16U);
   property.normalized = normalized.boolean().value_or(false);
   property.offset = offset.number();
   property.scale = scale.number();
-  property.no_data = text_of(no_data);
-  property.default_text = text_of(fallback);
   const std::string type_name = type.text_value();
   std::optional<Property::Number> number;
   if (type_name == "STRING") {
@@ -222,21 +242,20 @@ std::optional<Property> read_property(const JsonValue& schema, const std::string
     property.kind = Property::Kind::boolean;
   } else if (type_name == "ENUM") {
     property.kind = Property::Kind::enumeration;
-    const JsonValue stated = schema["enums"][enum_type.text_value()];
-    const std::string value_type = stated["valueType"].text_value();
+    property.words = schema.enumeration(enum_type.text_value());
+    if (!property.words) return std::nullopt;
+    const std::string value_type = property.words->value_type.text_value();
     number = number_named(value_type.empty() ? "UINT16" : value_type);
-    if (!stated.exists() || !number || *number >= Property::Number::f32) return std::nullopt;
-    stated["values"].elements([&](const JsonValue& value) {
-      const std::optional<double> code = value["value"].number();
-      if (code && std::fabs(*code) < 1e15)
-        property.words[static_cast<std::int64_t>(*code)] = value["name"].text_value();
-    });
+    if (!number || *number >= Property::Number::f32) return std::nullopt;
   } else {
     property.width = width_of(type_name);
     number = number_named(component.text_value());
     if (property.width == 0 || !number) return std::nullopt;
   }
   property.number = number.value_or(property.number);
+  const std::string_view separator = property.array ? "; " : ", ";
+  if (no_data.exists()) property.no_data = schema_text(no_data, property, separator);
+  if (fallback.exists()) property.default_text = schema_text(fallback, property, separator);
   return property;
 }
 

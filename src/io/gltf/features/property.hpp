@@ -3,12 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 
 #include "io/gltf/accessor.hpp"
+#include "io/gltf/features/schema.hpp"
 #include "io/gltf/json/json.hpp"
 
 namespace strake::io::gltf {
@@ -26,8 +27,9 @@ struct Property {
   bool normalized = false, array = false;
   std::uint64_t fixed_count = 1;  ///< of an array without offsets
   std::optional<double> offset, scale;
-  std::optional<std::string> no_data, default_text;
-  std::map<std::int64_t, std::string> words;  ///< of an enumeration
+  std::optional<std::string> no_data;        ///< as stored, before normalized, offset and scale
+  std::optional<std::string> default_text;   ///< as it is, after these
+  std::shared_ptr<const Enumeration> words;  ///< of an enumeration
   std::span<const std::byte> values, array_offsets, string_offsets;
   std::size_t array_offset_bytes = 4, string_offset_bytes = 4;
 
@@ -42,15 +44,18 @@ struct Property {
     std::uint64_t begin = 0, end = 0;
   };
   [[nodiscard]] std::optional<Range> elements(std::uint64_t row) const;
-  [[nodiscard]] std::optional<std::string> element(std::uint64_t index) const;
-  [[nodiscard]] std::optional<std::string> number_text(std::uint64_t index) const;
+  /// Whether values are not the numbers that are stored.
+  [[nodiscard]] bool is_derived() const { return normalized || offset || scale; }
+  /// Returns the value of a row, or what is stored of it, as text.
+  [[nodiscard]] std::optional<std::string> row_text(std::uint64_t row, bool stored) const;
+  [[nodiscard]] std::optional<std::string> element(std::uint64_t index, bool stored) const;
+  [[nodiscard]] std::optional<std::string> number_text(std::uint64_t index, bool stored) const;
 };
 
 /// Reads what a schema says of a property of a class, without its values. Nothing where it is of no
 /// known type.
-[[nodiscard]] std::optional<Property> read_property(const JsonValue& schema,
-                                                    const std::string& class_name,
-                                                    const JsonValue& key, const JsonValue& json);
+[[nodiscard]] std::optional<Property> read_property(Schema& schema, const std::string& class_name,
+                                                    const std::string& name);
 
 /// Adds what a table says of the property: its values. A fault where they are not there.
 [[nodiscard]] std::optional<GltfFault> read_values(const Buffers& buffers, const JsonValue& json,

@@ -17,22 +17,22 @@ PropertyTables::PropertyTables(const JsonValue& root, const Buffers& buffers) {
   if (uri.exists() && !schema.exists())
     faults_.push_back({"/extensions/EXT_structural_metadata/schemaUri",
                        "a schema in a file of its own is not read"});
+  Schema by_name(schema);
   tables.elements(
-      [&](const JsonValue& json) { read_table(schema, json, tables_.size(), buffers); });
+      [&](const JsonValue& json) { read_table(by_name, json, tables_.size(), buffers); });
 }
 
-void PropertyTables::read_table(const JsonValue& schema, const JsonValue& json, std::size_t index,
+void PropertyTables::read_table(Schema& schema, const JsonValue& json, std::size_t index,
                                 const Buffers& buffers) {
   const auto [class_json, count, values] = json.pick<3>({"class", "count", "properties"});
   Table table;
   table.rows = count.index().value_or(0);
   const std::string class_name = class_json.text_value();
-  const JsonValue properties = schema["classes"][class_name]["properties"];
   const std::string pointer =
       fmt::format("/extensions/EXT_structural_metadata/propertyTables/{}/properties/", index);
   values.members([&](const JsonValue& key, const JsonValue& value) {
     const std::string name = key.text_value();
-    std::optional<Property> property = read_property(schema, class_name, key, properties[name]);
+    std::optional<Property> property = read_property(schema, class_name, name);
     if (!property) {
       faults_.push_back({pointer + name, "is of no type that is known"});
       return;

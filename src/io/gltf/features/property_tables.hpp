@@ -9,6 +9,7 @@
 
 #include "io/gltf/accessor.hpp"
 #include "io/gltf/features/property.hpp"
+#include "io/gltf/features/schema.hpp"
 #include "io/gltf/json/json.hpp"
 #include "strake/model/model.hpp"
 
@@ -39,8 +40,7 @@ class PropertyTables {
     std::uint64_t rows = 0;
     std::vector<Property> columns;
   };
-  void read_table(const JsonValue& schema, const JsonValue& json, std::size_t index,
-                  const Buffers& buffers);
+  void read_table(Schema& schema, const JsonValue& json, std::size_t index, const Buffers& buffers);
 
   std::vector<Table> tables_;
   std::vector<GltfFault> faults_;

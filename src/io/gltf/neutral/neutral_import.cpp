@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -81,7 +82,8 @@ class NeutralImporter {
     model::Color color;
   };
 
-  Status check_amount() const;
+  /// `shown` are meshes, one per shape.
+  [[nodiscard]] Status check_amount(std::span<const std::uint32_t> shown) const;
   Status load_shapes();
   Status read_facts();
   void place(std::size_t visit);
@@ -105,19 +107,19 @@ class NeutralImporter {
   std::vector<std::optional<model::ShapeId>> shape_ids_;  ///< per loaded shape
   std::vector<NeutralFacts> facts_;                       ///< per visit
   std::vector<Placement> worlds_;                         ///< per visit
+  std::vector<const GltfFault*> faults_;                  ///< per visit: its own or one's above
   std::vector<model::GroupId> groups_;                    ///< per visit: that of what is below it
   std::size_t object_visit_ = 0;                          ///< of the last object
 };
 
-/// All vertices of a mesh are read, so that few bytes of JSON could name the same ones again and
-/// again.
-Status NeutralImporter::check_amount() const {
+/// Few bytes of JSON could have shapes that name the same numbers again and again.
+Status NeutralImporter::check_amount(std::span<const std::uint32_t> shown) const {
   const std::uint64_t most =
       64 * (input_.file.bytes.size() + input_.buffers.total_bytes()) + (1U << 20U);
-  std::uint64_t vertices = 0;
-  for (const std::uint32_t mesh : input_.used) {
-    vertices += std::min(stated_vertices(input_.accessors, input_.meshes[mesh]), most);
-    if (vertices > most)
+  std::uint64_t numbers = 0;
+  for (const std::uint32_t mesh : shown) {
+    numbers += std::min(stated_numbers(input_.accessors, input_.meshes[mesh]), most);
+    if (numbers > most)
       return Error{ErrorCode::input,
                    "refers to the same vertices so often that they would not fit into the memory",
                    input_.file.path.string(), "export the model again"};
@@ -142,6 +144,7 @@ Status NeutralImporter::load_shapes() {
     if (material && *material < input_.materials.size()) added.color = input_.materials[*material];
     meshes_.push_back(added);
   }
+  if (const Status bounded = check_amount(first); !bounded) return bounded.error();
   shapes_.resize(first.size());
   shape_ids_.resize(first.size());
   return parallel::for_each(
@@ -236,7 +239,7 @@ void NeutralImporter::add_body(std::size_t visit) {
   };
   if (object == nullptr)
     return lose({fmt::format("/nodes/{}", number), "it is a body of no object"});
-  if (const GltfFault* const fault = node.fault()) return lose(*fault);
+  if (const GltfFault* const fault = faults_[visit]) return lose(*fault);
   if (!node.mesh) return lose({fmt::format("/nodes/{}", number), "it has no mesh"});
   const Mesh& mesh = mesh_of(*node.mesh);
   NeutralShape& shape = shapes_[mesh.loaded];
@@ -265,6 +268,8 @@ void NeutralImporter::place(std::size_t visit) {
   const std::uint32_t parent = input_.visits[visit].parent;
   groups_[visit] = parent == kNoParent ? model::GroupId::none : groups_[parent];
   worlds_[visit] = world_of(visit);
+  faults_[visit] = input_.nodes[input_.visits[visit].node].fault();
+  if (faults_[visit] == nullptr && parent != kNoParent) faults_[visit] = faults_[parent];
   switch (facts_[visit].role) {
     case Role::frame:
       break;
@@ -278,10 +283,10 @@ void NeutralImporter::place(std::size_t visit) {
 }
 
 Result<model::Model> NeutralImporter::run() {
-  if (const Status bounded = check_amount(); !bounded) return bounded.error();
   if (const Status loaded = load_shapes(); !loaded) return loaded.error();
   if (const Status read = read_facts(); !read) return read.error();
   worlds_.resize(input_.visits.size());
+  faults_.resize(input_.visits.size());
   groups_.resize(input_.visits.size());
   model_.diagnostics.append(diagnostics_of(input_.scene));
   for (std::size_t visit = 0; visit < input_.visits.size(); ++visit) place(visit);

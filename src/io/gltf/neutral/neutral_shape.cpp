@@ -171,11 +171,15 @@ NeutralShape load_neutral_shape(const Buffers& buffers, const Accessors& accesso
   return NeutralShapeLoader(buffers, accessors, mesh, index).load();
 }
 
-std::uint64_t stated_vertices(const Accessors& accessors, const JsonValue& mesh) {
+std::uint64_t stated_numbers(const Accessors& accessors, const JsonValue& mesh) {
   const std::vector<JsonValue> primitives = mesh["primitives"].items();
   if (primitives.empty() || mesh["extras"]["strake"]["primitive"].exists()) return 0;
-  return accessors.stated_count(
-      primitives[0]["attributes"]["POSITION"].index().value_or(UINT64_MAX));
+  const auto [attributes, indices] = primitives[0].pick<2>({"attributes", "indices"});
+  const auto count = [&](const JsonValue& accessor) {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 60U;  // sums of these must not wrap
+    return std::min(accessors.stated_count(accessor.index().value_or(UINT64_MAX)), kMost);
+  };
+  return count(attributes["POSITION"]) + count(indices);
 }
 
 }  // namespace strake::io::gltf

@@ -22,7 +22,8 @@ struct NeutralShape {
 [[nodiscard]] NeutralShape load_neutral_shape(const Buffers& buffers, const Accessors& accessors,
                                               const JsonValue& mesh, std::size_t index);
 
-/// Returns how many vertices a mesh states; loading it reads all of them, used or not.
-[[nodiscard]] std::uint64_t stated_vertices(const Accessors& accessors, const JsonValue& mesh);
+/// Returns how many vertices and corners a mesh states; loading its shape reads all of them, used
+/// or not, and none of a primitive.
+[[nodiscard]] std::uint64_t stated_numbers(const Accessors& accessors, const JsonValue& mesh);
 
 }  // namespace strake::io::gltf
