@@ -14,6 +14,7 @@
 
 #include "message_log.hpp"
 #include "stitched_mesh.hpp"
+#include "surface_sag.hpp"
 
 namespace strake::import_step {
 namespace {
@@ -46,6 +47,15 @@ void run_mesher(const TopoDS_Shape& shape, double sag_mm, const MeshOptions& opt
   mesher.Perform(range);
 }
 
+/// Returns how far at most the triangles of a piece lie from its surface, mm: as far as was asked
+/// for, if any of it is curved, unless more is found.
+double sag_of(const TopoDS_Shape& shape, double asked_mm, double moved_mm) {
+  // What is less than the grid of a scene shows is that of computing in doubles.
+  constexpr double kNothing = 1e-4;
+  const double made = has_flat_faces_only(shape) ? 0 : std::max(asked_mm, largest_sag_found(shape));
+  return moved_mm < kNothing ? made : made + moved_mm;
+}
+
 MeshedPiece mesh_bounded(const Piece& piece, double diagonal, const MeshOptions& options,
                          const Handle(ReportProgress) & progress) {
   // A ball of the finest share of its diameter has less than a million triangles.
@@ -61,6 +71,7 @@ MeshedPiece mesh_bounded(const Piece& piece, double diagonal, const MeshOptions&
     return result;
   }
   StitchedMesh stitched = stitched_mesh(piece.shape);
+  stitched.mesh.sag_mm = sag_of(piece.shape, sag_mm, stitched.moved_mm);
   // The triangles are needed once: a model has many pieces.
   BRepTools::Clean(piece.shape);
   result.faces_without = stitched.faces_without;

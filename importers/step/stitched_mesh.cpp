@@ -13,6 +13,7 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <tuple>
@@ -167,6 +168,10 @@ StitchedMesh Stitcher::stitched() {
   StitchedMesh result;
   result.faces = faces_;
   result.faces_without = faces_without_;
+  for (std::uint32_t i = 0; i < points_.size(); ++i) {
+    const Vec3d off = points_[i] - points_[same_.root(i)];
+    result.moved_mm = std::max(result.moved_mm, std::sqrt(dot(off, off)));
+  }
   std::vector<std::uint32_t> numbers(points_.size(), geometry::kNoIndex);
   for (Triangle t : triangles_) {
     for (std::uint32_t& corner : t) corner = same_.root(corner);

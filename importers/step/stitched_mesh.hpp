@@ -14,6 +14,7 @@ struct StitchedMesh {
   std::size_t faces = 0;          ///< of the shape
   std::size_t faces_without = 0;  ///< those that have no triangles
   bool is_closed = false;         ///< each edge is passed once in each direction
+  double moved_mm = 0;            ///< how far at most a point went to be that of another face
 };
 
 /// Takes the triangles that Open CASCADE has made of the faces of a shape. Faces that share an edge

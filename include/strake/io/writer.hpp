@@ -30,6 +30,9 @@ struct WriteOptions {
 /// 2. Coordinates are float32 in the shape's own frame, node matrices are doubles.
 /// 3. Bodies of one object that stand apart are written in the frame of its first body, so that
 ///    a node with a mesh is always one whole object.
+/// 4. A mesh of which all triangles say how far they lie from the true surface
+///    (geometry::TriangleMesh::sag_mm) says so in its extras (sag_mm), where our reader finds it;
+///    one with analytic primitives says nothing.
 ///
 /// Source polygons of triangles, body categories and analytic primitives as such are not kept,
 /// but with WriteOptions::keep_all, where 2. and 3. do not hold: each body is a node. The objects

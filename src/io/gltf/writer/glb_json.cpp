@@ -36,7 +36,7 @@ void append_meshes(std::string& out, const GlbPlan& plan) {
           i == 0 ? "" : ",", 2 * mesh[i].piece, 2 * mesh[i].piece + 1,
           plan.pieces[mesh[i].piece].mesh != nullptr ? kTriangles : kLines, mesh[i].material);
     out += ']';
-    if (!plan.mesh_extras.empty()) add(out, R"(,"extras":{})", plan.mesh_extras[m]);
+    if (!plan.mesh_extras[m].empty()) add(out, R"(,"extras":{})", plan.mesh_extras[m]);
     out += '}';
   }
   out += ']';

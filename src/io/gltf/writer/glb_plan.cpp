@@ -11,7 +11,9 @@
 #include <optional>
 #include <tuple>
 #include <utility>
+#include <variant>
 
+#include "geometry/mesh_repair/snap_to_grid.hpp"
 #include "io/mesh/tessellated_shapes.hpp"
 
 namespace strake::io::gltf {
@@ -68,7 +70,9 @@ class GlbPlanner {
   Status object(const model::Object& object);
   Status body(const model::Object& object, const model::Body& body,
               const std::optional<Placement>& to_mesh, std::vector<MeshPrimitive>& mesh);
-  Result<std::uint32_t> piece(const TessellatedShape& shape, const Placement& relative);
+  Result<std::uint32_t> piece(const TessellatedShape& shape, const Placement& relative,
+                              double sag_mm);
+  void state_sags();
   std::uint32_t material(const model::Color& color);
 
   const model::Model& model_;
@@ -87,7 +91,8 @@ std::uint32_t GlbPlanner::material(const model::Color& color) {
   return place->second;
 }
 
-Result<std::uint32_t> GlbPlanner::piece(const TessellatedShape& shape, const Placement& relative) {
+Result<std::uint32_t> GlbPlanner::piece(const TessellatedShape& shape, const Placement& relative,
+                                        double sag_mm) {
   const void* const source = shape.mesh != nullptr ? static_cast<const void*>(shape.mesh)
                                                    : static_cast<const void*>(shape.lines);
   const auto next = static_cast<std::uint32_t>(plan_.pieces.size());
@@ -97,6 +102,7 @@ Result<std::uint32_t> GlbPlanner::piece(const TessellatedShape& shape, const Pla
   piece.mesh = shape.mesh;
   piece.lines = shape.lines;
   piece.relative = relative;
+  piece.sag_mm = sag_mm * geometry::largest_scale(relative.linear);
   piece.vertex_count = piece.vertices().size();
   piece.index_count =
       piece.mesh != nullptr ? 3 * piece.mesh->triangles.size() : index_count(*piece.lines);
@@ -114,7 +120,10 @@ Status GlbPlanner::body(const model::Object& object, const model::Body& body,
                            (shape.lines != nullptr && index_count(*shape.lines) != 0);
   if (!has_content) return {};
   const Placement relative = to_mesh ? *to_mesh * shape.placement : Placement{};
-  const Result<std::uint32_t> made = piece(shape, relative);
+  const auto* const mesh_of_model =
+      std::get_if<geometry::TriangleMesh>(&model_.shapes[model::index(body.shape)]);
+  const Result<std::uint32_t> made =
+      piece(shape, relative, mesh_of_model != nullptr ? mesh_of_model->sag_mm : -1);
   if (!made) {
     Error error = made.error();
     error.where = object.id;
@@ -157,9 +166,28 @@ Status GlbPlanner::object(const model::Object& object) {
   return {};
 }
 
+/// Has each mesh say how far its triangles lie from the true surface, where all of them say so.
+void GlbPlanner::state_sags() {
+  plan_.mesh_extras.resize(plan_.meshes.size());
+  for (std::size_t m = 0; m < plan_.meshes.size(); ++m) {
+    std::optional<double> largest;
+    for (const MeshPrimitive& primitive : plan_.meshes[m]) {
+      const StoredGeometry& piece = plan_.pieces[primitive.piece];
+      if (piece.mesh == nullptr) continue;
+      if (!(piece.sag_mm >= 0 && std::isfinite(piece.sag_mm))) {
+        largest.reset();
+        break;
+      }
+      largest = std::max(largest.value_or(0), piece.sag_mm);
+    }
+    if (largest) plan_.mesh_extras[m] = fmt::format(R"({{"sag_mm":{}}})", *largest);
+  }
+}
+
 Result<GlbPlan> GlbPlanner::plan() {
   for (const model::Object& one : model_.objects)
     if (const Status planned = object(one); !planned) return planned.error();
+  state_sags();
   shapes_.release(plan_.made, plan_.made_lines);
   return std::move(plan_);
 }

@@ -22,6 +22,7 @@ struct StoredGeometry {
   const geometry::TriangleMesh* mesh = nullptr;  ///< one of these two
   const geometry::Polylines* lines = nullptr;
   geometry::Placement relative;  ///< from shape frame to mesh frame; identity for most
+  double sag_mm = -1;            ///< of the triangles in the mesh frame; negative: not stated
   std::uint64_t first_vertex = 0;
   std::uint64_t vertex_count = 0;
   std::uint64_t first_index = 0;  ///< among the indices of its width
@@ -61,7 +62,7 @@ struct GlbPlan {
   };
   std::vector<ObjectNode> objects;  ///< per object of the model
   std::uint64_t vertex_count = 0, wide_count = 0, narrow_count = 0;
-  std::vector<std::string> mesh_extras;            ///< JSON, per mesh; or none at all
+  std::vector<std::string> mesh_extras;            ///< JSON, per mesh; empty where it has none
   std::vector<std::span<const std::byte>> blocks;  ///< what else the binary chunk holds
   std::deque<geometry::TriangleMesh> made;         ///< the triangles of analytic primitives
   std::deque<geometry::Polylines> made_lines;
