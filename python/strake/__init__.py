@@ -19,6 +19,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from strake import cluster
     from strake._clash import Clash, Clashes, Flag, Group, Kind, Relation, clash
     from strake._drawing import LINE_KINDS, LINE_STATES, Drawing, Lines, draw
     from strake._errors import (
@@ -64,6 +65,7 @@ __all__ = [
     "UsageError",
     "__version__",
     "clash",
+    "cluster",
     "draw",
     "evaluate",
     "generate",
@@ -90,6 +92,8 @@ _MODULE_OF = {
 def __getattr__(name: str) -> object:
     if name == "__version__":
         value = import_module("strake._core").version()
+    elif name == "cluster":
+        return import_module("strake.cluster")
     elif name in _MODULE_OF:
         value = getattr(import_module(_MODULE_OF[name]), name)
     else:

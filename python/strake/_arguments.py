@@ -29,14 +29,19 @@ LONGEST_MM = 1e6
 def run_options(threads: int | None, progress: Progress | None) -> _core.RunOptions:
     """How a long call runs. Raises: UsageError for a number of threads outside 1 to 1024."""
     if threads is not None:
-        if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)):
-            raise UsageError(f"{shown(threads)} is no whole number", "threads")
-        if not 1 <= threads <= MOST_THREADS:
-            raise UsageError(f"{shown(threads)} is no number of threads", "threads", f"write 1 to {MOST_THREADS}")
-        threads = int(threads)
+        threads = thread_count(threads, "threads")
     if progress is not None and not callable(progress):
         raise UsageError(f"{type(progress).__name__} cannot be called", "progress")
     return _core.RunOptions(threads, progress)
+
+
+def thread_count(value: Any, name: str) -> int:
+    """A number of threads. Raises: UsageError outside 1 to 1024."""
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise UsageError(f"{shown(value)} is no whole number", name)
+    if not 1 <= value <= MOST_THREADS:
+        raise UsageError(f"{shown(value)} is no number of threads", name, f"write 1 to {MOST_THREADS}")
+    return int(value)
 
 
 def shown(value: object) -> str:

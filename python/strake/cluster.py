@@ -4,9 +4,10 @@
     from dask.distributed import LocalCluster
     import strake.cluster
 
-    with LocalCluster(n_workers=4, threads_per_worker=1, memory_limit="1GiB") as cluster:
-        clashes = strake.cluster.clash("ship.glb", scheduler=cluster, memory="1GiB", clearance=25)
-    clashes.save("clashes.json")  # the bytes of one machine
+    if __name__ == "__main__":  # workers import the script, and would each start a cluster
+        with LocalCluster(n_workers=4, threads_per_worker=1, memory_limit="1GiB") as cluster:
+            clashes = strake.cluster.clash("ship.glb", scheduler=cluster, memory="1GiB", clearance=25)
+        clashes.save("clashes.json")  # the bytes of one machine
 
 The model is cut into tiles on the disk, each of which is a task of its own. Dask places and repeats them; without a
 scheduler they run one after the other in this process.
@@ -25,9 +26,9 @@ from typing import Any, Protocol
 import numpy as np
 
 from strake import _core
-from strake._arguments import PathLike, Progress, Selection, number, path, run_options
+from strake._arguments import PathLike, Progress, Selection, number, path, run_options, thread_count
 from strake._clash import Clashes, request_of
-from strake._errors import Error, InputError, UsageError
+from strake._errors import Error, InputError, OutputError, UsageError
 from strake._model import Model, read_arguments
 
 __all__ = ["clash"]
@@ -37,6 +38,7 @@ _MOST_TRIES = 4
 # What a worker takes before it has a tile: Python, NumPy, Dask and this package.
 _EMPTY_WORKER = 200 * 2**20
 _LEAST_MEMORY = 2 * _EMPTY_WORKER
+_MOST_MEMORY = 2**60
 _LOST = "is missing or damaged"
 _UNITS = {"": 1, "B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "KIB": 2**10, "MIB": 2**20, "GIB": 2**30}
 
@@ -125,9 +127,9 @@ def clash(
 
     The model of the result has all names and no geometry.
 
-    Raises: what strake.clash() does; ImportError where Dask is not installed; InputError for a file that changes
-    meanwhile, for tiles that get lost again and again, and for a model whose members lie so askew that only a search
-    over all of them at once tells which are near each other.
+    Raises: what strake.clash() does; ImportError where Dask is not installed; OutputError for a folder that cannot be
+    made; InputError for a file that changes meanwhile, for tiles that get lost again and again, and for a model whose
+    members lie so askew that only a search over all of them at once tells which are near each other.
     """
     for name, some in (("a", a), ("b", b)):
         if isinstance(some, np.ndarray):
@@ -135,8 +137,11 @@ def clash(
     request = request_of(0, a, b, **test)
     options = run_options(threads, progress)
     arguments = read_arguments(files, unit, up_axis)
+    for file in arguments[0]:
+        if _core.is_project(file):
+            raise UsageError(f"{file} is a project, and tiles are cut of model files", "files", "give those that it was made of")
     most = (_bytes(memory) - _EMPTY_WORKER) // 2
-    run_options(worker_threads, None)  # refuses what is no number of threads
+    worker_threads = thread_count(worker_threads, "worker_threads")
     with _runner(scheduler) as runner, _working_folder(folder) as work:
         cut = _core.cut(*arguments, request, most, options)
         run = _Run(cut, work, runner, worker_threads, options)
@@ -211,9 +216,12 @@ def _tile_of(error: InputError) -> int | None:
 @contextmanager
 def _working_folder(folder: PathLike | None) -> Iterator[Path]:
     parent = None if folder is None else path(folder, "folder")
-    if parent is not None:
-        parent.mkdir(parents=True, exist_ok=True)
-    work = Path(tempfile.mkdtemp(prefix="strake-", dir=parent)).resolve()
+    try:
+        if parent is not None:
+            parent.mkdir(parents=True, exist_ok=True)
+        work = Path(tempfile.mkdtemp(prefix="strake-", dir=parent)).resolve()
+    except OSError as error:
+        raise OutputError(f"no folder can be made there: {error.strerror}", str(parent or tempfile.gettempdir())) from error
     try:
         yield work
     finally:
@@ -248,4 +256,4 @@ def _bytes(memory: str | int) -> int:
         size = number(memory, "memory")
     if size < _LEAST_MEMORY:
         raise UsageError(f"{memory!r} is too little for a worker", "memory", f"give {_LEAST_MEMORY // 2**20}MiB or more")
-    return int(size)
+    return int(min(size, _MOST_MEMORY))

@@ -3,6 +3,7 @@
 
 import os
 import signal
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -212,6 +213,14 @@ def test_what_makes_no_sense(tmp_path: Path, ship: strake.Model, ship_file: Path
         strake.cluster.clash(ship_file, ship.select("PIP*"))  # type: ignore[arg-type]
     with pytest.raises(TypeError):
         strake.cluster.clash(ship_file, clearence=25)
+    with pytest.raises(strake.UsageError, match="worker_threads"):
+        strake.cluster.clash(ship_file, worker_threads=0)
+    with pytest.raises(strake.OutputError, match="no folder can be made"):
+        strake.cluster.clash(ship_file, folder=ship_file)
+    project = strake.Project.create(tmp_path / "ship.strake")
+    with pytest.raises(strake.UsageError, match="is a project"):
+        strake.cluster.clash([ship_file, project.path])
+    assert len(strake.cluster.clash(ship_file, memory="1" + "0" * 400)) > 0
     for folder in ("x", "y"):
         (tmp_path / folder).mkdir()
         strake.generate(objects=200, seed=len(folder)).save(tmp_path / folder / "ship.glb")
@@ -220,6 +229,21 @@ def test_what_makes_no_sense(tmp_path: Path, ship: strake.Model, ship_file: Path
         strake.cluster.clash(namesakes, "PIP*")
     whole = strake.clash(strake.load(namesakes))
     assert bytes_of(strake.cluster.clash(namesakes), tmp_path) == bytes_of(whole, tmp_path)
+
+
+def test_the_package_brings_it() -> None:
+    code = "import strake; print(strake.cluster.clash.__module__)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "strake.cluster\n"
+
+
+def test_the_documented_script(tmp_path: Path, ship: strake.Model) -> None:
+    pytest.importorskip("distributed")
+    page = Path(__file__).resolve().parents[2] / "docs/cluster.md"
+    ship.save(tmp_path / "ship.glb")
+    (tmp_path / "script.py").write_text(page.read_text().split("```python\n")[1].split("```")[0])
+    subprocess.run([sys.executable, "script.py"], cwd=tmp_path, check=True, timeout=300)
+    assert (tmp_path / "clashes.json").read_bytes() == bytes_of(strake.clash(ship, clearance=25), tmp_path, "whole.json")
 
 
 def test_without_dask(ship_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:

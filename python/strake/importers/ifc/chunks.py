@@ -83,9 +83,7 @@ def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M) -> Iterator[
     yield from _remarks(log, chunk)
 
 
-def _converted(
-    model: Model, element: Any, known: dict[str, PreparedShape | str], kernel: str, sag_m: float
-) -> Converted:
+def _converted(model: Model, element: Any, known: dict[str, PreparedShape | str], kernel: str, sag_m: float) -> Converted:
     name = element.geometry.id
     first = name not in known
     if first:
