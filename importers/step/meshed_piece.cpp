@@ -47,13 +47,23 @@ void run_mesher(const TopoDS_Shape& shape, double sag_mm, const MeshOptions& opt
   mesher.Perform(range);
 }
 
-/// Returns how far at most the triangles of a piece lie from its surface, mm: as far as was asked
-/// for, if any of it is curved, unless more is found.
-double sag_of(const TopoDS_Shape& shape, double asked_mm, double moved_mm) {
-  // What is less than the grid of a scene shows is that of computing in doubles.
-  constexpr double kNothing = 1e-4;
-  const double made = has_flat_faces_only(shape) ? 0 : std::max(asked_mm, largest_sag_found(shape));
-  return moved_mm < kNothing ? made : made + moved_mm;
+/// Makes triangles no farther than a distance from the surface of a shape, and returns how far they
+/// may be, mm: some faces, as whole balls, come out twice as coarse as the mesher was asked for.
+double mesh_within(const TopoDS_Shape& shape, double wanted_mm, const MeshOptions& options,
+                   const Handle(ReportProgress) & progress) {
+  // A face that is at odds with itself never comes near its surface: it must not cost the piece.
+  constexpr int kAttempts = 3;
+  constexpr double kMostFiner = 0.4;
+  double asked_mm = wanted_mm;
+  for (int attempt = 1;; ++attempt) {
+    run_mesher(shape, asked_mm, options, progress->Start());
+    if (progress->is_over_limit()) return wanted_mm;
+    if (has_flat_faces_only(shape)) return 0;
+    const double sag_mm = largest_sag_found(shape, wanted_mm);
+    if (!(sag_mm > wanted_mm) || attempt == kAttempts || !progress->is_early()) return sag_mm;
+    asked_mm *= std::max(wanted_mm / sag_mm, kMostFiner);
+    BRepTools::Clean(shape);
+  }
 }
 
 MeshedPiece mesh_bounded(const Piece& piece, double diagonal, const MeshOptions& options,
@@ -64,14 +74,16 @@ MeshedPiece mesh_bounded(const Piece& piece, double diagonal, const MeshOptions&
   const double wanted_mm =
       options.sag_mm.value_or(std::clamp(diagonal * kUsualShare, kFinest, MeshOptions::kSag));
   const double sag_mm = std::max(wanted_mm, diagonal * kFinestShare);
-  if (sag_mm > wanted_mm) result.coarser_sag_mm = sag_mm;
-  run_mesher(piece.shape, sag_mm, options, progress->Start());
+  const double made_mm = mesh_within(piece.shape, sag_mm, options, progress);
   if (progress->is_over_limit()) {
     result.fault = "making its triangles takes too long";
     return result;
   }
   StitchedMesh stitched = stitched_mesh(piece.shape);
-  stitched.mesh.sag_mm = sag_of(piece.shape, sag_mm, stitched.moved_mm);
+  // What is less than the grid of a scene shows is that of computing in doubles.
+  constexpr double kNothing = 1e-4;
+  stitched.mesh.sag_mm = stitched.moved_mm < kNothing ? made_mm : made_mm + stitched.moved_mm;
+  if (stitched.mesh.sag_mm > wanted_mm) result.coarser_sag_mm = stitched.mesh.sag_mm;
   // The triangles are needed once: a model has many pieces.
   BRepTools::Clean(piece.shape);
   result.faces_without = stitched.faces_without;

@@ -28,7 +28,7 @@ struct MeshedPiece {
   geometry::TriangleMesh mesh;
   std::size_t faces_without = 0;
   bool is_closed = false;
-  /// It is so large that its sag had to be more than was asked for, mm.
+  /// Its sag, mm, where that is more than was asked for.
   std::optional<double> coarser_sag_mm;
   std::string fault;
 };

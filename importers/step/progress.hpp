@@ -17,6 +17,8 @@ class ReportProgress : public Message_ProgressIndicator {
   void next(double from, double to, std::optional<double> limit_s = {});
   /// Whether the work that next() began was given up.
   [[nodiscard]] bool is_over_limit() const;
+  /// Whether most of the time is left that next() gave, so that work may be done again.
+  [[nodiscard]] bool is_early() const;
 
  protected:
   Standard_Boolean UserBreak() override { return is_over_limit(); }
@@ -26,6 +28,7 @@ class ReportProgress : public Message_ProgressIndicator {
   Report& report_;
   double from_ = 0, to_ = 1;
   std::optional<double> until_;  ///< processor time of this process, in seconds
+  double early_until_ = 0;
 };
 
 }  // namespace strake::import_step

@@ -174,8 +174,8 @@ void SceneBuilder::add_part(Product& product, const Piece& piece,
                 "its faces do not meet everywhere, so that it counts as a surface");
   if (meshed.coarser_sag_mm)
     report_.add(Severity::note, "step-coarse", name,
-                "it is so large that its triangles may lie " +
-                    std::to_string(*meshed.coarser_sag_mm) + " mm from the true surface");
+                "its triangles may lie " + std::to_string(*meshed.coarser_sag_mm) +
+                    " mm from the true surface, more than was asked for");
   const TDF_Label label = labels_.shapes->FindShape(piece.shape);
   product.parts.push_back({static_cast<model::ShapeId>(model_.shapes.size() + shapes.size()),
                            piece.color, Labels::name_of(label)});

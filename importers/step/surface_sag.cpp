@@ -6,7 +6,10 @@
 #include <BRep_Tool.hxx>
 #include <GeomAbs_CurveType.hxx>
 #include <GeomAbs_SurfaceType.hxx>
+#include <Geom_Surface.hxx>
 #include <Poly_Triangulation.hxx>
+#include <Precision.hxx>
+#include <ShapeAnalysis_Surface.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopLoc_Location.hxx>
 #include <TopoDS.hxx>
@@ -19,13 +22,48 @@
 namespace strake::import_step {
 namespace {
 
-double sag_of_face(const TopoDS_Face& face) {
+/// Finds how far the triangles of a face are from its surface.
+class FaceSag {
+ public:
+  FaceSag(const TopoDS_Face& face, double asked_mm)
+      : surface_(BRep_Tool::Surface(face)), largest_(asked_mm) {}
+
+  void add(const std::array<gp_XYZ, 3>& at, const std::array<gp_XY, 3>& uv) {
+    const gp_XYZ normal = (at[1] - at[0]).Crossed(at[2] - at[0]);
+    const double twice_area = normal.Modulus();
+    // A sliver has no plane; the triangles beside it tell of the surface there.
+    if (!(twice_area > 0)) return;
+    const gp_XYZ unit = normal / twice_area;
+    measure((at[0] + at[1] + at[2]) / 3, (uv[0] + uv[1] + uv[2]) / 3, unit);
+    for (std::size_t k = 0; k < 3; ++k)
+      measure((at[k] + at[(k + 1) % 3]) / 2, (uv[k] + uv[(k + 1) % 3]) / 2, unit);
+  }
+  [[nodiscard]] double largest() const { return largest_; }
+
+ private:
+  /// How far the surface is from the plane of the triangle is quickly told, but too much where
+  /// parameters run together, as at the pole of a ball: there the point is put on the surface.
+  void measure(const gp_XYZ& middle, const gp_XY& uv, const gp_XYZ& unit) {
+    const gp_XYZ on_surface = surface_->Value(uv.X(), uv.Y()).XYZ();
+    double off = std::abs((on_surface - middle).Dot(unit));
+    if (!(off > largest_)) return;
+    if (by_point_.IsNull()) by_point_ = new ShapeAnalysis_Surface(surface_);
+    by_point_->ValueOfUV(gp_Pnt(middle), Precision::Confusion());
+    off = std::min(off, by_point_->Gap());
+    if (off > largest_ && std::isfinite(off)) largest_ = off;
+  }
+
+  Handle(Geom_Surface) surface_;
+  Handle(ShapeAnalysis_Surface) by_point_;
+  double largest_;
+};
+
+double sag_of_face(const TopoDS_Face& face, double asked_mm) {
   TopLoc_Location location;
   const Handle(Poly_Triangulation) made = BRep_Tool::Triangulation(face, location);
-  if (made.IsNull() || !made->HasUVNodes()) return 0;
-  const BRepAdaptor_Surface surface(face, Standard_False);
-  if (surface.GetType() == GeomAbs_Plane) return 0;
-  double largest = 0;
+  if (made.IsNull() || !made->HasUVNodes()) return asked_mm;
+  if (BRepAdaptor_Surface(face, Standard_False).GetType() == GeomAbs_Plane) return asked_mm;
+  FaceSag sag(face, asked_mm);
   for (int i = 1; i <= made->NbTriangles(); ++i) {
     std::array<int, 3> corner{};
     made->Triangle(i).Get(corner[0], corner[1], corner[2]);
@@ -35,19 +73,9 @@ double sag_of_face(const TopoDS_Face& face) {
       at[k] = made->Node(corner[k]).Transformed(location.Transformation()).XYZ();
       uv[k] = made->UVNode(corner[k]).XY();
     }
-    const gp_XYZ normal = (at[1] - at[0]).Crossed(at[2] - at[0]);
-    const double twice_area = normal.Modulus();
-    // A sliver has no plane; the triangles beside it tell of the surface there.
-    if (!(twice_area > 0)) continue;
-    const auto measure = [&](const gp_XY& middle) {
-      const gp_XYZ on_surface = surface.Value(middle.X(), middle.Y()).XYZ();
-      const double off = std::abs((on_surface - at[0]).Dot(normal)) / twice_area;
-      if (std::isfinite(off)) largest = std::max(largest, off);
-    };
-    measure((uv[0] + uv[1] + uv[2]) / 3);
-    for (std::size_t k = 0; k < 3; ++k) measure((uv[k] + uv[(k + 1) % 3]) / 2);
+    sag.add(at, uv);
   }
-  return largest;
+  return sag.largest();
 }
 
 }  // namespace
@@ -64,11 +92,13 @@ bool has_flat_faces_only(const TopoDS_Shape& shape) {
   return true;
 }
 
-double largest_sag_found(const TopoDS_Shape& shape) {
-  double largest = 0;
+double largest_sag_found(const TopoDS_Shape& shape, double asked_mm) {
+  double largest = asked_mm;
   for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next())
-    largest = std::max(largest, sag_of_face(TopoDS::Face(at.Current())));
-  return largest;
+    largest = std::max(largest, sag_of_face(TopoDS::Face(at.Current()), asked_mm));
+  // The mesher stops where it is within the last digits of what it was asked for.
+  constexpr double kRounding = 1.001;
+  return largest > asked_mm * kRounding ? largest : asked_mm;
 }
 
 }  // namespace strake::import_step

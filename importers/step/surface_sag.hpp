@@ -9,9 +9,10 @@ namespace strake::import_step {
 /// its surface.
 [[nodiscard]] bool has_flat_faces_only(const TopoDS_Shape& shape);
 
-/// Returns how far the surfaces of a shape lie from the triangles that Open CASCADE has made of its
-/// faces, mm, as found at the middles of the triangles and of their sides: the mesher gives up on a
-/// face after so many attempts, and says nothing then.
-[[nodiscard]] double largest_sag_found(const TopoDS_Shape& shape);
+/// Returns how far at most the triangles that Open CASCADE has made of the faces of a shape lie
+/// from its surfaces, mm: what the mesher was asked for, or what is found at the middles of
+/// triangles and of their sides, if that is more. The mesher gives up on a face after so many
+/// attempts, and says nothing then.
+[[nodiscard]] double largest_sag_found(const TopoDS_Shape& shape, double asked_mm);
 
 }  // namespace strake::import_step

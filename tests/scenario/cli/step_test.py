@@ -68,6 +68,8 @@ class Step(Scenario):
         self.assertIn('solid.igs: IGES, 1 objects, unit mm (stated), z up', done.stderr)
         pairs = {(row['a']['id'], row['b']['id']): row['class'] for row in json.loads(done.stdout)['results']}
         self.assertIn('HIT', pairs.values())
+        codes = {one['code'] for one in json.loads(done.stdout)['diagnostics']}
+        self.assertNotIn('unknown-sag', codes)
         done = self.run_strake('draw', 'rig.step', '--select', '@Instance = left and @Assembly = first', '--view', 'top', '-o',
                                'left.svg')
         self.assertIn('1 objects: 1 drawn', done.stderr)

@@ -176,6 +176,62 @@ TEST_F(StepImport, CurvedSolidsAreClosedAndTheirVolumesRight) {
   }
 }
 
+/// Returns how far the middles of triangles lie within a ball about the origin, at most; nothing
+/// where a vertex is not on the ball.
+std::optional<double> sag_in_ball(const model::Model& model, const model::Object& object,
+                                  double radius) {
+  const model::Body& body = model.bodies[object.first_body];
+  const auto& mesh = std::get<geometry::TriangleMesh>(model.shapes[index(body.shape)]);
+  double largest = 0;
+  for (const geometry::Triangle& t : mesh.triangles) {
+    Vec3d sum;
+    for (const std::uint32_t corner : t) {
+      const Vec3d at = body.placement * mesh.vertices[corner];
+      if (std::abs(std::sqrt(dot(at, at)) - radius) > 1e-6) return std::nullopt;
+      sum = sum + at;
+    }
+    largest = std::max(largest, radius - std::sqrt(dot(sum, sum)) / 3);
+  }
+  return largest;
+}
+
+TEST_F(StepImport, TrianglesAreAsNearToTheirSurfacesAsTheySay) {
+  for (const double sag_mm : {0.5, 0.1, 0.02}) {
+    const Import done = import(folder() / "curved.step", sag_mm);
+    ASSERT_TRUE(done.model) << done.model.error().text();
+    for (const model::Shape& shape : done.model->shapes)
+      EXPECT_EQ(std::get<geometry::TriangleMesh>(shape).sag_mm, sag_mm);
+    std::size_t balls = 0;
+    for (const model::Object& object : done.model->objects)
+      if (const auto sag = sag_in_ball(*done.model, object, 20)) {
+        EXPECT_LE(*sag, sag_mm);
+        ++balls;
+      }
+    EXPECT_EQ(balls, 1U);
+  }
+  const Import usual = import(folder() / "curved.step");
+  ASSERT_TRUE(usual.model);
+  for (const model::Object& object : usual.model->objects)
+    if (const auto sag = sag_in_ball(*usual.model, object, 20)) {
+      EXPECT_LE(*sag, std::sqrt(3.0) * 40 / 2000 * 1.001);
+    }
+}
+
+TEST_F(StepImport, TrianglesOfFlatFacesAreTheSurface) {
+  const Import rig = import(folder() / "rig.step");
+  ASSERT_TRUE(rig.model) << rig.model.error().text();
+  const auto sag_of = [&](const char* id) {
+    const model::Object* const object = find(*rig.model, id);
+    if (object == nullptr) return -1.0;
+    const model::ShapeId shape = rig.model->bodies[object->first_body].shape;
+    return std::get<geometry::TriangleMesh>(rig.model->shapes[index(shape)]).sag_mm;
+  };
+  EXPECT_EQ(sag_of("Rig/Plate"), 0);
+  EXPECT_EQ(sag_of("Rig/first/Angle"), 0);
+  EXPECT_GT(sag_of("Rig/Bolt"), 0);
+  EXPECT_LT(sag_of("Rig/Bolt"), 0.1);
+}
+
 TEST_F(StepImport, OfAPartThatIsAllEachSolidIsAnObject) {
   const Import done = import(folder() / "two_solids.step");
   ASSERT_TRUE(done.model) << done.model.error().text();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -155,6 +156,33 @@ TEST(GlbWriter, WritesColoursAndLines) {
   const json& indices = glb.document["accessors"][axis["indices"].get<std::size_t>()];
   EXPECT_EQ(indices["count"], 6);
   EXPECT_EQ(indices["componentType"], 5123);
+}
+
+TEST(GlbWriter, MeshesSayHowExactTheyAreWhereAllOfThemIsKnown) {
+  model::Model model;
+  geometry::TriangleMesh flat = test::box_mesh(1000, 1000, 1000), round = flat;
+  flat.sag_mm = 0;
+  round.sag_mm = 0.25;
+  const std::array<model::ShapeId, 3> shapes{test::add_shape(model, flat),
+                                             test::add_shape(model, round),
+                                             test::add_shape(model, test::box_mesh(1, 2, 3))};
+  geometry::Placement twice;
+  twice.linear.row = {{{2, 0, 0}, {0, 2, 0}, {0, 0, 2}}};
+  test::add_object(model, "flat", "flat");
+  test::add_body(model, shapes[0], {});
+  test::add_object(model, "both", "both");
+  test::add_body(model, shapes[0], {});
+  test::add_body(model, shapes[1], twice);
+  test::add_object(model, "one unknown", "one unknown");
+  test::add_body(model, shapes[1], {});
+  test::add_body(model, shapes[2], {});
+  const Glb glb = write_and_split(model);
+  const auto mesh_of = [&](const std::string& id) {
+    return glb.document["meshes"][node(glb, id)["mesh"].get<std::size_t>()];
+  };
+  EXPECT_EQ(mesh_of("flat")["extras"], json::parse(R"({"sag_mm": 0})"));
+  EXPECT_NEAR(mesh_of("both")["extras"]["sag_mm"].get<double>(), 0.5, 1e-9);
+  EXPECT_FALSE(mesh_of("one unknown").contains("extras"));
 }
 
 TEST(GlbWriter, UsesWideIndicesForLargeMeshes) {

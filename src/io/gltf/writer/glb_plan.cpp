@@ -102,7 +102,9 @@ Result<std::uint32_t> GlbPlanner::piece(const TessellatedShape& shape, const Pla
   piece.mesh = shape.mesh;
   piece.lines = shape.lines;
   piece.relative = relative;
-  piece.sag_mm = sag_mm * geometry::largest_scale(relative.linear);
+  piece.sag_mm = relative.linear == geometry::Mat3d{}
+                     ? sag_mm
+                     : sag_mm * geometry::largest_scale(relative.linear);
   piece.vertex_count = piece.vertices().size();
   piece.index_count =
       piece.mesh != nullptr ? 3 * piece.mesh->triangles.size() : index_count(*piece.lines);
