@@ -69,7 +69,11 @@ Status ClashPlanner::read_test() {
   clash::Tolerances& tolerances = options_.tolerances;
   if (!request.clearance.empty()) {
     Result<rules::WrittenClearance> written = rules::parse_clearance(request.clearance);
-    if (!written) return written.error();
+    if (!written) {
+      Error error = written.error();
+      error.where = "clearance";
+      return error;
+    }
     tolerances.clearance_mm = written->mm;
     clearance_attribute_ = std::move(written->attribute);
   }

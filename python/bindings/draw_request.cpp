@@ -94,7 +94,8 @@ Result<hlr::View> view_of(const DrawRequest& request) {
   const Result<geometry::Vec3l> direction = request.direction.empty()
                                                 ? drawing::direction_by_name(request.view)
                                                 : direction_of(request.direction, "direction");
-  if (!direction) return direction.error();
+  if (!direction)
+    return request.direction.empty() ? in_argument(direction.error(), "view") : direction.error();
   view.direction = *direction;
   if (const Status status = set_perspective(request, view); !status) return status.error();
   view.up = drawing::default_up(view.direction);

@@ -34,9 +34,14 @@ ModelPointer generate_model(std::string_view kind, std::uint64_t objects, std::u
       .seed = seed,
       .turned = turned,
       .kind = static_cast<generate::ShipKind>(found - generate::kShipKinds.begin())};
-  generate::Ship made = run(options, "generate", [&](const parallel::Context& context) {
-    return generate::generate_ship(ship, context);
-  });
+  generate::Ship made =
+      run(options, "generate", [&](const parallel::Context& context) -> Result<generate::Ship> {
+        Result<generate::Ship> ready = generate::generate_ship(ship, context);
+        if (ready || ready.error().where != "--objects") return ready;
+        Error error = ready.error();
+        error.where = "objects";
+        return error;
+      });
   return std::make_shared<LoadedModel>(std::move(made.model));
 }
 

@@ -26,7 +26,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from strake import _core
-from strake._arguments import PathLike, Progress, Selection, number, path, run_options, thread_count
+from strake._arguments import PathLike, Progress, Selection, number, path, run_options, shown, text, thread_count
 from strake._clash import Clashes, request_of
 from strake._errors import Error, InputError, OutputError, UsageError
 from strake._model import Model, read_arguments
@@ -233,6 +233,10 @@ def _runner(scheduler: Any) -> Iterator[_Runner]:
     if scheduler is None:
         yield _InThisProcess()
         return
+    if isinstance(scheduler, str):
+        text(scheduler, "scheduler")
+    elif not hasattr(scheduler, "submit") and not hasattr(scheduler, "scheduler_address"):
+        raise UsageError(f"{shown(scheduler)} is none", "scheduler", "give a Dask client, a Dask cluster or an address")
     try:
         from distributed import Client
     except ImportError as error:
@@ -240,7 +244,12 @@ def _runner(scheduler: Any) -> Iterator[_Runner]:
     if isinstance(scheduler, Client):
         yield _OnDask(scheduler)
         return
-    with Client(scheduler) as client:
+    try:
+        client = Client(scheduler)
+    except (OSError, ValueError) as error:
+        why = str(error) or type(error).__name__
+        raise UsageError(f"no scheduler answers: {why}", "scheduler", "start one, and give its address as tcp://HOST:8786") from error
+    with client:
         yield _OnDask(client)
 
 
@@ -250,10 +259,10 @@ def _bytes(memory: str | int) -> int:
         written = re.fullmatch(r"\s*([0-9.]+)\s*([A-Za-z]*)\s*", memory)
         unit = _UNITS.get(written[2].upper()) if written else None
         if written is None or unit is None or written[1].count(".") > 1 or written[1] == ".":
-            raise UsageError(f"{memory!r} is no amount of memory", "memory", "write one as '1GiB'")
+            raise UsageError(f"{shown(memory)} is no amount of memory", "memory", "write one as '1GiB'")
         size = float(written[1]) * unit
     else:
         size = number(memory, "memory")
     if size < _LEAST_MEMORY:
-        raise UsageError(f"{memory!r} is too little for a worker", "memory", f"give {_LEAST_MEMORY // 2**20}MiB or more")
+        raise UsageError(f"{shown(memory)} is too little for a worker", "memory", f"give {_LEAST_MEMORY // 2**20}MiB or more")
     return int(min(size, _MOST_MEMORY))

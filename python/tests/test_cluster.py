@@ -246,6 +246,12 @@ def test_the_documented_script(tmp_path: Path, ship: strake.Model) -> None:
     assert (tmp_path / "clashes.json").read_bytes() == bytes_of(strake.clash(ship, clearance=25), tmp_path, "whole.json")
 
 
+def test_a_scheduler_that_is_none(ship_file: Path) -> None:
+    pytest.importorskip("distributed")
+    with pytest.raises(strake.UsageError, match="no scheduler answers"):
+        strake.cluster.clash(ship_file, scheduler="tcp://127.0.0.1:1x")
+
+
 def test_without_dask(ship_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(ImportError, match=r"pip install 'strake\[cluster\]'"):

@@ -36,6 +36,7 @@ def calls(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Call, dic
     triangle = ("t", np.eye(3), [[0, 1, 2]])
     return {
         "clash": (strake.clash, {"model": model}),
+        "cluster.clash": (strake.cluster.clash, {"files": folder / "ship.glb"}),
         "draw": (strake.draw, {"model": model}),
         "load": (strake.load, {"files": folder / "ship.glb"}),
         "generate": (strake.generate, {"objects": 100}),
@@ -70,8 +71,12 @@ NAMES = [
     *("clash", "draw", "load", "generate", "evaluate", "run_program", "select", "mesh", "save", "from_arrays", "from_trimesh"),
     *("clashes.save", "clashes.table", "drawing.save", "sheet.read", "sheet.draw", "sheet.save", "project", "project.create"),
     *("project.add", "project.update", "project.remove", "project.clash", "project.list", "project.set_status"),
-    *("project.draw", "project.store_view", "project.model"),
+    *("project.draw", "project.store_view", "project.model", "cluster.clash"),
 ]
+
+
+def names_of(call: Call) -> list[str]:
+    return [name for name, one in inspect.signature(call).parameters.items() if one.kind != inspect.Parameter.VAR_KEYWORD]
 
 
 def call_with(call: Call, needed: dict[str, Any], name: str, value: Any) -> None:
@@ -84,7 +89,7 @@ def call_with(call: Call, needed: dict[str, Any], name: str, value: Any) -> None
 @pytest.mark.parametrize("function", NAMES)
 def test_what_has_no_sense_is_refused_by_its_name(calls: dict[str, tuple[Call, dict[str, Any]]], function: str) -> None:
     call, needed = calls[function]
-    for name in inspect.signature(call).parameters:
+    for name in names_of(call):
         for value in SENSELESS:
             if (function, name) == ("mesh", "i") and isinstance(value, int):
                 continue  # a number, of no object
@@ -100,18 +105,30 @@ def test_whatever_comes_the_error_is_one_that_can_be_foreseen(
     calls: dict[str, tuple[Call, dict[str, Any]]], function: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     call, needed = calls[function]
-    for name in inspect.signature(call).parameters:
+    for name in names_of(call):
         for number, value in enumerate(ODD):
             here = tmp_path / f"{name}{number}"
             here.mkdir()
             monkeypatch.chdir(here)
-            if (function, name) in (("project.create", "file"), ("evaluate", "scale")):
+            if (function, name) in (("project.create", "file"), ("evaluate", "scale"), ("cluster.clash", "scheduler")):
                 continue  # these may well be meant
             try:
                 call_with(call, needed, name, value)
             except (strake.Error, IndexError) as error:
                 assert "incompatible function" not in str(error)
                 assert "\n" not in str(error)
+
+
+def test_what_the_library_refuses_has_the_name_of_the_argument() -> None:
+    model = strake.generate(objects=100)
+    for where, call in (
+        ("view", lambda: strake.draw(model, "isoo")),
+        ("clearance", lambda: strake.clash(model, clearance="25")),
+        ("objects", lambda: strake.generate(objects=5)),
+    ):
+        with pytest.raises(strake.UsageError) as raised:
+            call()
+        assert raised.value.where == where
 
 
 def test_indices_that_are_none(calls: dict[str, tuple[Call, dict[str, Any]]]) -> None:

@@ -138,6 +138,24 @@ def test_how_far_triangles_are_from_their_surfaces(tmp_path: Path) -> None:
     assert sags == [0, 1, 1, None, 0, 1]
 
 
+def test_the_sag_that_is_asked_for_is_kept_and_stated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    model = IfcModel()
+    model.product("IfcWall", "flat", model.body(model.extrusion((4000, 200, 2500))))
+    model.product("IfcTank", "round", model.body(model.cylinder(500, 100)), (0, 9000, 0))
+    file = model.write(tmp_path / "a.ifc")
+    # The bracket of a contact is as wide as the surfaces are unknown.
+    triangles, widths = [], []
+    for sag in ("", "0.02mm", "5mm"):
+        monkeypatch.setenv("STRAKE_IMPORT_SAG", sag)
+        loaded = strake.load(file)
+        triangles.append([len(loaded.mesh(i)[1]) for i in sorted(range(2), key=lambda i: loaded.names[i])])
+        pair = strake.clash(loaded, clearance="20m", touch_gap=0)[0]
+        widths.append(round(pair.upper - pair.lower, 2))
+    assert [flat for flat, _ in triangles] == [12, 12, 12]
+    assert triangles[1][1] > 2 * triangles[0][1] > 2 * triangles[2][1]
+    assert widths == [2, 0.04, 10]  # as far on both sides
+
+
 def test_the_note_of_an_unknown_sag_goes_where_it_is_known(tmp_path: Path) -> None:
     for name, facets in (("known.ifc", False), ("unknown.ifc", True)):
         model = IfcModel()
