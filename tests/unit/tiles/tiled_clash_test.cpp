@@ -93,7 +93,7 @@ struct Request {
 /// A run over files that were generated, whole and by tiles.
 class TiledRun {
  public:
-  explicit TiledRun(std::vector<std::uint64_t> seeds, Request request = {})
+  explicit TiledRun(const std::vector<std::uint64_t>& seeds, Request request = {})
       : request_(std::move(request)) {
     for (const std::uint64_t seed : seeds) {
       const auto ship = generate::generate_ship({.objects = 700, .seed = seed}, {}).value();
@@ -204,7 +204,7 @@ void expect_same(const clash::Findings& whole, const clash::Findings& tiled) {
 
 TEST(TiledClash, finds_what_is_found_in_the_whole_model) {
   for (const bool counts : {false, true}) {
-    TiledRun files({1, 2}, {.rules = kRules, .counts_contacts = counts});
+    const TiledRun files({1, 2}, {.rules = kRules, .counts_contacts = counts});
     const clash::Findings whole = files.whole();
     std::size_t pairs = 0;
     for (const clash::Report& report : whole.tests) pairs += report.pairs.size();
@@ -219,7 +219,7 @@ TEST(TiledClash, finds_what_is_found_in_the_whole_model) {
 }
 
 TEST(TiledClash, tells_of_tiles_and_results_that_are_lost) {
-  TiledRun files({3});
+  const TiledRun files({3});
   const CutRun run = files.cut(200'000);
   const auto found = files.found(run);
   ASSERT_GT(found.size(), 2U);
