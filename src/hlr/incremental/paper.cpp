@@ -16,8 +16,6 @@ namespace {
 using geometry::Box3l;
 using geometry::Vec3l;
 
-// Beyond 2^52 a double holds view coordinates only roughly: then the line of a segment is left out.
-constexpr std::int64_t kHeldByDouble = std::int64_t{1} << 52;
 /// Coordinates on paper stay below this: see prepare_view().
 constexpr double kFarthest = 1152921504606846976.0;  // 2^60
 
@@ -106,14 +104,7 @@ SegmentQuery Paper::orthographic(const ViewPoint& a, const ViewPoint& b) const {
   ViewBox box;
   box.include(a);
   box.include(b);
-  SegmentQuery query = anything_in(box);
-  query.au = static_cast<double>(a.u);
-  query.av = static_cast<double>(a.v);
-  if (std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < kHeldByDouble) {
-    query.du = static_cast<double>(b.u - a.u);
-    query.dv = static_cast<double>(b.v - a.v);
-  }
-  return query;
+  return on_segment(a, b, box);
 }
 
 Hideable::Hideable(std::vector<SegmentQuery> queries) : queries_(std::move(queries)) {

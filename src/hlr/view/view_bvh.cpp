@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 
@@ -74,6 +75,17 @@ SegmentQuery anything_in(const ViewBox& box) {
   query.v1 = loose.v1;
   const auto deepest = static_cast<double>(box.lo.w);
   query.w0 = deepest - kRoundingShare * std::abs(deepest);
+  return query;
+}
+
+SegmentQuery on_segment(const ViewPoint& a, const ViewPoint& b, const ViewBox& box) {
+  SegmentQuery query = anything_in(box);
+  query.au = static_cast<double>(a.u);
+  query.av = static_cast<double>(a.v);
+  if (std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < kExactInDouble) {
+    query.du = static_cast<double>(b.u - a.u);
+    query.dv = static_cast<double>(b.v - a.v);
+  }
   return query;
 }
 

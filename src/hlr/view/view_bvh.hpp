@@ -41,6 +41,13 @@ struct SegmentQuery {
 /// Returns a query for what may hide anything in a box.
 [[nodiscard]] SegmentQuery anything_in(const ViewBox& box);
 
+/// Coordinates on paper up to this one are doubles exactly, and so are their differences.
+inline constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
+
+/// Returns a query for what may hide that part of the segment from a to b which lies in the box.
+/// Where coordinates are too large for doubles to have its line, the box alone decides.
+[[nodiscard]] SegmentQuery on_segment(const ViewPoint& a, const ViewPoint& b, const ViewBox& box);
+
 /// A bounding-volume hierarchy over view boxes, traversed front to back where that has a meaning.
 class ViewBvh {
  public:

@@ -373,7 +373,7 @@ void OccluderGatherer::find_open_part() {
     return;
   }
   open_box_ = open_box(edge_.va, edge_.vb, open_);
-  segment_ = open_query(edge_.va, edge_.vb, open_box_);
+  segment_ = on_segment(edge_.va, edge_.vb, open_box_);
   local_.box = {open_box_.lo - local_at_, open_box_.hi - local_at_};
 }
 
@@ -423,7 +423,7 @@ SegmentQuery OccluderGatherer::make_perspective_query() const {
 
 SegmentQuery OccluderGatherer::make_query() const {
   return visibility_.perspective_map ? make_perspective_query()
-                                     : open_query(local_.va, local_.vb, local_.box);
+                                     : on_segment(local_.va, local_.vb, local_.box);
 }
 
 SegmentQuery OccluderGatherer::make_query(const PaperRotation& turn) const {

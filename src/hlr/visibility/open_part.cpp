@@ -9,8 +9,6 @@
 namespace strake::hlr {
 namespace {
 
-// Beyond 2^52 a double holds view coordinates only roughly: the line test of a query is left out.
-constexpr std::int64_t kExactInDouble = std::int64_t{1} << 52;
 /// The rounding of a point between two ends is far below this fraction of their coordinates.
 constexpr double kRoundingOfPoint = 1e-12;
 
@@ -56,17 +54,6 @@ ViewBox open_box(const ViewPoint& a, const ViewPoint& b, const OpenRange& open) 
     v = to_meet(v, dv != 0, du > 0, open);
   }
   return {{u.lo, v.lo, w.lo}, {u.hi, v.hi, w.hi}};
-}
-
-SegmentQuery open_query(const ViewPoint& a, const ViewPoint& b, const ViewBox& box) {
-  SegmentQuery s = anything_in(box);
-  s.au = static_cast<double>(a.u);
-  s.av = static_cast<double>(a.v);
-  if (std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < kExactInDouble) {
-    s.du = static_cast<double>(b.u - a.u);
-    s.dv = static_cast<double>(b.v - a.v);
-  }
-  return s;
 }
 
 SegmentQuery turned_query(const ViewPoint& a, const ViewPoint& b, const OpenRange& open,

@@ -15,9 +15,6 @@ namespace strake::hlr {
 /// is open on one side only it is a unit farther on that side.
 [[nodiscard]] ViewBox open_box(const ViewPoint& a, const ViewPoint& b, const OpenRange& open);
 
-/// Returns the query for what may hide the part of the edge in an open_box().
-[[nodiscard]] SegmentQuery open_query(const ViewPoint& a, const ViewPoint& b, const ViewBox& box);
-
 /// Returns the query for what may hide the open part of an edge in boxes that are turned.
 [[nodiscard]] SegmentQuery turned_query(const ViewPoint& a, const ViewPoint& b,
                                         const OpenRange& open, const PaperRotation& turn);

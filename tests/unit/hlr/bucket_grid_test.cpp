@@ -122,7 +122,7 @@ TEST(BucketGrid, MeetWhatMayHideTheOpenPartOfAnEdge) {
       const auto to = from + 1 + static_cast<int>(random.below(7));
       const OpenRange open(RationalParam::of(from, 23), RationalParam::of(to, 23));
       std::vector<bool> seen(boxes.size());
-      buckets.traverse(open_query(a, b, open_box(a, b, open)), marks, [&](std::uint32_t i) {
+      buckets.traverse(on_segment(a, b, open_box(a, b, open)), marks, [&](std::uint32_t i) {
         seen[i] = true;
         return true;
       });
