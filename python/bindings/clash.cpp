@@ -13,13 +13,12 @@
 #include <utility>
 
 #include "clash/results/clash_key.hpp"
-#include "core/output_format.hpp"
+#include "publish/clash_formats.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
 #include "python/bindings/clash_rows.hpp"
 #include "python/bindings/diagnostics.hpp"
 #include "python/bindings/run.hpp"
-#include "report/report_writers.hpp"
 #include "strake/core/atomic_file.hpp"
 
 namespace nb = nanobind;
@@ -103,7 +102,7 @@ std::string key_of(const RunPointer& run, std::uint32_t test, std::uint32_t a, s
 /// Writes as the suffix of the path asks for.
 void save(const RunPointer& run, const std::filesystem::path& path,
           const std::vector<std::string>& columns, const RunOptions& options) {
-  const auto writer = value_or_raise(find_writer(report::clash_writers(), path.string()));
+  const auto writer = value_or_raise(publish::find_clash_writer(path.string()));
   run_status(options, "write", [&](const parallel::Context& context) -> Status {
     report::ClashContents contents = run->contents();
     contents.columns = columns;

@@ -39,6 +39,7 @@ struct ClashRun {
   std::optional<report::RulesSource> rules;
   report::WrittenClasses classes;
   Diagnostics loading;
+  std::shared_ptr<const model::Scene> scene = nullptr;  ///< null where no process has all of it
 
   [[nodiscard]] report::ClashContents contents() const {
     return {.findings = findings,
@@ -46,7 +47,8 @@ struct ClashRun {
             .grouping = grouping ? &*grouping : nullptr,
             .rules = rules ? &*rules : nullptr,
             .loading = &loading,
-            .classes = classes};
+            .classes = classes,
+            .scene = scene.get()};
   }
 };
 

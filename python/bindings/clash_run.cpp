@@ -79,7 +79,9 @@ Result<std::shared_ptr<ClashRun>> find_clashes(const ModelPointer& model,
   if (!findings) return findings.error();
   Diagnostics loading = model->model().diagnostics;
   loading.append((*scene)->diagnostics);
-  return run_of(model, request, *planner, std::move(*findings), std::move(loading));
+  auto run = run_of(model, request, *planner, std::move(*findings), std::move(loading));
+  if (run) (*run)->scene = *scene;
+  return run;
 }
 
 }  // namespace strake::python

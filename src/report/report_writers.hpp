@@ -14,7 +14,7 @@ namespace strake::report {
 /// One format that clash results are written in.
 struct ClashWriter {
   OutputFormat format;
-  /// Errors: cancelled.
+  /// Errors: cancelled, out of memory; usage where it needs what the contents lack.
   Status (*write)(const ClashContents& contents, Sink sink, const parallel::Context& context);
 };
 

@@ -28,7 +28,7 @@
 #include "cli/verbs/clash/clash_sets.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
-#include "report/report_writers.hpp"
+#include "publish/clash_formats.hpp"
 #include "rules/clearances.hpp"
 #include "strake/report/clash.hpp"
 #include "strake/rules/rules.hpp"
@@ -149,7 +149,7 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
 Status write_files(Session& session, const ClashOptions& given,
                    const report::ClashContents& contents) {
   for (const std::string& file : given.outputs) {
-    const Result<report::ClashWriter> writer = find_writer(report::clash_writers(), file);
+    const Result<report::ClashWriter> writer = publish::find_clash_writer(file);
     if (!writer) return writer.error();
     const Status status = session.write(
         file, [&](Session::Sink sink) { return writer->write(contents, sink, session.context()); });
@@ -314,8 +314,7 @@ Status name_files(Session& session, const ClashOptions& given) {
   if (!given.decisions.file.empty() && !given.decisions.write)
     if (Status status = files.add_input(given.decisions.file); !status) return status;
   constexpr std::array<OutputFormat, 1> kTables{{{".csv"}}};
-  if (Status status = files.add_outputs(given.outputs, formats_of(report::clash_writers()));
-      !status)
+  if (Status status = files.add_outputs(given.outputs, publish::clash_formats()); !status)
     return status;
   if (given.decisions.write)
     if (Status status = files.add_output("--decisions", given.decisions.file, kTables); !status)
@@ -374,7 +373,8 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
                                        request.output.columns,
                                        request.output.csv,
                                        request.output.classes,
-                                       decided};
+                                       decided,
+                                       &loaded.scene};
   if (const Status status = write_files(session, given, contents); !status) return status;
   // A run whose files cannot be written is found again by the next one. Whoever reads standard
   // output may take long, for which no other program is to wait.
@@ -486,9 +486,9 @@ void add_rules_file(CLI::App& command, ClashOptions& options) {
   for (const char* const name : {"--thickness-cap", "--contact-distance", "--a", "--b", "--self"})
     rules->excludes(command.get_option(name));
   command
-      .add_flag("--list-exempted", options.list_exempted,
-                "List the pairs that rules exempt, in " +
-                    list_suffixes(formats_of(report::clash_writers()), "and"))
+      .add_flag(
+          "--list-exempted", options.list_exempted,
+          "List the pairs that rules exempt, in " + list_suffixes(publish::clash_formats(), "and"))
       ->group("Rules");
   add_profile_option(command, options.profile);
 }
@@ -565,7 +565,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
                                clash::EngineOptions{}.most_pairs))
       ->type_name("N")
       ->group("Running");
-  add_output_option(*command, options->outputs, "Result", formats_of(report::clash_writers()));
+  add_output_option(*command, options->outputs, "Result", publish::clash_formats());
   add_distribution_option(*command, common);
   add_common_options(*command, common);
   command->footer(R"(

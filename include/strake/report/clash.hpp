@@ -12,6 +12,7 @@
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
+#include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
 #include "strake/parallel/detail/function_ref.hpp"
 
@@ -80,6 +81,8 @@ struct ClashContents {
   WrittenClasses classes = {};
   /// The decisions about these findings, if there are any. The table leaves out what they settle.
   const DecidedResults* decided = nullptr;
+  /// The model on the grid, as it was tested: for what shows it, as pictures do.
+  const model::Scene* scene = nullptr;
 };
 
 /// Writes the document of schemas/clash.schema.json, one result a line, streamed: memory does not
