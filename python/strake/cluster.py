@@ -15,6 +15,7 @@ scheduler they run one after the other in this process.
 
 from __future__ import annotations
 
+import inspect
 import re
 import shutil
 import tempfile
@@ -134,6 +135,9 @@ def clash(
     for name, some in (("a", a), ("b", b)):
         if isinstance(some, np.ndarray):
             raise UsageError("an array needs a model that is held", name, "give selections")
+    for name in test:
+        if name not in inspect.signature(request_of).parameters:
+            raise TypeError(f"clash() has no argument {name!r}")
     request = request_of(0, a, b, **test)
     options = run_options(threads, progress)
     arguments = read_arguments(files, unit, up_axis)

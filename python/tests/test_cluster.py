@@ -211,7 +211,7 @@ def test_what_makes_no_sense(tmp_path: Path, ship: strake.Model, ship_file: Path
         strake.cluster.clash(ship_file, memory="1MiB")
     with pytest.raises(strake.UsageError, match="selections"):
         strake.cluster.clash(ship_file, ship.select("PIP*"))  # type: ignore[arg-type]
-    with pytest.raises(TypeError):
+    with pytest.raises(TypeError, match="no argument 'clearence'"):
         strake.cluster.clash(ship_file, clearence=25)
     with pytest.raises(strake.UsageError, match="worker_threads"):
         strake.cluster.clash(ship_file, worker_threads=0)
