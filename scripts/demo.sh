@@ -4,8 +4,9 @@
 set -euo pipefail
 . scripts/common.sh
 need build demo
-configure_and_build release strake
-strake=build/release/bin/strake
+# The first answer is what counts here: compiled so, the program is there in two thirds of the time.
+configure_and_build quick strake
+strake=build/quick/bin/strake
 out=build/demo
 mkdir -p "$out"
 say "a ship section of 1,200 objects"
