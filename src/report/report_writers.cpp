@@ -7,8 +7,9 @@ namespace strake::report {
 namespace {
 
 constexpr std::array kClashWriters{
-    ClashWriter{{".json", " as {}"}, write_clash_json},
-    ClashWriter{{".csv", " or {}"}, write_clash_csv},
+    ClashWriter{{".json", " as {}"}, write_clash_json, true},
+    ClashWriter{{".csv", " or {}"}, write_clash_csv, true},
+    ClashWriter{{".xml", ", for Navisworks and others as {}"}, write_clash_xml, true},
 };
 
 constexpr std::array kClashDiffWriters{

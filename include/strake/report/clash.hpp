@@ -96,6 +96,13 @@ struct ClashContents {
 [[nodiscard]] Status write_clash_csv(const ClashContents& contents, Sink sink,
                                      const parallel::Context& context = {});
 
+/// Writes what programs for clash review exchange: the XML that Navisworks writes of its clash tests
+/// (`exchange`, schema nw-exchange-12.0), in millimetres, depths as negative distances, with GUIDs
+/// that stay from run to run and the groups of the grouping. Results that a rule allows are left
+/// out; what came back after a decision is `active`. Control characters in names become U+FFFD.
+[[nodiscard]] Status write_clash_xml(const ClashContents& contents, Sink sink,
+                                     const parallel::Context& context = {});
+
 /// Writes every pair of objects that went to the narrow phase as CSV of the same form: whether a
 /// rule may allow it, its class (NO_HIT too) and what it cost. Only tests that were asked to log
 /// pairs have such pairs.
