@@ -103,6 +103,14 @@ struct ClashContents {
 [[nodiscard]] Status write_clash_xml(const ClashContents& contents, Sink sink,
                                      const parallel::Context& context = {});
 
+/// Writes results as ifcclash of IfcOpenShell has them: a list of sets, each with its clashes under
+/// "GUID-GUID", in metres. A test becomes a set of its HITs (`intersection`), and where it has such
+/// results one of its contacts (`collision`) and one of its clearance violations (`clearance`).
+/// Distances are without a sign, as there: that of a HIT is its depth. Results that a rule allows
+/// are left out.
+[[nodiscard]] Status write_ifcclash_json(const ClashContents& contents, Sink sink,
+                                         const parallel::Context& context = {});
+
 /// Writes every pair of objects that went to the narrow phase as CSV of the same form: whether a
 /// rule may allow it, its class (NO_HIT too) and what it cost. Only tests that were asked to log
 /// pairs have such pairs.
