@@ -22,18 +22,6 @@ constexpr std::array kLogColumns{
     "class",      "cost",           "part_pairs",      "repeated_part_pairs",
     "node_pairs", "triangle_pairs", "exact_fallbacks", "depth_cells"};
 
-/// Begins the file: the mark, if there is one, and the names of the columns.
-template <class Names>
-void begin(std::string& out, const CsvForm& form, const Names& names,
-           const std::vector<std::string>& attributes) {
-  if (form.mark) out += "\xEF\xBB\xBF";
-  CsvRow row(out, form);
-  for (const char* const name : names) row.word(name);
-  for (const std::string& attribute : attributes)
-    for (const char* const side : {"a_@", "b_@"}) row.text(side + attribute);
-  row.end();
-}
-
 }  // namespace
 
 Status write_clash_csv(const ClashContents& contents, Sink sink, const parallel::Context& context) {
@@ -42,7 +30,7 @@ Status write_clash_csv(const ClashContents& contents, Sink sink, const parallel:
   std::vector<const char*> columns(kResultColumns.begin(), kResultColumns.end());
   const bool decided = contents.decided != nullptr;
   if (decided) columns.insert(columns.end(), kDecidedColumns.begin(), kDecidedColumns.end());
-  begin(buffer.text(), contents.csv, columns, contents.columns);
+  begin_csv(buffer.text(), contents.csv, columns, contents.columns);
   for (std::size_t t = 0; t < contents.findings.tests.size(); ++t) {
     const clash::Report& test = contents.findings.tests[t];
     const Status pairs =
@@ -85,7 +73,7 @@ void line(std::string& out, const ClashContents& contents, const clash::Report& 
 
 Status write_pair_log(const ClashContents& contents, Sink sink, const parallel::Context& context) {
   BufferedWriter buffer(sink);
-  begin(buffer.text(), contents.csv, kLogColumns, {});
+  begin_csv(buffer.text(), contents.csv, kLogColumns, {});
   for (const clash::Report& test : contents.findings.tests) {
     const Status status = write_lines(
         context, test.log.size(), buffer,
