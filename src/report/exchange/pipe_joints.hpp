@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "report/clash/clash_row.hpp"
+#include "report/exchange/clash_row.hpp"
 #include "strake/clash/group.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"

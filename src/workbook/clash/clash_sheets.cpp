@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "clash/results/clash_key.hpp"
-#include "report/clash/clash_row.hpp"
+#include "report/exchange/clash_row.hpp"
 #include "report/text/formatting.hpp"
 
 namespace strake::workbook {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
-#include "report/clash/clash_row.hpp"
+#include "report/exchange/clash_row.hpp"
 #include "strake/report/decisions.hpp"
 
 namespace strake::workbook {

@@ -31,6 +31,7 @@ void append_piece(std::string& out, const DeflatedPiece& piece);
 /// archives. Sizes stand behind each file, for they are not known before.
 class ZipWriter {
  public:
+  /// The sink must outlast the writer.
   explicit ZipWriter(report::Sink sink) : sink_(sink) {}
 
   /// Begins a file, whose pieces follow; names are ASCII, with '/' between folders.

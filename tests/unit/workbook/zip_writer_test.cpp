@@ -13,7 +13,8 @@ namespace {
 
 TEST(ZipWriter, PiecesMakeTheFileThatTheyArePiecesOf) {
   std::string zip;
-  ZipWriter writer([&](std::string_view bytes) { zip += bytes; });
+  auto append = [&](std::string_view bytes) { zip += bytes; };
+  ZipWriter writer(append);
   std::string whole;
   for (std::size_t i = 0; i < 5000; ++i) whole += std::to_string(i * i) + (i % 3 == 0 ? "\n" : " ");
   ASSERT_TRUE(writer.add_file("a/first.txt", "first"));
@@ -38,7 +39,8 @@ TEST(ZipWriter, PiecesMakeTheFileThatTheyArePiecesOf) {
 
 TEST(ZipWriter, AFileOfFourGibibytesIsAnError) {
   std::string zip;
-  ZipWriter writer([&](std::string_view bytes) { zip += bytes; });
+  auto append = [&](std::string_view bytes) { zip += bytes; };
+  ZipWriter writer(append);
   const Result<DeflatedPiece> piece = deflate_piece(std::string(1U << 20U, ' '));
   ASSERT_TRUE(piece);
   writer.begin("large");

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "report/clash/clash_row.hpp"
 #include "report/clash/group_numbers.hpp"
+#include "report/exchange/clash_row.hpp"
 #include "report/text/csv.hpp"
 #include "report/text/formatting.hpp"
 #include "report/text/ordered_lines.hpp"
