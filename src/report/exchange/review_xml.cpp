@@ -72,12 +72,12 @@ void clash_point(std::string& out, const geometry::Vec3d& mm) {
   out += "/></clashpoint>";
 }
 
-std::string without_zero(std::string number) {
+std::string_view without_zero(std::string_view number) {
   return number.starts_with('0') ? number.substr(1) : number;
 }
 
 /// Appends a day, which decisions have as 2026-01-31, in an element of another name.
-void xml_date(std::string& out, std::string_view name, const std::string& day) {
+void xml_date(std::string& out, std::string_view name, std::string_view day) {
   if (day.size() != 10) return;
   out.append("<").append(name).append("><date");
   xml_attribute(out, "year", day.substr(0, 4));

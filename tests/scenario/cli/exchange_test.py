@@ -4,8 +4,6 @@
 import csv
 import io
 import json
-import resource
-import signal
 import uuid
 import xml.etree.ElementTree as ElementTree
 
@@ -158,19 +156,6 @@ class Exchange(RowProject):
         one = self.bytes_of('--threads', 1)
         for threads in 2, 3, 8:
             self.assertEqual(self.bytes_of('--threads', threads), one)
-
-    def test_a_full_disk_leaves_no_file(self):
-        self.ship(files=())
-
-        def little_room():
-            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-            resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
-
-        for name in FORMATS:
-            done = self.run_strake('clash', 'ship.glb', '-o', name, preexec_fn=little_room)
-            self.assertNotEqual(done.returncode, 0, name)
-            self.assertIn(name, done.stderr)
-        self.assertEqual(self.files(), ['row.obj', 'ship.glb', 'ship.strake'])
 
 
 if __name__ == '__main__':

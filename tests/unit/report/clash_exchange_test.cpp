@@ -189,7 +189,7 @@ TEST(IfcclashJson, ATestWithoutHitsIsASetWithoutClashes) {
 TEST(ClashExchange, ACancelledRunIsAnError) {
   const ClashModel m = row_of_boxes();
   const clash::Findings findings = findings_of(m);
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   const parallel::Context context{.stop = stop.get_token()};
   for (const auto write : {write_clash_xml, write_ifcclash_json}) {

@@ -136,7 +136,7 @@ TEST(ClashWorkbook, RowsThatASheetCannotHaveStandOnFurtherOnes) {
 TEST(ClashWorkbook, ACancelledRunIsAnError) {
   const ClashModel m = row_of_boxes();
   const clash::Findings findings = findings_of(m);
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   const Status status = write_clash_workbook({findings, m.model}, [](std::string_view) {},
                                              {.stop = stop.get_token()});
