@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import enum
 import html
+import os
+import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
@@ -29,12 +32,15 @@ from strake._arguments import (
     texts,
     truth,
 )
-from strake._errors import UsageError
+from strake._errors import OutputError, UsageError
 from strake._model import Diagnostic, Model, _position, model_core
 
 if TYPE_CHECKING:
     import pandas
     import pyarrow
+
+# Rows that a Parquet file gets at once: a row group of it.
+_ROWS_AT_ONCE = 131_072
 
 
 class Kind(enum.IntEnum):
@@ -223,7 +229,8 @@ class Clashes(Sequence[Clash]):
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> None:
-        """Writes .json (schemas/clash.schema.json) or .csv, the bytes that the program writes, whole or not at all.
+        """Writes .json (schemas/clash.schema.json), .csv or another format of the program, the bytes that it writes, whole or
+        not at all.
 
         `columns` are attributes of both objects that are written, too, as "DN" or "@DN". Raises: UsageError, OutputError.
         """
@@ -234,13 +241,7 @@ class Clashes(Sequence[Clash]):
     def columns(self) -> dict[str, npt.NDArray[Any]]:
         """Returns flat columns by name: those of `array`, points split in x, y, z, with ids and names of both objects."""
         rows = self.array
-        flat: dict[str, npt.NDArray[Any]] = {}
-        for field in rows.dtype.names or ():
-            if rows[field].ndim == 1:
-                flat[field] = rows[field]
-            else:
-                for k, axis in enumerate("xyz"):
-                    flat[f"{field}_{axis}"] = rows[field][:, k]
+        flat = _flat(rows)
         for side in ("a", "b"):
             flat[f"{side}_id"] = self.model.ids[rows[side]]
             flat[f"{side}_name"] = self.model.names[rows[side]]
@@ -265,23 +266,76 @@ class Clashes(Sequence[Clash]):
         return pandas.DataFrame(columns)
 
     def to_arrow(self) -> pyarrow.Table:
-        """Returns an Arrow table with columns(); test, kind and relation are dictionaries.
+        """Returns an Arrow table with columns(); test, kind, relation, ids and names are dictionaries.
 
         Raises: ImportError where pyarrow is not installed.
         """
         try:
             import pyarrow
         except ImportError as error:
-            raise ImportError("Clashes.to_arrow() needs pyarrow: pip install pyarrow") from error
-        columns: dict[str, Any] = {name: pyarrow.array(values) for name, values in self.columns().items()}
-        for name, words in (
-            ("test", self.tests),
-            ("kind", [kind.name for kind in Kind]),
-            ("relation", [relation.name for relation in Relation]),
-        ):
-            codes = pyarrow.array(self.array[name].astype(np.int32))
-            columns[name] = pyarrow.DictionaryArray.from_arrays(codes, words)
-        return pyarrow.table(columns)
+            raise ImportError("Clashes.to_arrow() needs pyarrow: pip install 'strake[arrow]'") from error
+        return pyarrow.table(self._arrow_columns(slice(None)))
+
+    def to_parquet(self, path_to: PathLike) -> None:
+        """Writes the table of to_arrow() as a Parquet file, some rows at once: for the millions. Whole or not at all.
+
+        Names stand in it once, however many rows have them. Raises: UsageError, OutputError; ImportError where pyarrow is
+        not installed.
+        """
+        try:
+            import pyarrow
+            import pyarrow.parquet
+        except ImportError as error:
+            raise ImportError("Clashes.to_parquet() needs pyarrow: pip install 'strake[arrow]'") from error
+        final = path(path_to, "path_to")
+        first = pyarrow.table(self._arrow_columns(slice(0, _ROWS_AT_ONCE)))
+        try:
+            with tempfile.NamedTemporaryFile(dir=final.parent, suffix=".parquet", delete=False) as made:
+                part = made.name
+            try:
+                with pyarrow.parquet.ParquetWriter(part, first.schema, compression="zstd") as writer:
+                    writer.write_table(first)
+                    for begin in range(_ROWS_AT_ONCE, len(self), _ROWS_AT_ONCE):
+                        writer.write_table(pyarrow.table(self._arrow_columns(slice(begin, begin + _ROWS_AT_ONCE))))
+                os.replace(part, final)
+            finally:
+                with contextlib.suppress(FileNotFoundError):
+                    os.remove(part)
+        except OSError as error:
+            raise OutputError(f"cannot be written: {error.strerror or error}", str(final)) from error
+
+    def _arrow_columns(self, which: slice) -> dict[str, Any]:
+        """Returns some rows of columns() as Arrow arrays; words, ids and names as dictionaries."""
+        import pyarrow
+
+        rows = self.array[which]
+        columns: dict[str, Any] = {}
+        for name, values in _flat(rows).items():
+            columns[name] = pyarrow.array(values)
+        words: dict[str, tuple[str, Any]] = {
+            "test": ("test", self.tests),
+            "kind": ("kind", [kind.name for kind in Kind]),
+            "relation": ("relation", [relation.name for relation in Relation]),
+        }
+        for side in ("a", "b"):
+            words[f"{side}_id"] = (side, self.model.ids)
+            words[f"{side}_name"] = (side, self.model.names)
+        for name, (field, texts_of) in words.items():
+            codes = pyarrow.array(rows[field].astype(np.int32))
+            columns[name] = pyarrow.DictionaryArray.from_arrays(codes, pyarrow.array(texts_of, pyarrow.string()))
+        return columns
+
+
+def _flat(rows: npt.NDArray[Any]) -> dict[str, npt.NDArray[Any]]:
+    """Returns the fields of rows, points split in x, y, z."""
+    flat: dict[str, npt.NDArray[Any]] = {}
+    for field in rows.dtype.names or ():
+        if rows[field].ndim == 1:
+            flat[field] = rows[field]
+        else:
+            for k, axis in enumerate("xyz"):
+                flat[f"{field}_{axis}"] = rows[field][:, k]
+    return flat
 
 
 def _cells(one: Clash) -> Iterator[str]:

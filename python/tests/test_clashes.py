@@ -89,6 +89,24 @@ def test_arrow_tables(clashes: strake.Clashes) -> None:
     assert table.num_rows == len(clashes)
     assert table["kind"][5].as_py() == clashes[5].kind.name
     assert table["b_id"][5].as_py() == clashes[5].b_id
+    assert table["point_z"][5].as_py() == clashes[5].point[2]
+
+
+def test_parquet_files(clashes: strake.Clashes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("pyarrow")
+    import pyarrow.parquet
+
+    file = tmp_path / "clashes.parquet"
+    clashes.to_parquet(file)
+    rows = repr(clashes.to_arrow().to_pylist())
+    assert repr(pyarrow.parquet.read_table(file).to_pylist()) == rows
+    monkeypatch.setattr("strake._clash._ROWS_AT_ONCE", 7)
+    clashes.to_parquet(tmp_path / "some.parquet")
+    assert pyarrow.parquet.ParquetFile(tmp_path / "some.parquet").num_row_groups == -(-len(clashes) // 7)
+    assert repr(pyarrow.parquet.read_table(tmp_path / "some.parquet").to_pylist()) == rows
+    with pytest.raises(strake.OutputError):
+        clashes.to_parquet(tmp_path / "none" / "x.parquet")
+    assert sorted(made.name for made in tmp_path.iterdir()) == ["clashes.parquet", "some.parquet"]
 
 
 def test_what_is_not_installed_is_named(clashes: strake.Clashes, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -102,7 +120,8 @@ def test_what_is_not_installed_is_named(clashes: strake.Clashes, monkeypatch: py
     monkeypatch.setattr(builtins, "__import__", without)
     for call, name in (
         (clashes.to_pandas, "pandas"),
-        (clashes.to_arrow, "pyarrow"),
+        (clashes.to_arrow, r"'strake\[arrow\]'"),
+        (lambda: clashes.to_parquet("x.parquet"), r"'strake\[arrow\]'"),
         (clashes.model.to_trimesh, "trimesh"),
     ):
         with pytest.raises(ImportError, match=f"pip install {name}"):

@@ -2,6 +2,7 @@
 #include "core/output_format.hpp"
 
 #include <filesystem>
+#include <optional>
 
 #include "core/text_encoding.hpp"
 
@@ -12,9 +13,14 @@ std::string suffix_of(const std::string& file) {
 }
 
 Result<std::size_t> format_number(std::span<const OutputFormat> formats, const std::string& file) {
-  const std::string suffix = suffix_of(file);
-  for (std::size_t i = 0; i < formats.size(); ++i)
-    if (formats[i].suffix == suffix) return i;
+  const std::string name = lowered(std::filesystem::path(file).filename().string());
+  std::optional<std::size_t> longest;
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    const std::string_view suffix = formats[i].suffix;
+    if (name.size() <= suffix.size() || !name.ends_with(suffix)) continue;
+    if (!longest || suffix.size() > formats[*longest].suffix.size()) longest = i;
+  }
+  if (longest) return *longest;
   return Error{ErrorCode::usage,
                "the format of '" + file + "' is not known",
                {},

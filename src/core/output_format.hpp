@@ -11,12 +11,13 @@
 
 /// Each kind of output (drawings, clash results, models ...) has one table of writers. A row is a
 /// struct with a member `format` and a function that writes; the suffix of a file's name picks the
-/// row. Help and errors are made from the table, so a new format is one row and what writes it.
+/// row, the longest that fits: a table may have ".json" and ".ifcclash.json". Help and errors are
+/// made from the table, so a new format is one row and what writes it.
 namespace strake {
 
 /// What a table says of one format.
 struct OutputFormat {
-  std::string_view suffix;  ///< in lower case, with its dot: ".svg"
+  std::string_view suffix;  ///< in lower case, with its dots: ".svg"
   /// How the format continues the help on outputs, "{}" for its suffix: ", or a picture as {}".
   std::string_view help = {};
 };

@@ -3,12 +3,17 @@
 
 #include <span>
 
+#include "workbook/workbook_writers.hpp"
+
 namespace strake::publish {
 namespace {
 
 std::vector<report::ClashWriter> clash_writers() {
-  const std::span<const report::ClashWriter> texts = report::clash_writers();
-  return {texts.begin(), texts.end()};
+  std::vector<report::ClashWriter> all;
+  for (const std::span<const report::ClashWriter> table :
+       {report::clash_writers(), workbook::clash_writers()})
+    all.insert(all.end(), table.begin(), table.end());
+  return all;
 }
 
 }  // namespace

@@ -7,8 +7,11 @@ namespace strake::report {
 namespace {
 
 constexpr std::array kClashWriters{
-    ClashWriter{{".json", " as {}"}, write_clash_json},
-    ClashWriter{{".csv", " or {}"}, write_clash_csv},
+    ClashWriter{{".json", " as {}"}, write_clash_json, true},
+    ClashWriter{{".csv", " or {}"}, write_clash_csv, true},
+    ClashWriter{{".joints.csv", ", the joints of pipes as {}"}, write_joints_csv, true},
+    ClashWriter{{".xml", ", for Navisworks and others as {}"}, write_clash_xml, true},
+    ClashWriter{{".ifcclash.json", ", as ifcclash has them as {}"}, write_ifcclash_json},
 };
 
 constexpr std::array kClashDiffWriters{

@@ -16,6 +16,7 @@ struct ClashWriter {
   OutputFormat format;
   /// Errors: cancelled, out of memory; usage where it needs what the contents lack.
   Status (*write)(const ClashContents& contents, Sink sink, const parallel::Context& context);
+  bool attributes = false;  ///< whether it has what ClashContents::columns names
 };
 
 /// One format that comparisons of clash results are written in.

@@ -192,14 +192,15 @@ std::span<const rules::FileSettings> files_of(const ClashRequest& request) {
 
 /// Returns what the run writes.
 WrittenFiles written_files(const ClashOptions& given, bool json) {
-  WrittenFiles files{.json = json,
+  WrittenFiles files{.attributes = json,
                      .pair_log = !given.result.log_pairs.empty(),
                      .decisions = given.decisions.write,
                      .table = !json};
   for (const std::string& file : given.outputs) {
-    const std::string suffix = suffix_of(file);
-    files.csv = files.csv || suffix == ".csv";
-    files.json = files.json || suffix == ".json";
+    files.csv = files.csv || suffix_of(file) == ".csv";
+    // What has no format is told of where its name is looked at.
+    const Result<report::ClashWriter> writer = publish::find_clash_writer(file);
+    files.attributes = files.attributes || (writer && writer->attributes);
   }
   return files;
 }

@@ -73,7 +73,7 @@ void add_clash_output_options(CLI::App& command, ClashOutputInput& options) {
   constexpr const char* kGroup = "Result";
   command
       .add_option("--columns", options.columns,
-                  "Attributes of both objects that .csv and .json have besides, as @Tag,@Area: "
+                  "Attributes of both objects that files of results have besides, as @Tag,@Area: "
                   "their own or those of the nearest group above that states them")
       ->type_name("@NAME,...")
       ->group(kGroup);
@@ -103,8 +103,8 @@ Result<ClashOutput> clash_output(const ClashOutputInput& input, const WrittenFil
     Result<std::vector<std::string>> columns = columns_of(input.columns);
     if (!columns) return columns.error();
     output.columns = std::move(*columns);
-    if (!files.csv && !files.json)
-      return option_error("attributes are written to .csv and .json only", "--columns",
+    if (!files.attributes)
+      return option_error("attributes are written to files of results only", "--columns",
                           "add -o FILE.csv or -o FILE.json");
   }
   if (!input.classes.empty()) {

@@ -33,7 +33,8 @@ struct ClashOutput {
 
 /// What a run writes, as far as the options bear on it.
 struct WrittenFiles {
-  bool csv = false, json = false;
+  bool csv = false;
+  bool attributes = false;  ///< a format that has ClashOutput::columns
   bool pair_log = false;   ///< CSV too, but without attributes
   bool decisions = false;  ///< likewise
   bool table = false;      ///< on the terminal

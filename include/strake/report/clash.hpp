@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -83,6 +84,10 @@ struct ClashContents {
   const DecidedResults* decided = nullptr;
   /// The model on the grid, as it was tested: for what shows it, as pictures do.
   const model::Scene* scene = nullptr;
+  /// Makes the picture of a result as the bytes of a PNG, for formats that have some of the worst
+  /// results; empty: they have none. Nothing comes of a result without a picture: an empty text.
+  std::function<Result<std::string>(const clash::ResultRef&, const parallel::Context&)> picture_of =
+      {};
 };
 
 /// Writes the document of schemas/clash.schema.json, one result a line, streamed: memory does not
@@ -95,6 +100,28 @@ struct ClashContents {
 /// ended by CRLF.
 [[nodiscard]] Status write_clash_csv(const ClashContents& contents, Sink sink,
                                      const parallel::Context& context = {});
+
+/// Writes what programs for clash review exchange: the XML that Navisworks writes of its clash
+/// tests
+/// (`exchange`, schema nw-exchange-12.0), in millimetres, depths as negative distances, with GUIDs
+/// that stay from run to run and the groups of the grouping. Results that a rule allows are left
+/// out; what came back after a decision is `active`. Control characters in names become U+FFFD.
+[[nodiscard]] Status write_clash_xml(const ClashContents& contents, Sink sink,
+                                     const parallel::Context& context = {});
+
+/// Writes results as ifcclash of IfcOpenShell has them: a list of sets, each with its clashes under
+/// "GUID-GUID", in metres. A test becomes a set of its HITs (`intersection`), and where it has such
+/// results one of its contacts (`collision`) and one of its clearance violations (`clearance`).
+/// Distances are without a sign, as there: that of a HIT is its depth. Results that a rule allows
+/// are left out.
+[[nodiscard]] Status write_ifcclash_json(const ClashContents& contents, Sink sink,
+                                         const parallel::Context& context = {});
+
+/// Writes where pipes touch as CSV of the same form, one row per joint: which two, where, whether
+/// end to end, an end on a side or side by side, and their diameters there where exact primitives
+/// tell them. Pipes are objects with round ends.
+[[nodiscard]] Status write_joints_csv(const ClashContents& contents, Sink sink,
+                                      const parallel::Context& context = {});
 
 /// Writes every pair of objects that went to the narrow phase as CSV of the same form: whether a
 /// rule may allow it, its class (NO_HIT too) and what it cost. Only tests that were asked to log

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "strake/report/clash.hpp"
 
@@ -48,5 +49,18 @@ class CsvRow {
   const CsvForm& form_;
   bool first_ = true;
 };
+
+/// Begins a file of rows: the mark, if there is one, and the names of the columns, then of
+/// attributes of both objects.
+template <class Names>
+void begin_csv(std::string& out, const CsvForm& form, const Names& names,
+               const std::vector<std::string>& attributes) {
+  if (form.mark) out += "\xEF\xBB\xBF";
+  CsvRow row(out, form);
+  for (const char* const name : names) row.word(name);
+  for (const std::string& attribute : attributes)
+    for (const char* const side : {"a_@", "b_@"}) row.text(side + attribute);
+  row.end();
+}
 
 }  // namespace strake::report

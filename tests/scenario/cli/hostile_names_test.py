@@ -10,6 +10,7 @@ import unicodedata
 import xml.etree.ElementTree as ElementTree
 
 from scenario import Scenario, gltf, main
+from xlsx_file import Workbook
 
 csv.field_size_limit(10_000_000)
 PLANTED = 'PLANTED LINE'
@@ -58,8 +59,13 @@ class HostileNames(Scenario):
         elif name.endswith('.csv'):
             rows = list(csv.reader(io.StringIO(content.decode(), newline=''), strict=True))
             self.assertEqual({len(row) for row in rows}, {len(rows[0])}, name)
-        elif name.endswith('.svg'):
+        elif name.endswith('.svg') or name.endswith('.xml'):
             ElementTree.fromstring(content)
+        elif name.endswith('.xlsx'):
+            # That there is no formula the reader asserts; a name is what it is, but for what XML cannot have.
+            names = {row['a_name'] for row in Workbook(self.folder / name).table('Clashes')}
+            self.assertLessEqual({'=1+1', '-n', '{}%s$(x)`x`', '<!-- ]]> &lt; & " \' -->'}, names)
+            self.assertEqual(max(len(name or '') for name in names), 32_767)
 
     def check_json(self, *command):
         done = self.run_strake(*command, '--json', encoding='utf-8')
@@ -74,6 +80,10 @@ class HostileNames(Scenario):
             self.told('clash', *self.models, '--stats', *more, '-o', 'c.json', '-o', 'c.csv', '--log-pairs', 'log.csv')
             for name in ('c.json', 'c.csv', 'log.csv'):
                 self.check_file(name)
+        exchanged = ('c.xlsx', 'c.xml', 'c.ifcclash.json', 'c.joints.csv')
+        self.told('clash', *self.models, '--group-by', 'files', '--columns', '@TYPE', *(w for n in exchanged for w in ('-o', n)))
+        for name in exchanged:
+            self.check_file(name)
         self.told('clash', *self.models[:3], '--decisions', 'd.csv', '--write-decisions', '-o', 'old.json')
         self.told('clash', *self.models[:3], '--decisions', 'd.csv', '--write-decisions')
         self.check_file('d.csv')

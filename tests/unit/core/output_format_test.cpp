@@ -25,6 +25,16 @@ TEST(OutputFormat, TheSuffixPicksTheWriterInUpperCaseToo) {
   EXPECT_EQ(find_writer(table(), "a.json.CSV")->number, 2);
 }
 
+TEST(OutputFormat, TheLongestSuffixThatFitsPicksTheWriter) {
+  constexpr std::array kTwo{NumberWriter{{".json"}, 1}, NumberWriter{{".ifc.json"}, 2}};
+  const std::span<const NumberWriter> two(kTwo);
+  EXPECT_EQ(find_writer(two, "a.ifc.JSON")->number, 2);
+  EXPECT_EQ(find_writer(two, "a.b.json")->number, 1);
+  EXPECT_EQ(find_writer(two, "aifc.json")->number, 1);
+  // Of a name that is nothing but a suffix the shorter one is left.
+  EXPECT_EQ(find_writer(two, "x/.ifc.json")->number, 1);
+}
+
 TEST(OutputFormat, AnUnknownSuffixIsAnErrorThatNamesThoseThatAreKnown) {
   for (const char* const file : {"a.svg", "json", ".json", "a.json/b"}) {
     const Result<NumberWriter> writer = find_writer(table(), file);

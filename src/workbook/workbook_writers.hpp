@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "report/report_writers.hpp"
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
+#include "strake/report/clash.hpp"
+
+namespace strake::workbook {
+
+/// Writes clash results as a workbook (decision 0105): a summary, the results as CSV has them with
+/// filters, colours and a list to pick the status from, pictures of the worst where somebody makes
+/// them, groups, joints of pipes, what was not compared. Names are text, never formulas. Errors:
+/// those of write_workbook(), and of contents.picture_of.
+[[nodiscard]] Status write_clash_workbook(const report::ClashContents& contents, report::Sink sink,
+                                          const parallel::Context& context = {});
+
+/// The formats of this module, in the order of help and errors.
+[[nodiscard]] std::span<const report::ClashWriter> clash_writers();
+
+}  // namespace strake::workbook
