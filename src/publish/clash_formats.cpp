@@ -3,12 +3,17 @@
 
 #include <span>
 
+#include "pictures/whole_run.hpp"
+
 namespace strake::publish {
 namespace {
 
 std::vector<report::ClashWriter> clash_writers() {
   const std::span<const report::ClashWriter> texts = report::clash_writers();
-  return {texts.begin(), texts.end()};
+  const std::span<const report::ClashWriter> pictures = pictures::picture_writers();
+  std::vector<report::ClashWriter> all(texts.begin(), texts.end());
+  all.insert(all.end(), pictures.begin(), pictures.end());
+  return all;
 }
 
 }  // namespace

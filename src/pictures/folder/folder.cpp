@@ -74,7 +74,7 @@ figcaption{padding:.5rem;overflow-wrap:anywhere}code{color:#555}
     const std::string title = xml_escaped(title_of(contents, one.subject));
     const std::string file = one.key + std::string(suffix(format));
     out += "<figure id=\"" + one.key + "\"><a href=\"" + file + "\"><img loading=\"lazy\" src=\"" +
-           file + "\" alt=\"" + title + "\"></a><figcaption>" + std::to_string(i + 1) + ". " +
+           file + "\" alt=\"" + title + "\"></a><figcaption>" + std::to_string(one.number) + ". " +
            (one.name.empty() ? "" : "<b>" + xml_escaped(one.name) + "</b><br>") + title +
            "<br><code>" + one.key + "</code></figcaption></figure>\n";
   }

@@ -28,7 +28,7 @@ std::vector<NamedSubject> results_of(const report::ClashContents& contents) {
       shown.push_back({subject_of(clash::ResultRef{t, p}),
                        clash::pair_key(tests[t].name, contents.model, pair.a, pair.b),
                        {},
-                       false});
+                       0});
     }
   return shown;
 }
@@ -39,7 +39,7 @@ std::vector<NamedSubject> shown_subjects(const report::ClashContents& contents) 
   std::vector<NamedSubject> shown;
   if (contents.grouping != nullptr)
     for (const clash::Group& group : contents.grouping->groups)
-      shown.push_back({subject_of(contents, group), group.id, group.name, true});
+      shown.push_back({subject_of(contents, group), group.id, group.name, shown.size() + 1});
   else
     shown = results_of(contents);
   const auto rank = [&](const NamedSubject& subject) {
@@ -48,6 +48,8 @@ std::vector<NamedSubject> shown_subjects(const report::ClashContents& contents) 
   };
   std::ranges::sort(
       shown, [&](const NamedSubject& a, const NamedSubject& b) { return rank(a) < rank(b); });
+  for (std::size_t i = 0; i < shown.size(); ++i)
+    if (contents.grouping == nullptr) shown[i].number = i + 1;
   return shown;
 }
 

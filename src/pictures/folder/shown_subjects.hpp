@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,9 @@ namespace strake::pictures {
 /// What a picture is of, with the name that it keeps from run to run.
 struct NamedSubject {
   Subject subject;
-  std::string key;           ///< the id of the group, or the key of the clash
-  std::string name;          ///< of the group; empty for a clash
-  bool has_members = false;  ///< it is a group
+  std::string key;         ///< the id of the group, or the key of the clash
+  std::string name;        ///< of the group; empty for a clash
+  std::size_t number = 0;  ///< of the group in its order, from 1; of a clash its place in the list
 };
 
 /// Returns the groups of the contents, or their results where there are no groups: the worst first,

@@ -15,7 +15,7 @@ namespace {
 using geometry::Vec3d;
 
 /// Points of the square window, each way.
-constexpr std::uint32_t kPoints = 48;
+constexpr std::uint32_t kPoints = 36;
 
 /// Adds directions square to `away` and those a third of a right angle beside it.
 void add_about(const Vec3d& away, std::vector<Vec3d>& out) {
