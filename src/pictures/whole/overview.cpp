@@ -96,8 +96,8 @@ class Overview {
   }
 
   [[nodiscard]] static PictureLine styled(Class cls) {
-    constexpr double kThin = 0.09, kWide = 0.3;
-    if (cls == Class::no_hit) return {{}, {}, kThin, {0xa0, 0xa0, 0xa0}, false};
+    constexpr double kThin = 0.13, kWide = 0.35;
+    if (cls == Class::no_hit) return {{}, {}, kThin, {0x90, 0x90, 0x90}, false};
     return {{}, {}, kWide, colour_of_class(cls), false};
   }
 
