@@ -115,6 +115,7 @@ class ClashDrawer {
     window.box = geometry::Box3d{viewpoint_.box_mm.lo - at, viewpoint_.box_mm.hi - at};
     for (const ClippingPlane& plane : viewpoint_.clipping_planes)
       window.planes.push_back({plane.point_mm - at, plane.normal});
+    window.closes_cuts = !window.planes.empty();
     double half = 0;
     for (int k = 0; k < 3; ++k)
       half = std::max({half, std::fabs(window.box->lo[k]), std::fabs(window.box->hi[k])});

@@ -15,7 +15,7 @@ namespace {
 using geometry::Vec3d;
 
 /// Points of the square window, each way.
-constexpr std::uint32_t kPoints = 36;
+constexpr std::uint32_t kPoints = 30;
 
 /// Adds directions square to `away` and those a third of a right angle beside it.
 void add_about(const Vec3d& away, std::vector<Vec3d>& out) {
@@ -80,10 +80,13 @@ std::vector<Vec3d> candidate_directions(const Vec3d& away) {
 
 double visible_share(std::span<const NearTriangle> triangles, const Vec3d& viewer,
                      const Sight& sight) {
-  Window window{Axes::towards(viewer), sight.half_mm, sight.half_mm, kPoints, kPoints,
-                sight.eye_mm};
-  if (sight.cut_mm < sight.eye_mm)
-    window.planes.push_back({window.axes.toward * sight.cut_mm, window.axes.toward});
+  Window window{Axes::towards(viewer),
+                sight.half_mm,
+                sight.half_mm,
+                kPoints,
+                kPoints,
+                std::min(sight.eye_mm, sight.cut_mm)};
+  window.closes_cuts = sight.cut_mm < sight.eye_mm;
   std::vector<NearTriangle> two;
   if (!sight.others) {
     std::ranges::copy_if(triangles, std::back_inserter(two),

@@ -78,6 +78,18 @@ class ViewpointSearch {
   const parallel::Context& context_;
 };
 
+/// Returns the triangles of which some direction may show something: those that come near enough.
+std::vector<NearTriangle> kept_within(std::vector<NearTriangle> triangles, double radius_mm) {
+  std::erase_if(triangles, [&](const NearTriangle& t) {
+    geometry::Box3d box = geometry::empty_box<double>();
+    for (const Vec3d& p : t.at) box.include(p);
+    Vec3d nearest;
+    for (int k = 0; k < 3; ++k) nearest[k] = std::clamp(0.0, box.lo[k], box.hi[k]);
+    return dot(nearest, nearest) > radius_mm * radius_mm;
+  });
+  return triangles;
+}
+
 Status check(const ViewpointOptions& options) {
   constexpr double kNarrow = 0.2, kWide = 5, kFar = 0.05, kNear = 20;
   if (!(options.aspect >= kNarrow && options.aspect <= kWide))
@@ -104,9 +116,10 @@ Result<ClashViewpoint> choose_viewpoint(const Scenery& scenery, const Subject& s
   // Half of the box's side, so that its corners lie before the eye.
   constexpr double kBox = 1.5;
   const double half = kBox * reach * std::max(options.aspect, 1.0), eye = 2 * half;
-  const Result<Choice> choice = ViewpointSearch(triangles_near(scenery, roles, point, eye),
-                                                pair.away, {kJudged * reach, eye}, context)
-                                    .run(reach);
+  const Result<Choice> choice =
+      ViewpointSearch(kept_within(triangles_near(scenery, roles, point, eye), eye + reach),
+                      pair.away, {kJudged * reach, eye}, context)
+          .run(reach);
   if (!choice) return choice.error();
   const Axes axes = Axes::towards(choice->candidate.viewer);
   ClashViewpoint viewpoint;

@@ -75,7 +75,7 @@ void keep_nearest(ItemBuffer::Item& item, const ItemBuffer::Item& found, bool pr
 
 ItemBuffer::ItemBuffer(const Window& window, std::span<const NearTriangle> triangles)
     : columns_(window.columns), items_(std::size_t{window.columns} * window.rows) {
-  if (!window.planes.empty()) own_.resize(items_.size());
+  if (window.closes_cuts) own_.resize(items_.size());
   for (const bool own : {false, true})  // the clash's own last, which win where depths are equal
     for (std::size_t i = 0; i < triangles.size(); ++i)
       if ((triangles[i].role != Role::other) == own)

@@ -20,11 +20,12 @@ struct Window {
   /// What lies outside is not there.
   std::optional<geometry::Box3d> box = std::nullopt;
   std::vector<ClippingPlane> planes = {};  ///< mm from the same point
+  /// Close what is cut open: a face of the clash that is seen from within covers all before it.
+  bool closes_cuts = false;
 };
 
 /// Item buffer: which triangle each point of a view shows (Weghorst, Hooper and Greenberg 1984), by
-/// depth; of equals the clash's own, then the first. What a plane cuts open is closed: there a face
-/// of the clash that is seen from within covers all that lies before it.
+/// depth; of equals the clash's own, then the first.
 class ItemBuffer {
  public:
   static constexpr std::uint32_t kNothing = 0xffffffffU;
@@ -49,7 +50,7 @@ class ItemBuffer {
 
   std::uint32_t columns_;
   std::vector<Item> items_;
-  std::vector<Item> own_;  ///< the same of the clash's own triangles, where planes cut
+  std::vector<Item> own_;  ///< the same of the clash's own triangles, where cuts are closed
 };
 
 }  // namespace strake::pictures
