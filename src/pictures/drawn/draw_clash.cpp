@@ -105,7 +105,7 @@ class ClashDrawer {
   }
 
   void add_shade() {
-    constexpr double kPointsPerMm = 5;
+    constexpr double kPointsPerMm = 4;
     const Vec3d at = geometry::to_mm(target_);
     Window window{axes_, picture_.width_mm * picture_.mm_per_mm / 2,
                   picture_.view_mm * picture_.mm_per_mm / 2,
