@@ -97,6 +97,9 @@ struct PictureOptions {
   bool hidden_lines = true;  ///< what is hidden of the two objects is dashed
 };
 
+/// Returns width by height of the view of a picture, for ViewpointOptions::aspect.
+[[nodiscard]] double view_aspect(const PictureOptions& options);
+
 /// Draws what a viewpoint sees of a clash. Errors: usage for options out of range; cancelled, out
 /// of memory.
 [[nodiscard]] Result<ClashPicture> draw_clash(const Scenery& scenery, const Subject& subject,
@@ -108,8 +111,8 @@ struct PictureOptions {
 [[nodiscard]] Status write_svg(const ClashPicture& picture, report::Sink sink);
 
 /// Returns a picture as the bytes of a PNG of that size, 16 to 8192 each way; it fills the size,
-/// and keeps its proportions with white beside. Text that is no ASCII shows as a box for each
-/// character. Errors: usage for a size out of range, out of memory.
+/// and keeps its proportions with white beside. Letters that are no ASCII show as question marks.
+/// Errors: usage for a size out of range, out of memory.
 [[nodiscard]] Result<std::string> png_of(const ClashPicture& picture, std::uint32_t width_px,
                                          std::uint32_t height_px);
 
