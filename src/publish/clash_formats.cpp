@@ -3,12 +3,17 @@
 
 #include <span>
 
+#include "bcf/bcf_writers.hpp"
+
 namespace strake::publish {
 namespace {
 
 std::vector<report::ClashWriter> clash_writers() {
   const std::span<const report::ClashWriter> texts = report::clash_writers();
-  return {texts.begin(), texts.end()};
+  std::vector<report::ClashWriter> writers{texts.begin(), texts.end()};
+  const std::span<const report::ClashWriter> topics = bcf::clash_writers();
+  writers.insert(writers.end(), topics.begin(), topics.end());
+  return writers;
 }
 
 }  // namespace

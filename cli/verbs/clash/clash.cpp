@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "bcf/output/write_bcf.hpp"
 #include "clash/rules/tolerance_lengths.hpp"
 #include "cli/run/file_settings.hpp"
 #include "cli/run/load.hpp"
@@ -146,6 +147,14 @@ void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
   stats.count("objects not compared whole", lacks.objects);
 }
 
+/// Says what a file of topics does not have.
+void tell_left_out(Session& session, const std::string& file,
+                   const report::ClashContents& contents) {
+  if (const std::string text = bcf::left_out_of_bcf(contents); !text.empty())
+    session.console().note(
+        fmt::format("{}: without {} (--bcf-most, --bcf-contacts, --group-by)", file, text));
+}
+
 Status write_files(Session& session, const ClashOptions& given,
                    const report::ClashContents& contents) {
   for (const std::string& file : given.outputs) {
@@ -154,6 +163,7 @@ Status write_files(Session& session, const ClashOptions& given,
     const Status status = session.write(
         file, [&](Session::Sink sink) { return writer->write(contents, sink, session.context()); });
     if (!status) return status;
+    if (suffix_of(file).starts_with(".bcf")) tell_left_out(session, file, contents);
   }
   if (given.result.log_pairs.empty()) return {};
   return session.write(given.result.log_pairs, [&](Session::Sink sink) {
@@ -200,6 +210,7 @@ WrittenFiles written_files(const ClashOptions& given, bool json) {
     const std::string suffix = suffix_of(file);
     files.csv = files.csv || suffix == ".csv";
     files.json = files.json || suffix == ".json";
+    files.bcf = files.bcf || suffix.starts_with(".bcf");
   }
   return files;
 }
@@ -354,6 +365,13 @@ std::optional<report::RulesSource> rules_source(const ClashOptions& given,
   return std::nullopt;
 }
 
+/// Returns the form of BCF; topics of a project are made by its run, unless a date is given.
+report::BcfForm bcf_of(const ClashRequest& request, const ProjectClashes* project) {
+  report::BcfForm form = request.output.bcf;
+  if (form.date.empty() && project != nullptr) form.date = project->started();
+  return form;
+}
+
 /// Groups and writes what was found, after what is not to be written is taken out of it; `project`
 /// is null where files are tested.
 Status put_out(Session& session, const ClashOptions& given, const ClashRequest& request,
@@ -374,7 +392,8 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
                                        request.output.csv,
                                        request.output.classes,
                                        decided,
-                                       &loaded.scene};
+                                       &loaded.scene,
+                                       bcf_of(request, project)};
   if (const Status status = write_files(session, given, contents); !status) return status;
   // A run whose files cannot be written is found again by the next one. Whoever reads standard
   // output may take long, for which no other program is to wait.
@@ -418,10 +437,10 @@ Result<const report::DecidedResults*> decided_of(Session& session, const ClashOp
                                                  clash::Findings& findings,
                                                  std::optional<report::DecidedResults>& from_file) {
   if (source.project) {
-    const Status status =
-        source.project->remember(session, source.loaded, findings,
-                                 {request.deeper_mm, rules_source(given, request),
-                                  grouping_of(given.result, given.output.classes)});
+    const Status status = source.project->remember(session, source.loaded, findings,
+                                                   {request.deeper_mm, rules_source(given, request),
+                                                    grouping_of(given.result, given.output.classes),
+                                                    written_files(given, session.json()).bcf});
     if (!status) return status.error();
     return source.project->decided();
   }
@@ -583,6 +602,7 @@ Examples:
   strake clash hvac.rvm steel.rvm --columns @Tag,@Area --csv excel-comma -o clashes.csv
   strake clash hvac.rvm steel.rvm --profile plant --group-by assembly
   strake clash ship.glb --class hit --decisions decided.csv --write-decisions --fail-on hit
+  strake clash hvac.rvm steel.rvm --group-by element -o clashes.bcf --bcf-most 200
   strake clash ship.glb --log-pairs pairs.csv --stats
   strake clash -p ship.strake --rules project.toml --fail-on hit -o today.json
   strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --status approved --comment 'as agreed'

@@ -71,8 +71,8 @@ class ReviewTaker {
       if (counts(ruling_on_assignee(topic, at->row.assignee, rules_), topic, *at, "the assignee"))
         to_assignee.push_back(clash.key);
     }
-    ClashDecision decision{.status = {}, .comment = {}, .assignee = {}, .by = topic.by,
-                           .at = topic.at};
+    ClashDecision decision{
+        .status = {}, .comment = {}, .assignee = {}, .by = topic.by, .at = topic.at};
     if (!to_status.empty()) {
       decision.status = topic.status->given;
       if (const Status status = decide_about(to_status, decision, taken_.statuses); !status)
@@ -101,10 +101,10 @@ class ReviewTaker {
   bool counts(Ruling ruling, const ReviewedTopic& topic, const ListedClash& clash,
               const char* what) {
     if (ruling != Ruling::conflict) return ruling == Ruling::take;
-    taken_.conflicts.push_back(in_quotes(topic.name) + ", " + clash.row.key + ": " + what +
-                               " is another one in the project, too; " +
-                               (rules_.prefers_review ? "that of the review holds now"
-                                                      : "that of the project stays"));
+    taken_.conflicts.push_back(
+        in_quotes(topic.name) + ", " + clash.row.key + ": " + what +
+        " is another one in the project, too; " +
+        (rules_.prefers_review ? "that of the review holds now" : "that of the project stays"));
     return rules_.prefers_review;
   }
 

@@ -37,7 +37,7 @@ struct ReviewedTopic {
   std::string assignee;  ///< empty: nobody
   /// ReviewRules::mark of whom the topic was assigned to when it was written; absent: not known.
   std::optional<std::string> written_mark;
-  std::string by, at;                    ///< who decided, and when
+  std::string by, at;                             ///< who decided, and when
   std::vector<report::DecisionComment> comments;  ///< in their order
 };
 
