@@ -19,6 +19,8 @@ namespace strake::bcf {
 namespace {
 
 constexpr double kMmPerMetre = 1000;
+constexpr std::string_view kFieldOfView = "45";         ///< degrees, from below to above
+constexpr double kTangentOfHalf = 0.41421356237309503;  ///< of that angle
 constexpr std::string_view kIfcDigits =
     "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_$";
 
@@ -117,10 +119,14 @@ class ViewpointWriter {
     xml_.end();
   }
 
+  /// Version 2.1 asks for 45 to 60 degrees. On the line of sight the eye may stand where the same
+  /// height is seen by such an angle: nothing new comes before what was seen.
   void camera(const pictures::ClashViewpoint& seen) {
-    xml_.begin("PerspectiveCamera").vector("CameraViewPoint", seen.eye_mm, kMmPerMetre);
+    const double away_mm = seen.half_height_mm / kTangentOfHalf;
+    const geometry::Vec3d eye_mm = seen.target_mm - seen.direction * away_mm;
+    xml_.begin("PerspectiveCamera").vector("CameraViewPoint", eye_mm, kMmPerMetre);
     xml_.vector("CameraDirection", seen.direction, 1).vector("CameraUpVector", seen.up, 1);
-    xml_.leaf("FieldOfView", shortest(seen.field_of_view_deg));
+    xml_.leaf("FieldOfView", kFieldOfView);
     if (contents_.bcf.version_3) xml_.leaf("AspectRatio", shortest(seen.aspect));
     xml_.end();
   }
