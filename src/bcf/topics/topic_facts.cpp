@@ -28,12 +28,15 @@ const clash::Report& test_of(const report::ClashContents& contents, const Result
   return contents.findings.tests[result.test];
 }
 
-/// Returns the status of a result for people: what came back is to be looked at again.
+/// Returns the status of a result as it is now: what a file of decisions says of one that came back
+/// no longer holds, and a project says what holds in its place.
 DecisionStatus status_of(const report::ClashContents& contents, const ResultRef& result) {
   const report::DecidedResult* const decided = decided_of(contents, result);
   if (decided == nullptr) return DecisionStatus::undecided;
-  return decided->reopened != report::Reopened::no ? DecisionStatus::active
-                                                   : decided->decision->status;
+  const DecisionStatus said = decided->decision->status;
+  if (decided->reopened == report::Reopened::no || said < DecisionStatus::approved) return said;
+  return decided->reopened == report::Reopened::found_again ? DecisionStatus::undecided
+                                                            : DecisionStatus::active;
 }
 
 std::string key_of(const report::ClashContents& contents, const ResultRef& result) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bcf/xml/xml_text.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -46,7 +47,9 @@ std::string printable_lines(std::string_view text) {
     const std::size_t end = text.find('\n');
     std::string_view line = text.substr(0, end);
     if (line.ends_with('\r')) line.remove_suffix(1);
-    lines += printable(line);
+    std::string plain(line);
+    std::ranges::replace(plain, '\t', ' ');
+    lines += printable(plain);
     if (end == std::string_view::npos) return lines;
     lines += '\n';
     text.remove_prefix(end + 1);

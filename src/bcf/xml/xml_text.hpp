@@ -13,7 +13,7 @@ namespace strake::bcf {
 /// XML can hold, and bytes that are not UTF-8, become U+FFFD.
 void append_xml(std::string& out, std::string_view text);
 
-/// Returns what people wrote, for people: printable() line by line.
+/// Returns what people wrote, for people: printable() line by line, with blanks for tabs.
 [[nodiscard]] std::string printable_lines(std::string_view text);
 
 /// Returns what somebody wrote as it is compared with what came back: printable, with one blank for

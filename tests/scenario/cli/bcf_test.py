@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """bcf_test.py STRAKE: clashes as BCF for other programs, and what people decided there taken back into the project."""
 import io
+import os
 import random
 import struct
+import unittest
 import zipfile
+from pathlib import Path
 
 from bcf_file import Bcf, add_comment, assign, rewrite
 from bcf_project import BcfProject
@@ -290,6 +293,21 @@ class BcfBack(BcfProject):
             sealed[at + flags] |= 1
         (self.folder / 'sealed.bcf').write_bytes(bytes(sealed))
         self.assertIn('encrypted', self.take(name='sealed.bcf').stderr)
+
+    @unittest.skipUnless('STRAKE_DATA' in os.environ, 'no real files')
+    def test_files_of_others_are_read(self):
+        """Those of buildingSMART and of others: what is of another version is refused, and nothing changes."""
+        before, read = self.state(), 0
+        for path in sorted(Path(os.environ['STRAKE_DATA'], 'bcf').rglob('*.bcf*')):
+            done = self.run_strake('clash', 'set', '-p', 'ship.strake', '--bcf', path)
+            if done.returncode == 3:
+                self.assertRegex(done.stderr, r"is not read|no bcf\.version|no BCF file", path)
+            else:
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertNotIn('damaged', done.stderr)
+                read += 1
+        self.assertGreater(read, 20)
+        self.assertEqual(self.state(), before)
 
     def test_damaged_files_end_well(self):
         self.edit(self.decide)
