@@ -17,6 +17,7 @@
 
 #include "bcf/output/write_bcf.hpp"
 #include "clash/rules/tolerance_lengths.hpp"
+#include "cli/output/picture_folder.hpp"
 #include "cli/run/file_settings.hpp"
 #include "cli/run/load.hpp"
 #include "cli/verbs/clash/clash_decisions.hpp"
@@ -51,6 +52,7 @@ struct ClashOptions {
   ClashOutputInput output;
   DecisionInput decisions;
   ClashProjectInput project;
+  PictureInput pictures;
   std::vector<std::string> outputs;
 };
 
@@ -117,6 +119,7 @@ Result<OnlyTest> only_test(const ClashOptions& given) {
   return test;
 }
 
+<<<<<<< HEAD
 void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
   clash::Counters sum;
   std::uint64_t allowed_other_regions = 0;
@@ -155,6 +158,8 @@ void tell_left_out(Session& session, const std::string& file,
         fmt::format("{}: without {} (--bcf-most, --bcf-contacts, --group-by)", file, text));
 }
 
+=======
+>>>>>>> wip-pictures
 Status write_files(Session& session, const ClashOptions& given,
                    const report::ClashContents& contents) {
   for (const std::string& file : given.outputs) {
@@ -318,6 +323,7 @@ Status name_files(Session& session, const ClashOptions& given) {
   if (given.input.files.empty() && !given.project.is_given())
     return Error{
         ErrorCode::usage, "no model file is given", {}, "'strake clash --help' tells more"};
+  if (const Status status = check_pictures(given.pictures); !status) return status;
   RunFiles& files = session.files();
   if (Status status = files.add_inputs(given.input.files); !status) return status;
   if (!given.rules.empty())
@@ -395,6 +401,8 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
                                        &loaded.scene,
                                        bcf_of(request, project)};
   if (const Status status = write_files(session, given, contents); !status) return status;
+  if (const Status status = write_pictures(session, given.pictures, contents); !status)
+    return status;
   // A run whose files cannot be written is found again by the next one. Whoever reads standard
   // output may take long, for which no other program is to wait.
   if (project != nullptr)
@@ -561,6 +569,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   add_result_options(*command, options->result);
   add_clash_output_options(*command, options->output);
   add_decision_options(*command, options->decisions);
+  add_picture_options(*command, options->pictures);
   add_clash_project_options(*command, options->project);
   command->get_option("--project")->excludes(command->get_option("--decisions"));
   add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
@@ -602,7 +611,11 @@ Examples:
   strake clash hvac.rvm steel.rvm --columns @Tag,@Area --csv excel-comma -o clashes.csv
   strake clash hvac.rvm steel.rvm --profile plant --group-by assembly
   strake clash ship.glb --class hit --decisions decided.csv --write-decisions --fail-on hit
+<<<<<<< HEAD
   strake clash hvac.rvm steel.rvm --group-by element -o clashes.bcf --bcf-most 200
+=======
+  strake clash ship.glb --group-by proximity --pictures pictures --top-pictures 20
+>>>>>>> wip-pictures
   strake clash ship.glb --log-pairs pairs.csv --stats
   strake clash -p ship.strake --rules project.toml --fail-on hit -o today.json
   strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --status approved --comment 'as agreed'

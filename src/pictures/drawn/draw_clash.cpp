@@ -158,7 +158,9 @@ class ClashDrawer {
     const bool hidden =
         piece.state == hlr::State::hidden_by_self || piece.state == hlr::State::hidden_by_other;
     if (hidden) {
-      if (role == Role::other) return std::nullopt;
+      // Of a group those of the worst alone: all of them together are a thicket.
+      if (role == Role::other || small.object[index(piece.object)] != roles_.first(role))
+        return std::nullopt;
       return role == Role::a ? Stroke::hidden_a : Stroke::hidden_b;
     }
     if (piece.state != hlr::State::visible) return std::nullopt;

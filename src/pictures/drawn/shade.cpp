@@ -9,6 +9,9 @@ namespace {
 
 using geometry::Vec3d;
 
+/// A point of the shade is the mean of so many each way, so that its edges are no stairs.
+constexpr std::uint32_t kFiner = 2;
+
 /// A colour between white and another; light goes from 0, dark, to 1.
 Colour tone(const Colour& colour, double strength, double light) {
   const auto channel = [&](std::uint8_t full) {
@@ -43,18 +46,33 @@ Colour colour_of(const NearTriangle& triangle, bool back, const Vec3d& lamp) {
 
 }  // namespace
 
-Shade shade_of(const Window& window, std::span<const NearTriangle> triangles) {
+Shade shade_of(Window window, std::span<const NearTriangle> triangles) {
   constexpr Colour kWhite{255, 255, 255};
+  Shade shade{window.columns, window.rows, {}};
+  window.columns *= kFiner;
+  window.rows *= kFiner;
   const ItemBuffer buffer(window, triangles);
   const Vec3d lamp = unit(window.axes.toward + window.axes.up * 0.55 - window.axes.right * 0.35);
-  Shade shade{window.columns, window.rows, {}};
-  shade.points.reserve(std::size_t{window.columns} * window.rows);
-  for (std::uint32_t row = 0; row < window.rows; ++row)
-    for (std::uint32_t column = 0; column < window.columns; ++column) {
-      const ItemBuffer::Item& item = buffer.at(column, row);
-      shade.points.push_back(item.triangle == ItemBuffer::kNothing
-                                 ? kWhite
-                                 : colour_of(triangles[item.triangle], item.back, lamp));
+  const auto colour_at = [&](std::uint32_t column, std::uint32_t row) {
+    const ItemBuffer::Item& item = buffer.at(column, row);
+    return item.triangle == ItemBuffer::kNothing
+               ? kWhite
+               : colour_of(triangles[item.triangle], item.back, lamp);
+  };
+  shade.points.reserve(std::size_t{shade.width} * shade.height);
+  for (std::uint32_t row = 0; row < shade.height; ++row)
+    for (std::uint32_t column = 0; column < shade.width; ++column) {
+      unsigned red = 0, green = 0, blue = 0;
+      for (std::uint32_t k = 0; k < kFiner * kFiner; ++k) {
+        const Colour one = colour_at(column * kFiner + k % kFiner, row * kFiner + k / kFiner);
+        red += one.red;
+        green += one.green;
+        blue += one.blue;
+      }
+      const auto mean = [](unsigned sum) {
+        return static_cast<std::uint8_t>(sum / (kFiner * kFiner));
+      };
+      shade.points.push_back({mean(red), mean(green), mean(blue)});
     }
   return shade;
 }

@@ -10,6 +10,6 @@ namespace strake::pictures {
 
 /// Returns what the faces of a window look like: the two of a clash in light tones of their
 /// colours, what is cut open in full tones, all else nearly white.
-[[nodiscard]] Shade shade_of(const Window& window, std::span<const NearTriangle> triangles);
+[[nodiscard]] Shade shade_of(Window window, std::span<const NearTriangle> triangles);
 
 }  // namespace strake::pictures

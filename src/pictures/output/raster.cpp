@@ -81,14 +81,32 @@ class Raster {
         const double across = (column + 0.5 - left_) / (picture_.width_mm * per_mm_);
         const double down = (row + 0.5 - top_) / (picture_.view_mm * per_mm_);
         if (across < 0 || across >= 1 || down < 0 || down >= 1) continue;
-        const auto from_left = static_cast<std::size_t>(across * shade.width);
-        const auto from_top = static_cast<std::size_t>(down * shade.height);
-        const Colour& colour = shade.points[from_top * shade.width + from_left];
+        const Colour colour = shade_at(across * shade.width - 0.5, down * shade.height - 0.5);
         std::uint8_t* const point = &bytes_[(std::size_t{row} * width_ + column) * 3];
         point[0] = colour.red;
         point[1] = colour.green;
         point[2] = colour.blue;
       }
+  }
+
+  /// Returns the shade between its points.
+  [[nodiscard]] Colour shade_at(double column, double row) const {
+    const Shade& shade = picture_.shade;
+    const double x0 = std::clamp(column, 0.0, shade.width - 1.0);
+    const double y0 = std::clamp(row, 0.0, shade.height - 1.0);
+    const auto left = static_cast<std::size_t>(x0), top = static_cast<std::size_t>(y0);
+    const std::size_t right = std::min<std::size_t>(left + 1, shade.width - 1);
+    const std::size_t below = std::min<std::size_t>(top + 1, shade.height - 1);
+    const double across = x0 - static_cast<double>(left), down = y0 - static_cast<double>(top);
+    const auto mix = [&](std::uint8_t Colour::* channel) {
+      const auto at = [&](std::size_t c, std::size_t r) {
+        return static_cast<double>(shade.points[r * shade.width + c].*channel);
+      };
+      const double above = at(left, top) * (1 - across) + at(right, top) * across;
+      const double under = at(left, below) * (1 - across) + at(right, below) * across;
+      return static_cast<std::uint8_t>(above * (1 - down) + under * down + 0.5);
+    };
+    return {mix(&Colour::red), mix(&Colour::green), mix(&Colour::blue)};
   }
 
   template <class Path>

@@ -98,7 +98,7 @@ double reach_of(const Scenery& scenery, const Roles& roles, const Pair& pair) {
   };
   const double thin = std::min(size(Role::a), size(Role::b));
   const double reach = thin == std::numeric_limits<double>::max() ? kMostMm : thin * kThicknesses;
-  return std::clamp(std::max(reach, 3 * apart), kLeastMm, kMostMm);
+  return std::clamp(std::max(reach, 1.5 * apart), kLeastMm, kMostMm);
 }
 
 }  // namespace strake::pictures

@@ -15,7 +15,7 @@ namespace {
 using geometry::Vec3d;
 
 /// Points of the square window, each way.
-constexpr std::uint32_t kPoints = 48;
+constexpr std::uint32_t kPoints = 36;
 
 /// Adds directions square to `away` and those a third of a right angle beside it.
 void add_about(const Vec3d& away, std::vector<Vec3d>& out) {
@@ -80,12 +80,10 @@ std::vector<Vec3d> candidate_directions(const Vec3d& away) {
 
 double visible_share(std::span<const NearTriangle> triangles, const Vec3d& viewer,
                      const Sight& sight) {
-  Window window{Axes::towards(viewer),
-                sight.half_mm,
-                sight.half_mm,
-                kPoints,
-                kPoints,
-                std::min(sight.eye_mm, sight.cut_mm)};
+  Window window{Axes::towards(viewer), sight.half_mm, sight.half_mm, kPoints, kPoints,
+                sight.eye_mm};
+  if (sight.cut_mm < sight.eye_mm)
+    window.planes.push_back({window.axes.toward * sight.cut_mm, window.axes.toward});
   std::vector<NearTriangle> two;
   if (!sight.others) {
     std::ranges::copy_if(triangles, std::back_inserter(two),
@@ -104,7 +102,12 @@ double liking(const Vec3d& viewer) {
   const Vec3d to = unit(viewer);
   const bool along_axis = std::max({std::fabs(to.x), std::fabs(to.y), std::fabs(to.z)}) > kPlan;
   const double upright = to.z < kBelow ? 0.8 : to.z < kLow ? 0.92 : 1;
-  return upright * (along_axis ? 0.85 : 1);
+  return upright * (along_axis ? 0.8 : 1);
+}
+
+double worth(double share) {
+  constexpr double kHalf = 0.1;
+  return share / (share + kHalf);
 }
 
 Result<std::vector<Candidate>> judge(std::span<const NearTriangle> triangles,
@@ -113,7 +116,7 @@ Result<std::vector<Candidate>> judge(std::span<const NearTriangle> triangles,
   return parallel::transform(
       context, {.name = "viewpoints", .n = directions.size()}, [&](std::size_t i) {
         const double share = visible_share(triangles, directions[i], sight);
-        return Candidate{directions[i], share, share * liking(directions[i])};
+        return Candidate{directions[i], share, worth(share) * liking(directions[i])};
       });
 }
 

@@ -33,11 +33,14 @@ struct Sight {
 /// Returns how people like to look in a direction, 0 to 1: from above and askew best.
 [[nodiscard]] double liking(const geometry::Vec3d& viewer);
 
+/// Returns what a share is worth, 0 to 1: of what is well seen more is worth little.
+[[nodiscard]] double worth(double share);
+
 /// A direction to the viewer, and what it shows.
 struct Candidate {
   geometry::Vec3d viewer;
   double share = 0;
-  double rank = 0;  ///< the share times the liking
+  double rank = 0;  ///< what the share is worth, times the liking
 };
 
 /// Returns all candidates in their order. Errors: cancelled.

@@ -16,7 +16,7 @@ namespace {
 using geometry::Vec3d;
 
 /// Of what shows without all others, so much must be seen for nothing to be cut away.
-constexpr double kEnough = 0.3;
+constexpr double kEnough = 0.5;
 /// Less than this of the window is not seen.
 constexpr double kLeastShare = 0.004;
 /// Nobody needs to see more of the two than this for a view to be good.

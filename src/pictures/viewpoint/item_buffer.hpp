@@ -23,13 +23,15 @@ struct Window {
 };
 
 /// Item buffer: which triangle each point of a view shows (Weghorst, Hooper and Greenberg 1984), by
-/// depth, of equals the first.
+/// depth; of equals the clash's own, then the first. What a plane cuts open is closed: there a face
+/// of the clash that is seen from within covers all that lies before it.
 class ItemBuffer {
  public:
   static constexpr std::uint32_t kNothing = 0xffffffffU;
   struct Item {
     std::uint32_t triangle = kNothing;
     bool back = false;      ///< its back is seen
+    bool own = false;       ///< it is of the clash
     double depth = -1e300;  ///< mm towards the viewer
   };
 
@@ -43,8 +45,11 @@ class ItemBuffer {
  private:
   void add(const Window& window, std::uint32_t number, const NearTriangle& triangle);
 
+  void close_cuts(std::span<const NearTriangle> triangles);
+
   std::uint32_t columns_;
   std::vector<Item> items_;
+  std::vector<Item> own_;  ///< the same of the clash's own triangles, where planes cut
 };
 
 }  // namespace strake::pictures
