@@ -3,28 +3,19 @@
 
 #include <span>
 
-<<<<<<< HEAD
 #include "bcf/bcf_writers.hpp"
-=======
 #include "pictures/whole_run.hpp"
->>>>>>> wip-pictures
 
 namespace strake::publish {
 namespace {
 
 std::vector<report::ClashWriter> clash_writers() {
   const std::span<const report::ClashWriter> texts = report::clash_writers();
-<<<<<<< HEAD
-  std::vector<report::ClashWriter> writers{texts.begin(), texts.end()};
-  const std::span<const report::ClashWriter> topics = bcf::clash_writers();
-  writers.insert(writers.end(), topics.begin(), topics.end());
-  return writers;
-=======
-  const std::span<const report::ClashWriter> pictures = pictures::picture_writers();
   std::vector<report::ClashWriter> all(texts.begin(), texts.end());
-  all.insert(all.end(), pictures.begin(), pictures.end());
+  for (const std::span<const report::ClashWriter> more :
+       {pictures::picture_writers(), bcf::clash_writers()})
+    all.insert(all.end(), more.begin(), more.end());
   return all;
->>>>>>> wip-pictures
 }
 
 }  // namespace

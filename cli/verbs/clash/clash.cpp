@@ -15,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include "bcf/output/write_bcf.hpp"
 #include "clash/rules/tolerance_lengths.hpp"
 #include "cli/output/picture_folder.hpp"
 #include "cli/run/file_settings.hpp"
@@ -119,47 +118,6 @@ Result<OnlyTest> only_test(const ClashOptions& given) {
   return test;
 }
 
-<<<<<<< HEAD
-void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
-  clash::Counters sum;
-  std::uint64_t allowed_other_regions = 0;
-  for (const clash::Report& test : tests) {
-    sum.candidate_pairs += test.counters.candidate_pairs;
-    sum.allowed_pairs += test.counters.allowed_pairs;
-    sum.part_pairs += test.counters.part_pairs;
-    sum.triangle_pairs += test.counters.triangle_pairs;
-    sum.exact_fallbacks += test.counters.exact_fallbacks;
-    sum.depth_cells += test.counters.depth_cells;
-    sum.volume_triangle_pairs += test.counters.volume_triangle_pairs;
-    sum.volumes_given_up += test.counters.volumes_given_up;
-    sum.regions_given_up += test.counters.regions_given_up;
-    allowed_other_regions += test.count_allowed_regions;
-  }
-  const clash::NotComparedCounts lacks = clash::counts_of(tests);
-  stats.count("candidate pairs", sum.candidate_pairs);
-  stats.count("pairs that may be allowed", sum.allowed_pairs);
-  stats.count("part pairs", sum.part_pairs);
-  stats.count("triangle pairs", sum.triangle_pairs);
-  stats.count("exact fall-backs", sum.exact_fallbacks);
-  stats.count("depth cells", sum.depth_cells);
-  stats.count("volume triangle pairs", sum.volume_triangle_pairs);
-  stats.count("volumes given up", sum.volumes_given_up);
-  stats.count("regions given up", sum.regions_given_up);
-  stats.count("allowed places of others", allowed_other_regions);
-  stats.count("pairs not compared", lacks.pairs);
-  stats.count("objects not compared whole", lacks.objects);
-}
-
-/// Says what a file of topics does not have.
-void tell_left_out(Session& session, const std::string& file,
-                   const report::ClashContents& contents) {
-  if (const std::string text = bcf::left_out_of_bcf(contents); !text.empty())
-    session.console().note(
-        fmt::format("{}: without {} (--bcf-most, --bcf-contacts, --group-by)", file, text));
-}
-
-=======
->>>>>>> wip-pictures
 Status write_files(Session& session, const ClashOptions& given,
                    const report::ClashContents& contents) {
   for (const std::string& file : given.outputs) {
@@ -168,7 +126,7 @@ Status write_files(Session& session, const ClashOptions& given,
     const Status status = session.write(
         file, [&](Session::Sink sink) { return writer->write(contents, sink, session.context()); });
     if (!status) return status;
-    if (suffix_of(file).starts_with(".bcf")) tell_left_out(session, file, contents);
+    tell_left_out(session.console(), file, contents);
   }
   if (given.result.log_pairs.empty()) return {};
   return session.write(given.result.log_pairs, [&](Session::Sink sink) {
@@ -215,7 +173,7 @@ WrittenFiles written_files(const ClashOptions& given, bool json) {
     const std::string suffix = suffix_of(file);
     files.csv = files.csv || suffix == ".csv";
     files.json = files.json || suffix == ".json";
-    files.bcf = files.bcf || suffix.starts_with(".bcf");
+    files.bcf = files.bcf || is_bcf(file);
   }
   return files;
 }
@@ -371,13 +329,6 @@ std::optional<report::RulesSource> rules_source(const ClashOptions& given,
   return std::nullopt;
 }
 
-/// Returns the form of BCF; topics of a project are made by its run, unless a date is given.
-report::BcfForm bcf_of(const ClashRequest& request, const ProjectClashes* project) {
-  report::BcfForm form = request.output.bcf;
-  if (form.date.empty() && project != nullptr) form.date = project->started();
-  return form;
-}
-
 /// Groups and writes what was found, after what is not to be written is taken out of it; `project`
 /// is null where files are tested.
 Status put_out(Session& session, const ClashOptions& given, const ClashRequest& request,
@@ -399,7 +350,7 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
                                        request.output.classes,
                                        decided,
                                        &loaded.scene,
-                                       bcf_of(request, project)};
+                                       form_of_run(request.output.bcf, project)};
   if (const Status status = write_files(session, given, contents); !status) return status;
   if (const Status status = write_pictures(session, given.pictures, contents); !status)
     return status;
@@ -611,11 +562,8 @@ Examples:
   strake clash hvac.rvm steel.rvm --columns @Tag,@Area --csv excel-comma -o clashes.csv
   strake clash hvac.rvm steel.rvm --profile plant --group-by assembly
   strake clash ship.glb --class hit --decisions decided.csv --write-decisions --fail-on hit
-<<<<<<< HEAD
   strake clash hvac.rvm steel.rvm --group-by element -o clashes.bcf --bcf-most 200
-=======
   strake clash ship.glb --group-by proximity --pictures pictures --top-pictures 20
->>>>>>> wip-pictures
   strake clash ship.glb --log-pairs pairs.csv --stats
   strake clash -p ship.strake --rules project.toml --fail-on hit -o today.json
   strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --status approved --comment 'as agreed'

@@ -164,7 +164,7 @@ Result<ReadFile> read_bcf(const std::filesystem::path& file, const parallel::Con
 }
 
 std::optional<std::string> utc_of(std::string_view date) {
-  using namespace std::chrono;
+  namespace chrono = std::chrono;
   date = trimmed(date, " \t\r\n");
   constexpr std::string_view kForm = "0000-00-00T00:00:00";
   if (date.size() < kForm.size()) return std::nullopt;
@@ -178,16 +178,18 @@ std::optional<std::string> utc_of(std::string_view date) {
     parts[i] = *part;
   }
   const std::optional<int> zone = zone_minutes(date.substr(kForm.size()));
-  const year_month_day day{year(parts[0]), month(static_cast<unsigned>(parts[1])),
-                           std::chrono::day(static_cast<unsigned>(parts[2]))};
+  const chrono::year_month_day day{chrono::year(parts[0]),
+                                   chrono::month(static_cast<unsigned>(parts[1])),
+                                   chrono::day(static_cast<unsigned>(parts[2]))};
   // Seconds that are put in before midnight count as the last one; 24:00 is the next day.
   if (!zone || !day.ok() || parts[3] > 24 || parts[4] > 59 || parts[5] > 60) return std::nullopt;
-  const sys_seconds at =
-      sys_days(day) + hours(parts[3]) + minutes(parts[4]) + seconds(parts[5]) - minutes(*zone);
-  const sys_days midnight = floor<days>(at);
-  const year_month_day utc(midnight);
-  if (utc.year() < year(0) || utc.year() > year(9999)) return std::nullopt;
-  const hh_mm_ss time(at - midnight);
+  const chrono::sys_seconds at = chrono::sys_days(day) + chrono::hours(parts[3]) +
+                                 chrono::minutes(parts[4]) + chrono::seconds(parts[5]) -
+                                 chrono::minutes(*zone);
+  const chrono::sys_days midnight = chrono::floor<chrono::days>(at);
+  const chrono::year_month_day utc(midnight);
+  if (utc.year() < chrono::year(0) || utc.year() > chrono::year(9999)) return std::nullopt;
+  const chrono::hh_mm_ss time(at - midnight);
   return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(utc.year()),
                      static_cast<unsigned>(utc.month()), static_cast<unsigned>(utc.day()),
                      time.hours().count(), time.minutes().count(), time.seconds().count());

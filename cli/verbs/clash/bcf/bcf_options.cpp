@@ -8,8 +8,12 @@
 #include <optional>
 
 #include "bcf/input/read_bcf.hpp"
+#include "bcf/output/write_bcf.hpp"
 #include "bcf/xml/xml_text.hpp"
 #include "cli/options/options.hpp"
+#include "cli/output/console.hpp"
+#include "cli/verbs/clash/clash_project.hpp"
+#include "core/output_format.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::cli {
@@ -82,6 +86,21 @@ Result<report::BcfForm> bcf_form(const BcfInput& input, bool is_written) {
       return Error{ErrorCode::usage, "this is no name", "--bcf-author",
                    "write who made the topics"};
   }
+  return form;
+}
+
+bool is_bcf(const std::string& file) { return suffix_of(file).starts_with(".bcf"); }
+
+void tell_left_out(Console& console, const std::string& file,
+                   const report::ClashContents& contents) {
+  if (!is_bcf(file)) return;
+  if (const std::string text = bcf::left_out_of_bcf(contents); !text.empty())
+    console.note(
+        fmt::format("{}: without {} (--bcf-most, --bcf-contacts, --group-by)", file, text));
+}
+
+report::BcfForm form_of_run(report::BcfForm form, const ProjectClashes* project) {
+  if (form.date.empty() && project != nullptr) form.date = project->started();
   return form;
 }
 
