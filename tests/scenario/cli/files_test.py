@@ -36,7 +36,7 @@ class Files(Scenario):
         self.assertEqual(self.files(), ['a.obj', 'b.obj'])
 
     # Every kind of file that the program writes: the command line up to its name, and its ending.
-    OUTPUTS = [(['clash', 'a.obj', '-o'], '.json'), (['clash', 'a.obj', '-o'], '.csv'),
+    OUTPUTS = [(['clash', 'a.obj', '-o'], '.json'), (['clash', 'a.obj', '-o'], '.csv'), (['clash', 'a.obj', '-o'], '.bcf'),
                (['clash', 'a.obj', '--log-pairs'], '.csv'), (['clash', 'diff', 'old.json', 'old.json', '-o'], '.json'),
                (['draw', 'a.obj', '-o'], '.svg'), (['draw', 'a.obj', '-o'], '.json'), (['draw', 'a.obj', '-o'], '.view'),
                (['draw', 'a.obj', '--sheet', 'sheet.toml', '-o'], '.svg'),
