@@ -63,6 +63,7 @@ strake_component(geometry
 
 # The pages of all components from here on refer to each other, so they come together.
 set(manual
+  docs/bcf.md
   docs/clash.md
   docs/cluster.md
   docs/decisions

@@ -126,6 +126,7 @@ Status write_files(Session& session, const ClashOptions& given,
     const Status status = session.write(
         file, [&](Session::Sink sink) { return writer->write(contents, sink, session.context()); });
     if (!status) return status;
+    tell_left_out(session.console(), file, contents);
   }
   if (given.result.log_pairs.empty()) return {};
   return session.write(given.result.log_pairs, [&](Session::Sink sink) {
@@ -173,6 +174,7 @@ WrittenFiles written_files(const ClashOptions& given, bool json) {
     // What has no format is told of where its name is looked at.
     const Result<report::ClashWriter> writer = publish::find_clash_writer(file);
     files.attributes = files.attributes || (writer && writer->attributes);
+    files.bcf = files.bcf || is_bcf(file);
   }
   return files;
 }
@@ -348,7 +350,8 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
                                        request.output.csv,
                                        request.output.classes,
                                        decided,
-                                       &loaded.scene};
+                                       &loaded.scene,
+                                       form_of_run(request.output.bcf, project)};
   if (const Status status = write_files(session, given, contents); !status) return status;
   if (const Status status = write_pictures(session, given.pictures, contents); !status)
     return status;
@@ -394,10 +397,10 @@ Result<const report::DecidedResults*> decided_of(Session& session, const ClashOp
                                                  clash::Findings& findings,
                                                  std::optional<report::DecidedResults>& from_file) {
   if (source.project) {
-    const Status status =
-        source.project->remember(session, source.loaded, findings,
-                                 {request.deeper_mm, rules_source(given, request),
-                                  grouping_of(given.result, given.output.classes)});
+    const Status status = source.project->remember(session, source.loaded, findings,
+                                                   {request.deeper_mm, rules_source(given, request),
+                                                    grouping_of(given.result, given.output.classes),
+                                                    written_files(given, session.json()).bcf});
     if (!status) return status.error();
     return source.project->decided();
   }
@@ -560,6 +563,7 @@ Examples:
   strake clash hvac.rvm steel.rvm --columns @Tag,@Area --csv excel-comma -o clashes.csv
   strake clash hvac.rvm steel.rvm --profile plant --group-by assembly
   strake clash ship.glb --class hit --decisions decided.csv --write-decisions --fail-on hit
+  strake clash hvac.rvm steel.rvm --group-by element -o clashes.bcf --bcf-most 200
   strake clash ship.glb --group-by proximity --pictures pictures --top-pictures 20
   strake clash ship.glb --log-pairs pairs.csv --stats
   strake clash -p ship.strake --rules project.toml --fail-on hit -o today.json

@@ -95,6 +95,7 @@ void add_clash_output_options(CLI::App& command, ClashOutputInput& options) {
              "where Excel's decimal sign is the comma with commas in numbers and semicolons "
              "between cells (default standard)")
       ->group(kGroup);
+  add_bcf_options(command, options.bcf);
 }
 
 Result<ClashOutput> clash_output(const ClashOutputInput& input, const WrittenFiles& files) {
@@ -121,6 +122,9 @@ Result<ClashOutput> clash_output(const ClashOutputInput& input, const WrittenFil
   output.csv = csv_form(input.csv);
   if (!input.csv.empty() && !files.csv && !files.pair_log && !files.decisions)
     return option_error("no .csv is written", "--csv", "add -o FILE.csv");
+  const Result<report::BcfForm> bcf = bcf_form(input.bcf, files.bcf);
+  if (!bcf) return bcf.error();
+  output.bcf = *bcf;
   return output;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/verbs/clash/bcf/bcf_options.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
@@ -21,6 +22,7 @@ namespace strake::cli {
 /// As written.
 struct ClashOutputInput {
   std::string columns, classes, top, csv;
+  BcfInput bcf;
 };
 
 /// The parsed form of a ClashOutputInput.
@@ -29,11 +31,12 @@ struct ClashOutput {
   report::WrittenClasses classes;
   std::optional<std::uint64_t> rows;  ///< of the table; absent: as many as it has by itself
   report::CsvForm csv;
+  report::BcfForm bcf;
 };
 
 /// What a run writes, as far as the options bear on it.
 struct WrittenFiles {
-  bool csv = false;
+  bool csv = false, bcf = false;
   bool attributes = false;  ///< a format that has ClashOutput::columns
   bool pair_log = false;   ///< CSV too, but without attributes
   bool decisions = false;  ///< likewise

@@ -255,7 +255,8 @@ Status ProjectClashes::remember(Session& session, const Loaded& loaded,
                                 now_s() - started_s_,
                                 request.deeper_mm,
                                 std::move(request.rules),
-                                std::move(request.grouping)};
+                                std::move(request.grouping),
+                                request.with_comments};
   Result<project::RememberedRun> run =
       project::remember(opened_.project.database(), *loaded.model, facts, tests, session.context());
   if (!run) return run.error();

@@ -34,6 +34,7 @@ struct RunRequest {
   double deeper_mm = 1;                      ///< as project::RunFacts
   std::optional<report::RulesSource> rules;  ///< the rules file, if there is one
   project::RunGrouping grouping;
+  bool with_comments = false;  ///< likewise
 };
 
 void add_clash_project_options(CLI::App& command, ClashProjectInput& options);
@@ -61,6 +62,8 @@ class ProjectClashes {
                                 const clash::Findings& findings, RunRequest request);
   /// Returns what was decided about the findings; only after remember().
   [[nodiscard]] const report::DecidedResults* decided() const { return &run_->decided; }
+  /// Returns when the run began, in UTC.
+  [[nodiscard]] const std::string& started() const { return started_; }
   [[nodiscard]] Status commit(Session& session);
   /// Whether --verify found the result of a run that follows changes to be another than that of a
   /// full one.

@@ -16,6 +16,7 @@
 #include "cli/run/person.hpp"
 #include "cli/run/project_input.hpp"
 #include "cli/run/utc_time.hpp"
+#include "cli/verbs/clash/bcf/bcf_review.hpp"
 #include "cli/verbs/clash/clash_groups.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/number.hpp"
@@ -29,14 +30,30 @@ namespace {
 struct ClashSetOptions {
   ProjectOptions project;
   std::vector<std::string> keys, select;
-  std::string group, status, by;
+  std::string group, status, by, bcf, prefer;
   std::optional<std::string> comment, assignee;
   ClashGroupingInput grouping;
 };
 
+/// A file that says what is decided about which clashes leaves nothing else to say.
+Status check_bcf(const ClashSetOptions& given) {
+  if (given.bcf.empty() && !given.prefer.empty())
+    return Error{ErrorCode::usage, "no .bcf is read", "--prefer", "add --bcf FILE"};
+  if (given.bcf.empty()) return {};
+  const bool says_more = !given.keys.empty() || !given.select.empty() || !given.group.empty() ||
+                         !given.status.empty() || given.comment || given.assignee ||
+                         given.grouping.first_given() != nullptr;
+  if (says_more)
+    return Error{ErrorCode::usage, "a BCF file says what is decided about which clashes", "--bcf",
+                 "leave out keys, --select, --group, --status, --comment and --assignee"};
+  return {};
+}
+
 Status check(const ClashSetOptions& given) {
   if (given.project.file.empty())
     return Error{ErrorCode::usage, "no project is given", "-p", "write -p FILE"};
+  if (const Status status = check_bcf(given); !status) return status;
+  if (!given.bcf.empty()) return {};
   if (given.status.empty() && !given.comment && !given.assignee)
     return Error{
         ErrorCode::usage, "there is nothing to set", {}, "add --status, --comment or --assignee"};
@@ -124,8 +141,15 @@ Result<std::vector<std::string>> keys_of(Session& session, OpenedProject& opened
 
 Result<ExitCode> run_set(Session& session, const ClashSetOptions& given) {
   if (const Status status = check(given); !status) return status.error();
+  if (!given.bcf.empty())
+    if (const Status status = session.files().add_input(given.bcf); !status) return status.error();
   Result<OpenedProject> opened = open_project(session, given.project, project::Access::write);
   if (!opened) return opened.error();
+  if (!given.bcf.empty()) {
+    const Status status = take_bcf(session, *opened, {given.bcf, given.by, given.prefer == "bcf"});
+    if (!status) return status.error();
+    return ExitCode::done;
+  }
   project::Database& database = opened->project.database();
   Result<project::Transaction> transaction = project::Transaction::begin(database);
   if (!transaction) return transaction.error();
@@ -179,6 +203,13 @@ Verb add_clash_set(CLI::App& clash, CommonOptions& common) {
           "--assignee", [options](const std::string& name) { options->assignee = name; },
           "Who sees to it; '' for nobody")
       ->type_name("NAME|''");
+  command
+      ->add_option("--bcf", options->bcf,
+                   "Statuses, assignees and comments of this BCF 2.1 or 3.0, which came back from "
+                   "another program (docs/bcf.md)")
+      ->type_name("FILE");
+  add_choice(*command, "--prefer", options->prefer, {"project", "bcf"},
+             "What counts where the two decided otherwise (default project)");
   command->add_option("--by", options->by, "Who decides (default: the user)")->type_name("NAME");
   add_common_options(*command, common);
   command->footer(R"(
@@ -193,6 +224,7 @@ Examples:
   strake clash set -p ship.strake --select 'path = "/HVAC/*"' --assignee Ann
   strake clash set -p ship.strake --group 3 --status reviewed --by Bob
   strake clash set -p ship.strake --group 3 --group-by assembly --class hit --status approved
+  strake clash set -p ship.strake --bcf back.bcf
   strake clash set -p ship.strake --group 4dy8m2x6p0b3hq7t1v9wz5kcne --status approved
   strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --assignee '' --comment '')");
   return {command, [options](Session& session) { return run_set(session, *options); }};

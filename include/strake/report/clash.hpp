@@ -64,6 +64,15 @@ struct WrittenClasses {
 /// be of one of them (clash::Pair::severest). What the tests count stays as it is.
 void leave_out_others(clash::Findings& findings, const WrittenClasses& classes);
 
+/// How BCF is written: a topic for each group, or for each result where there are no groups.
+struct BcfForm {
+  bool version_3 = false;   ///< 3.0; otherwise 2.1, which most programs read
+  std::size_t most = 1000;  ///< topics: the first of the groups, or the worst of the results
+  bool contacts = false;    ///< also results that are contacts; groups have those that they have
+  std::string date = {};    ///< when topics were made, as 2026-01-31T23:59:59Z; empty: 1970-01-01
+  std::string author = "strake";  ///< who made them
+};
+
 /// What a report is written from.
 struct ClashContents {
   const clash::Findings& findings;
@@ -88,6 +97,7 @@ struct ClashContents {
   /// results; empty: they have none. Nothing comes of a result without a picture: an empty text.
   std::function<Result<std::string>(const clash::ResultRef&, const parallel::Context&)> picture_of =
       {};
+  BcfForm bcf = {};
 };
 
 /// Writes the document of schemas/clash.schema.json, one result a line, streamed: memory does not

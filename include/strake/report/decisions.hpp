@@ -41,6 +41,11 @@ struct DecisionObject {
   std::string file, id, name;
 };
 
+/// What somebody said about a clash.
+struct DecisionComment {
+  std::string at, by, text;  ///< when, as 2026-01-31T23:59:59Z, or the day alone; or empty
+};
+
 /// A row of the file.
 struct Decision {
   Hash128 key;  ///< the clash::parse_key() of its text
@@ -55,6 +60,9 @@ struct Decision {
   std::string test;
   DecisionObject a, b;
   std::size_t line = 0;
+  std::string assignee;  ///< who sees to it; of projects alone
+  /// All that people said, where a project was asked for it; `comment` is what holds now.
+  std::vector<DecisionComment> comments;
 };
 
 struct DecisionFile {

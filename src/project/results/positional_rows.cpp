@@ -25,6 +25,7 @@ report::Decision decision_of(const ClashRow& row, const std::string& test) {
   decision.test = test;
   decision.a = {row.a.file, row.a.id, row.a.name};
   decision.b = {row.b.file, row.b.id, row.b.name};
+  decision.assignee = row.assignee;
   return decision;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 #include "project/results/positional_rows.hpp"
@@ -85,12 +86,30 @@ class DecidedBuilder {
         const ToldClash& told = (at++)->second;
         results.back().reopened = told.reopened;
         told_.push_back({test, results.size() - 1, add(told_of(told, memory.is_new(i), report))});
+        decision_of_.emplace(told.row.id, told_.back().decision);
         status = decisions_.back().status;
       }
       if (pair.allowed < 0) ++run_.decided.counts[static_cast<std::size_t>(status)];
     }
     for (const ClashRow& row : memory.not_found())
       not_found_.push_back(add(decision_of(row, report.name)));
+  }
+
+  /// Adds all that people said of the clashes that decisions are about.
+  Status add_comments(Database& database) {
+    Result<Statement> select = database.prepare(
+        "SELECT clash, at, who, comment FROM event WHERE run IS NULL AND comment <> '' ORDER BY "
+        "id");
+    if (!select) return select.error();
+    for (;;) {
+      const Result<bool> there = select->step();
+      if (!there) return there.error();
+      if (!*there) return {};
+      if (const auto at = decision_of_.find(select->integer(0)); at != decision_of_.end())
+        decisions_[at->second].comments.push_back({std::string(select->text(1)),
+                                                   std::string(select->text(2)),
+                                                   std::string(select->text(3))});
+    }
   }
 
   void finish(const std::string& name, double deeper_mm) {
@@ -130,6 +149,7 @@ class DecidedBuilder {
   RememberedRun& run_;
   std::vector<report::Decision> decisions_;
   std::vector<Told> told_;
+  std::map<std::int64_t, std::size_t> decision_of_;  ///< by the row of the clash
   std::vector<std::size_t> not_found_;
 };
 
@@ -183,7 +203,12 @@ class RunMemory {
     return add(test, **row, *before ? &**before : nullptr, nullptr, context);
   }
 
-  void finish() { decided_.finish(database_.file().filename().string(), facts_.deeper_mm); }
+  Status finish() {
+    if (facts_.with_comments)
+      if (const Status status = decided_.add_comments(database_); !status) return status;
+    decided_.finish(database_.file().filename().string(), facts_.deeper_mm);
+    return {};
+  }
 
  private:
   Status add(const TestedTest& test, TestRow row, const StoredTest* before,
@@ -257,7 +282,7 @@ Result<RememberedRun> remember(Database& database, const model::Model& model, co
   RunMemory memory(database, std::move(*rows), std::move(*history), model, facts, run);
   for (const TestedTest& test : tests)
     if (const Status status = memory.add(test, context); !status) return status.error();
-  memory.finish();
+  if (const Status status = memory.finish(); !status) return status.error();
   if (const Status status = write_run_record(database, run.number, {facts.rules, facts.grouping});
       !status)
     return status.error();

@@ -67,6 +67,7 @@ struct RunFacts {
   double deeper_mm = 1;  ///< an approved clash that is deeper by more comes back
   std::optional<report::RulesSource> rules = {};  ///< the rules file, if there was one
   RunGrouping grouping = {};
+  bool with_comments = false;  ///< decisions are to have all that people said
 };
 
 /// A run that is remembered.

@@ -37,7 +37,7 @@ class Files(Scenario):
 
     # Every kind of file that the program writes: the command line up to its name, and its ending.
     OUTPUTS = [*((['clash', 'a.obj', '-o'], ending)
-                 for ending in ('.json', '.csv', '.xlsx', '.xml', '.ifcclash.json', '.joints.csv', '.svg', '.glb')),
+                 for ending in ('.json', '.csv', '.xlsx', '.xml', '.ifcclash.json', '.joints.csv', '.svg', '.glb', '.bcf')),
                (['clash', 'a.obj', '--log-pairs'], '.csv'), (['clash', 'diff', 'old.json', 'old.json', '-o'], '.json'),
                (['draw', 'a.obj', '-o'], '.svg'), (['draw', 'a.obj', '-o'], '.json'), (['draw', 'a.obj', '-o'], '.view'),
                (['draw', 'a.obj', '--sheet', 'sheet.toml', '-o'], '.svg'),

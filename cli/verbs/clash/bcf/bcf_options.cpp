@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/verbs/clash/bcf/bcf_options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+
+#include "bcf/input/read_bcf.hpp"
+#include "bcf/output/write_bcf.hpp"
+#include "bcf/xml/xml_text.hpp"
+#include "cli/options/options.hpp"
+#include "cli/output/console.hpp"
+#include "cli/verbs/clash/clash_project.hpp"
+#include "core/output_format.hpp"
+#include "core/text_encoding.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+/// Returns the first option of the command line that is about BCF; null where there is none.
+const char* first_given(const BcfInput& input) {
+  if (!input.version.empty()) return "--bcf-version";
+  if (!input.most.empty()) return "--bcf-most";
+  if (!input.date.empty()) return "--bcf-date";
+  if (!input.author.empty()) return "--bcf-author";
+  return input.contacts ? "--bcf-contacts" : nullptr;
+}
+
+}  // namespace
+
+void add_bcf_options(CLI::App& command, BcfInput& options) {
+  constexpr const char* kGroup = "Result";
+  add_choice(command, "--bcf-version", options.version, {"2.1", "3.0"},
+             "Version of .bcf (default 2.1, which most programs read)")
+      ->group(kGroup);
+  command
+      .add_option("--bcf-most", options.most,
+                  fmt::format("Most topics of .bcf: the first groups, or the worst results "
+                              "(default {})",
+                              report::BcfForm{}.most))
+      ->type_name("N")
+      ->group(kGroup);
+  command
+      .add_flag("--bcf-contacts", options.contacts,
+                "Topics for contacts, too, where there are no groups")
+      ->group(kGroup);
+  command
+      .add_option("--bcf-date", options.date,
+                  "When topics were made, as 2026-01-31 or 2026-01-31T12:00:00Z (default: the run "
+                  "of the project; without one 1970-01-01, so that equal runs write equal files)")
+      ->type_name("DATE")
+      ->group(kGroup);
+  command
+      .add_option("--bcf-author", options.author,
+                  fmt::format("Who made the topics (default {})", report::BcfForm{}.author))
+      ->type_name("NAME")
+      ->group(kGroup);
+}
+
+Result<report::BcfForm> bcf_form(const BcfInput& input, bool is_written) {
+  report::BcfForm form;
+  if (const char* const option = first_given(input); option != nullptr && !is_written)
+    return Error{ErrorCode::usage, "no .bcf is written", option, "add -o FILE.bcf"};
+  form.version_3 = input.version == "3.0";
+  form.contacts = input.contacts;
+  if (!input.most.empty()) {
+    std::uint64_t most = 0;
+    if (const Status status = whole_number(most, input.most, "--bcf-most"); !status)
+      return status.error();
+    form.most = static_cast<std::size_t>(most);
+  }
+  if (!input.date.empty()) {
+    std::optional<std::string> date = bcf::utc_of(input.date);
+    if (!date) date = bcf::utc_of(input.date + "T00:00:00");
+    if (!date)
+      return Error{ErrorCode::usage, in_quotes(input.date) + " is no date", "--bcf-date",
+                   "write it as 2026-01-31 or 2026-01-31T12:00:00Z"};
+    form.date = *date;
+  }
+  if (!input.author.empty()) {
+    form.author = bcf::compared_text(input.author);
+    if (form.author.empty())
+      return Error{ErrorCode::usage, "this is no name", "--bcf-author",
+                   "write who made the topics"};
+  }
+  return form;
+}
+
+bool is_bcf(const std::string& file) { return suffix_of(file).starts_with(".bcf"); }
+
+void tell_left_out(Console& console, const std::string& file,
+                   const report::ClashContents& contents) {
+  if (!is_bcf(file)) return;
+  if (const std::string text = bcf::left_out_of_bcf(contents); !text.empty())
+    console.note(
+        fmt::format("{}: without {} (--bcf-most, --bcf-contacts, --group-by)", file, text));
+}
+
+report::BcfForm form_of_run(report::BcfForm form, const ProjectClashes* project) {
+  if (form.date.empty() && project != nullptr) form.date = project->started();
+  return form;
+}
+
+}  // namespace strake::cli

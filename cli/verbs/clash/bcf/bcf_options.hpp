@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "strake/core/result.hpp"
+#include "strake/report/clash.hpp"
+
+namespace CLI {  // NOLINT(readability-identifier-naming): the library's own name
+class App;
+}  // namespace CLI
+
+namespace strake::cli {
+
+class Console;
+class ProjectClashes;
+
+/// What is said of BCF on the command line, as written.
+struct BcfInput {
+  std::string version, most, date, author;
+  bool contacts = false;
+};
+
+void add_bcf_options(CLI::App& command, BcfInput& options);
+
+/// Returns the form of BCF. Errors: usage for what is misspelt, and for an option where no BCF is
+/// written.
+[[nodiscard]] Result<report::BcfForm> bcf_form(const BcfInput& input, bool is_written);
+
+/// Whether the name of a file asks for BCF.
+[[nodiscard]] bool is_bcf(const std::string& file);
+
+/// Says what a file does not have, if it is BCF.
+void tell_left_out(Console& console, const std::string& file,
+                   const report::ClashContents& contents);
+
+/// Returns the form with the date of the run of a project, unless one is given; `project` is null
+/// where files are tested.
+[[nodiscard]] report::BcfForm form_of_run(report::BcfForm form, const ProjectClashes* project);
+
+}  // namespace strake::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bcf/topics/reference.hpp"
+#include "strake/core/diagnostics.hpp"
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
+
+/// BCF read: what people said of topics in other programs.
+namespace strake::bcf {
+
+struct ReadComment {
+  std::string date;  ///< UTC, as 2026-01-31T23:59:59Z; empty where the file has none
+  std::string author, text;
+};
+
+struct ReadTopic {
+  std::string guid;  ///< in small letters
+  std::string title, status, assignee;
+  std::string changed, changer;        ///< the last change, as a comment has them; or empty
+  std::vector<ReadComment> comments;   ///< by date; of an edited one the last form
+  std::optional<Reference> reference;  ///< where the topic is one that was written by Strake
+};
+
+struct ReadFile {
+  std::string version;            ///< "2.1" or "3.0"
+  std::vector<ReadTopic> topics;  ///< by GUID
+  /// The code is "bcf-topic-damaged": topics that could not be read, each by its place.
+  Diagnostics diagnostics;
+};
+
+/// Reads the topics of a BCF 2.1 or 3.0 without their viewpoints. Errors: input for what is no zip
+/// archive, for other versions, and where topics unpack to more than 512 MiB; cancelled.
+[[nodiscard]] Result<ReadFile> read_bcf(const std::filesystem::path& file,
+                                        const parallel::Context& context = {});
+
+/// Returns a date of XML (xs:dateTime; without a zone it is UTC) in UTC to the second, as
+/// "2026-01-31T23:59:59Z"; nothing for any other text.
+[[nodiscard]] std::optional<std::string> utc_of(std::string_view date);
+
+}  // namespace strake::bcf

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bcf/output/write_bcf.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bcf/output/extensions.hpp"
+#include "bcf/output/markup.hpp"
+#include "bcf/output/viewpoint_file.hpp"
+#include "bcf/output/zip_writer.hpp"
+#include "bcf/topics/reference.hpp"
+#include "bcf/topics/topic_facts.hpp"
+#include "bcf/topics/topic_plan.hpp"
+#include "pictures/clash_picture.hpp"
+#include "strake/parallel/pipeline.hpp"
+#include "strake/parallel/progress.hpp"
+
+namespace strake::bcf {
+namespace {
+
+constexpr std::uint32_t kPictureWidth = 800, kPictureHeight = 600;
+
+/// What of a topic goes into the archive.
+struct TopicFiles {
+  std::string guid;
+  std::vector<std::pair<const char*, PackedFile>> files;
+};
+
+/// A viewpoint with what it looks like.
+struct SeenTopic {
+  std::string guid, file, picture;
+};
+
+Result<SeenTopic> look_at(const pictures::Scenery& scenery, const PlannedTopic& topic,
+                          const std::string& topic_guid, const parallel::Context& context) {
+  const report::ClashContents& contents = scenery.contents();
+  const pictures::Subject subject = topic.group != nullptr
+                                        ? pictures::subject_of(contents, *topic.group)
+                                        : pictures::subject_of(topic.results.front());
+  const Result<pictures::ClashViewpoint> seen =
+      pictures::choose_viewpoint(scenery, subject, {}, context);
+  if (!seen) return seen.error();
+  // A viewpoint never changes: what is seen differently is another one.
+  SeenTopic view;
+  view.guid = part_guid(topic_guid, viewpoint_file(contents, topic, topic_guid, *seen));
+  view.file = viewpoint_file(contents, topic, view.guid, *seen);
+  const Result<pictures::ClashPicture> drawn =
+      pictures::draw_clash(scenery, subject, *seen, {.caption = false}, context);
+  if (!drawn) return drawn.error();
+  Result<std::string> picture = pictures::png_of(*drawn, kPictureWidth, kPictureHeight);
+  if (!picture) return picture.error();
+  view.picture = std::move(*picture);
+  return view;
+}
+
+Status add_packed(TopicFiles& topic, const char* name, const std::string& bytes) {
+  Result<PackedFile> packed = pack(bytes);
+  if (!packed) return packed.error();
+  topic.files.emplace_back(name, std::move(*packed));
+  return {};
+}
+
+/// Makes the files of a topic; `scenery` is null where nothing can be shown.
+Result<TopicFiles> make_topic(const report::ClashContents& contents,
+                              const pictures::Scenery* scenery, const PlannedTopic& topic,
+                              const parallel::Context& context) {
+  const TopicFacts facts = facts_of(contents, topic);
+  TopicFiles made{facts.guid, {}};
+  SeenTopic view;
+  if (scenery != nullptr) {
+    Result<SeenTopic> seen = look_at(*scenery, topic, facts.guid, context);
+    if (!seen) return seen.error();
+    view = std::move(*seen);
+  }
+  const std::string markup = markup_file(facts, {contents.bcf.version_3, view.guid});
+  if (const Status status = add_packed(made, "markup.bcf", markup); !status) return status.error();
+  if (scenery == nullptr) return made;
+  if (const Status status = add_packed(made, kViewpointFile, view.file); !status)
+    return status.error();
+  if (const Status status = add_packed(made, kSnapshotFile, view.picture); !status)
+    return status.error();
+  return made;
+}
+
+Status add_file(ZipWriter& zip, const char* name, const std::string& bytes) {
+  const Result<PackedFile> packed = pack(bytes);
+  if (!packed) return packed.error();
+  return zip.add(name, *packed);
+}
+
+Status add_topic(ZipWriter& zip, const TopicFiles& topic) {
+  if (const Status status = zip.add_folder(topic.guid + "/"); !status) return status;
+  for (const auto& [name, file] : topic.files)
+    if (const Status status = zip.add(topic.guid + "/" + name, file); !status) return status;
+  return {};
+}
+
+/// Writes all topics in their order, made by the team. What the sink throws comes out.
+Status add_topics(ZipWriter& zip, const report::ClashContents& contents, const TopicPlan& plan,
+                  const parallel::Context& context) {
+  std::optional<pictures::Scenery> scenery;
+  if (contents.scene != nullptr) {
+    Result<pictures::Scenery> made = pictures::Scenery::of(contents, context);
+    if (!made) return made.error();
+    scenery.emplace(std::move(*made));
+  }
+  const parallel::Context alone{.stop = context.stop};
+  const parallel::ProgressPhase phase(context.progress, "topics", plan.topics.size());
+  std::size_t next = 0;
+  std::exception_ptr thrown;
+  const Status status = parallel::pipeline(
+      context, {.name = "topics"},
+      [&]() -> std::optional<std::size_t> {
+        if (next >= plan.topics.size()) return std::nullopt;
+        return next++;
+      },
+      [&](std::size_t t) {
+        return make_topic(contents, scenery ? &*scenery : nullptr, plan.topics[t], alone);
+      },
+      [&](const TopicFiles& topic) -> Status {
+        try {
+          phase.add(1);
+          return add_topic(zip, topic);
+        } catch (...) {
+          thrown = std::current_exception();
+          return Error{ErrorCode::internal, "the sink threw", {}, {}};
+        }
+      });
+  if (thrown) std::rethrow_exception(thrown);
+  return status;
+}
+
+std::string counted(std::uint64_t count, const char* what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+Status write_bcf(const report::ClashContents& contents, report::Sink sink,
+                 const parallel::Context& context) {
+  const TopicPlan plan = plan_topics(contents);
+  ZipWriter zip(sink);
+  if (const Status status = add_file(zip, "bcf.version", version_file(contents.bcf.version_3));
+      !status)
+    return status;
+  if (contents.bcf.version_3)
+    if (const Status status = add_file(zip, "extensions.xml", extensions_file(contents, plan));
+        !status)
+      return status;
+  if (const Status status = add_topics(zip, contents, plan, context); !status) return status;
+  return zip.finish();
+}
+
+std::string left_out_of_bcf(const report::ClashContents& contents) {
+  const LeftOut left_out = plan_topics(contents).left_out;
+  std::string text;
+  if (left_out.groups > 0) text = counted(left_out.groups, "group");
+  if (left_out.results > 0) text = counted(left_out.results, "result");
+  if (!text.empty()) text += " beyond the first " + std::to_string(contents.bcf.most);
+  if (left_out.contacts > 0)
+    text += (text.empty() ? "" : ", and ") + counted(left_out.contacts, "contact");
+  return text;
+}
+
+}  // namespace strake::bcf

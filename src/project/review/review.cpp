@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/review/review.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "core/text_encoding.hpp"
+#include "project/results/clash_queries.hpp"
+#include "project/results/clash_rows.hpp"
+
+namespace strake::project {
+namespace {
+
+using report::DecisionStatus;
+
+/// What became of one thing that a review says.
+enum class Ruling : std::uint8_t { nothing, take, conflict };
+
+/// Whether nobody has settled a clash of this status.
+bool is_open(DecisionStatus status) { return status <= DecisionStatus::active; }
+
+bool agrees(const ReviewStatus& said, DecisionStatus status) {
+  return status == said.given || (said.is_open && is_open(status));
+}
+
+Ruling ruling_on_status(const ReviewedTopic& topic, const ReviewedClash& clash,
+                        DecisionStatus now) {
+  if (!topic.status || agrees(*topic.status, now)) return Ruling::nothing;
+  if (topic.written && agrees(*topic.status, *topic.written)) return Ruling::nothing;
+  // A clash that nobody decided about becomes Active by the next run, which is no decision either.
+  const DecisionStatus before = clash.written.value_or(DecisionStatus::active);
+  const bool untouched = now == before || (is_open(now) && is_open(before));
+  return untouched ? Ruling::take : Ruling::conflict;
+}
+
+Ruling ruling_on_assignee(const ReviewedTopic& topic, const std::string& now,
+                          const ReviewRules& rules) {
+  const std::string said = rules.compared(topic.assignee), has = rules.compared(now);
+  if (said == has) return Ruling::nothing;
+  if (topic.written_mark) {
+    if (rules.mark(said) == *topic.written_mark) return Ruling::nothing;
+    return rules.mark(has) == *topic.written_mark ? Ruling::take : Ruling::conflict;
+  }
+  if (said.empty()) return Ruling::nothing;
+  return has.empty() ? Ruling::take : Ruling::conflict;
+}
+
+/// What people said, in the form in which it is compared.
+using Said = std::tuple<std::string, std::string, std::string>;
+
+class ReviewTaker {
+ public:
+  ReviewTaker(Database& database, ClashRows rows, std::vector<ListedClash> clashes,
+              const ReviewRules& rules)
+      : database_(database), rows_(std::move(rows)), clashes_(std::move(clashes)), rules_(rules) {
+    std::ranges::sort(clashes_, {}, key_of);
+  }
+
+  Status take(const ReviewedTopic& topic) {
+    // Comments come first: who sets a status by its side gives the reason with it.
+    if (const Status status = take_comments(topic); !status) return status;
+    std::vector<std::string> to_status, to_assignee;
+    for (const ReviewedClash& clash : topic.clashes) {
+      const auto at = std::ranges::lower_bound(clashes_, clash.key, {}, key_of);
+      if (at == clashes_.end() || at->row.key != clash.key)
+        return Error{ErrorCode::usage, "no clash has the key " + in_quotes(clash.key), {}, {}};
+      if (counts(ruling_on_status(topic, clash, at->status), topic, *at, "the status"))
+        to_status.push_back(clash.key);
+      if (counts(ruling_on_assignee(topic, at->row.assignee, rules_), topic, *at, "the assignee"))
+        to_assignee.push_back(clash.key);
+    }
+    ClashDecision decision{
+        .status = {}, .comment = {}, .assignee = {}, .by = topic.by, .at = topic.at};
+    if (!to_status.empty()) {
+      decision.status = topic.status->given;
+      if (const Status status = decide_about(to_status, decision, taken_.statuses); !status)
+        return status;
+    }
+    if (to_assignee.empty()) return {};
+    decision.status.reset();
+    decision.assignee = topic.assignee;
+    return decide_about(to_assignee, decision, taken_.assignees);
+  }
+
+  TakenReview finish() { return std::move(taken_); }
+
+ private:
+  static std::string_view key_of(const ListedClash& clash) { return clash.row.key; }
+
+  Status decide_about(const std::vector<std::string>& keys, const ClashDecision& decision,
+                      std::uint64_t& count) {
+    const Result<std::uint64_t> changed = decide(database_, keys, decision);
+    if (!changed) return changed.error();
+    count += *changed;
+    return {};
+  }
+
+  /// Whether what a review says is to be taken; a conflict is told.
+  bool counts(Ruling ruling, const ReviewedTopic& topic, const ListedClash& clash,
+              const char* what) {
+    if (ruling != Ruling::conflict) return ruling == Ruling::take;
+    taken_.conflicts.push_back(
+        in_quotes(topic.name) + ", " + clash.row.key + ": " + what +
+        " is another one in the project, too; " +
+        (rules_.prefers_review ? "that of the review holds now" : "that of the project stays"));
+    return rules_.prefers_review;
+  }
+
+  Said said(const report::DecisionComment& comment) const {
+    return {comment.at, rules_.compared(comment.by), rules_.compared(comment.text)};
+  }
+
+  Status take_comments(const ReviewedTopic& topic) {
+    if (topic.comments.empty()) return {};
+    std::set<Said> known;
+    for (const ReviewedClash& clash : topic.clashes) {
+      const Result<std::vector<ClashEvent>> events = read_events(database_, clash.key);
+      if (!events) return events.error();
+      for (const ClashEvent& event : *events)
+        if (!event.run && !event.comment.empty())
+          known.insert(said({event.at, event.who, event.comment}));
+    }
+    for (const report::DecisionComment& comment : topic.comments) {
+      if (!known.insert(said(comment)).second) {
+        ++taken_.known_comments;
+        continue;
+      }
+      for (const ReviewedClash& clash : topic.clashes)
+        if (const Status status = add(comment, clash.key); !status) return status;
+    }
+    return {};
+  }
+
+  /// Adds a comment although it says what was said before: somebody else says it, or again.
+  Status add(const report::DecisionComment& comment, const std::string& key) {
+    Result<std::optional<ClashRow>> found = rows_.find(std::string_view(key));
+    if (!found) return found.error();
+    if (!*found) return {};
+    ClashRow row = std::move(**found);
+    row.comment = valid_utf8(comment.text);
+    if (const Status status = rows_.update(row); !status) return status;
+    const auto at = std::ranges::lower_bound(clashes_, key, {}, key_of);
+    const DecisionStatus now = row.status(at->last_run);
+    ++taken_.comments;
+    return rows_.add({row.id, std::nullopt, comment.at, comment.by, now, now, row.comment});
+  }
+
+  Database& database_;
+  ClashRows rows_;
+  std::vector<ListedClash> clashes_;  ///< by key
+  const ReviewRules& rules_;
+  TakenReview taken_;
+};
+
+}  // namespace
+
+Result<TakenReview> take_review(Database& database, const std::vector<ReviewedTopic>& topics,
+                                const ReviewRules& rules) {
+  Result<ClashRows> rows = ClashRows::of(database);
+  if (!rows) return rows.error();
+  Result<std::vector<ListedClash>> clashes = list_clashes(database, {});
+  if (!clashes) return clashes.error();
+  ReviewTaker taker(database, std::move(*rows), std::move(*clashes), rules);
+  for (const ReviewedTopic& topic : topics)
+    if (const Status status = taker.take(topic); !status) return status.error();
+  return taker.finish();
+}
+
+}  // namespace strake::project

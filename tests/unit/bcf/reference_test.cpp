@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bcf/topics/reference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace strake::bcf {
+namespace {
+
+using report::DecisionStatus;
+
+const std::string kKeyOne = "0c8x2kq9w3e4r5t6y7v8b9n0mz", kKeyTwo = "1c8x2kq9w3e4r5t6y7v8b9n0mz";
+
+Reference group_of_two() {
+  return {"9f3c",
+          mark_of("Ann"),
+          {{kKeyOne, DecisionStatus::reviewed}, {kKeyTwo, DecisionStatus::active}}};
+}
+
+TEST(Reference, ComesBackHoweverItIsLaidOut) {
+  const Reference reference = group_of_two();
+  const std::string text = "HIT\nA: x\n\n" + reference_line(reference);
+  std::string laid_out = text;
+  std::ranges::replace(laid_out, '\n', ' ');
+  std::string broken = text;
+  std::ranges::replace(broken, ' ', '\n');
+  for (const std::string& some : {text, laid_out, broken, text + "  \r\n"}) {
+    const std::optional<Reference> found = find_reference(some);
+    ASSERT_TRUE(found) << some;
+    EXPECT_EQ(found->group, "9f3c");
+    EXPECT_EQ(found->assignee_mark, mark_of("Ann"));
+    ASSERT_EQ(found->clashes.size(), 2U);
+    EXPECT_EQ(found->clashes[0].key, kKeyOne);
+    EXPECT_EQ(found->clashes[0].status, DecisionStatus::reviewed);
+    EXPECT_EQ(guid_of(*found), group_guid("9f3c"));
+    EXPECT_EQ(found->status(), DecisionStatus::active);
+  }
+}
+
+TEST(Reference, IsTheLastOne) {
+  const Reference mine{{}, mark_of({}), {{kKeyTwo, DecisionStatus::undecided}}};
+  const Reference named{{}, mark_of("Eve"), {{kKeyOne, DecisionStatus::approved}}};
+  const auto found = find_reference("A: " + reference_line(named) + "\n" + reference_line(mine));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(guid_of(*found), clash_guid(kKeyTwo));
+}
+
+TEST(Reference, IsNoneWhereItIsDamaged) {
+  for (const std::string& text :
+       {std::string(), std::string("Strake-reference:"), std::string("Strake-reference: x"),
+        std::string("Strake-reference: assignee=none"),
+        "Strake-reference: assignee=none " + kKeyOne + "=settled",
+        "Strake-reference: assignee=none " + kKeyOne.substr(1) + "=new",
+        "Strake-reference: assignee=none " + kKeyOne + "=new " + kKeyTwo + "=new"})
+    EXPECT_FALSE(find_reference(text)) << text;
+}
+
+TEST(Reference, GuidsTellClashesGroupsAndPartsApart) {
+  EXPECT_EQ(clash_guid(kKeyOne), clash_guid(kKeyOne));
+  EXPECT_NE(clash_guid(kKeyOne), clash_guid(kKeyTwo));
+  EXPECT_NE(clash_guid(kKeyOne), group_guid(kKeyOne));
+  EXPECT_NE(part_guid(clash_guid(kKeyOne), "a"), part_guid(clash_guid(kKeyTwo), "a"));
+  EXPECT_EQ(mark_of({}), "none");
+  EXPECT_NE(mark_of("Ann"), mark_of("Bob"));
+}
+
+}  // namespace
+}  // namespace strake::bcf
