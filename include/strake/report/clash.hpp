@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,6 +64,15 @@ struct WrittenClasses {
 /// be of one of them (clash::Pair::severest). What the tests count stays as it is.
 void leave_out_others(clash::Findings& findings, const WrittenClasses& classes);
 
+/// How much of the model a report shows that shows it.
+enum class ModelShown : std::uint8_t {
+  automatic,  ///< all of it, or where that is too much what is near clashes, and boxes for the rest
+  all,
+  near,   ///< what clashes and what is near, as far as there is room; boxes for the rest
+  boxes,  ///< the box of each object
+  nothing,
+};
+
 /// What a report is written from.
 struct ClashContents {
   const clash::Findings& findings;
@@ -83,6 +93,7 @@ struct ClashContents {
   const DecidedResults* decided = nullptr;
   /// The model on the grid, as it was tested: for what shows it, as pictures do.
   const model::Scene* scene = nullptr;
+  ModelShown shown = ModelShown::automatic;  ///< how much of `scene` is shown
 };
 
 /// Writes the document of schemas/clash.schema.json, one result a line, streamed: memory does not
