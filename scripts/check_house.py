@@ -24,7 +24,8 @@ MAY_USE = {
     'project': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'settings', 'rules', 'hlr', 'drawing', 'report'],
     'tiles': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'settings', 'rules', 'project'],
     'generate': ['core', 'parallel', 'geometry', 'model', 'clash'],
-    'publish': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing', 'sheets', 'report'],
+    'page': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing', 'report'],
+    'publish': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing', 'sheets', 'report', 'page'],
 }
 # A room is a folder of a module, for one stage of an algorithm (decision 0060).
 MOST_IN_ROOM = 22

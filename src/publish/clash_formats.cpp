@@ -3,12 +3,17 @@
 
 #include <span>
 
+#include "page/page.hpp"
+
 namespace strake::publish {
 namespace {
 
 std::vector<report::ClashWriter> clash_writers() {
   const std::span<const report::ClashWriter> texts = report::clash_writers();
-  return {texts.begin(), texts.end()};
+  std::vector<report::ClashWriter> all{texts.begin(), texts.end()};
+  all.push_back({{".html", ", or {}, a page with the model that opens in a browser"},
+                 page::write_clash_page});
+  return all;
 }
 
 }  // namespace

@@ -53,8 +53,7 @@ class Batches {
       // Rows of texts and shapes are of different lengths: they are cut as if all were the same.
       const std::uint64_t each = std::max<std::uint64_t>(section.bytes / section.rows, 1);
       const std::uint64_t fitting = std::max<std::uint64_t>((kBatchBytes - bytes) / each, 1);
-      const std::size_t rows =
-          std::min(section.rows - row_, static_cast<std::size_t>(fitting));
+      const std::size_t rows = std::min(section.rows - row_, static_cast<std::size_t>(fitting));
       batch.push_back({section_, row_, row_ + rows});
       row_ += rows;
       bytes += rows * each;
@@ -74,7 +73,8 @@ Error no_memory_to_pack() { return out_of_memory(); }
 /// A stream of zlib, which is ended with it.
 class Deflater {
  public:
-  Deflater() : ready_(deflateInit2(&stream_, kLevel, Z_DEFLATED, kRaw, 8, Z_DEFAULT_STRATEGY) == Z_OK) {}
+  Deflater()
+      : ready_(deflateInit2(&stream_, kLevel, Z_DEFLATED, kRaw, 8, Z_DEFAULT_STRATEGY) == Z_OK) {}
   ~Deflater() {
     if (ready_) (void)deflateEnd(&stream_);
   }

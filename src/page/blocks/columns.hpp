@@ -21,9 +21,9 @@ namespace strake::page {
 
 /// The numbers that a column may hold as they are.
 template <class T>
-concept ColumnNumber = std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> ||
-                       std::same_as<T, std::uint32_t> || std::same_as<T, float> ||
-                       std::same_as<T, double>;
+concept ColumnNumber =
+    std::same_as<T, std::uint8_t> || std::same_as<T, std::uint16_t> ||
+    std::same_as<T, std::uint32_t> || std::same_as<T, float> || std::same_as<T, double>;
 
 /// Returns a text, which may be put together in `room`.
 using TextOf = std::function<std::string_view(std::size_t row, std::string& room)>;
@@ -61,12 +61,12 @@ class Columns {
     static_assert(std::same_as<std::invoke_result_t<Value&, std::size_t>, std::int64_t>);
     std::vector<Section> planes;
     for (unsigned plane = 0; plane < 8; ++plane)
-      planes.push_back({rows, rows,
-                        [value, plane](std::size_t begin, std::size_t end, std::string& out) {
-                          for (std::size_t row = begin; row < end; ++row)
-                            out += static_cast<char>(
-                                static_cast<std::uint64_t>(value(row)) >> (8 * plane) & 0xffU);
-                        }});
+      planes.push_back(
+          {rows, rows, [value, plane](std::size_t begin, std::size_t end, std::string& out) {
+             for (std::size_t row = begin; row < end; ++row)
+               out +=
+                   static_cast<char>(static_cast<std::uint64_t>(value(row)) >> (8 * plane) & 0xffU);
+           }});
     add(name, "nm", rows, 0, std::move(planes));
   }
 

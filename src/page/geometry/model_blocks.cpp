@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/number.hpp"
 #include "page/blocks/columns.hpp"
 #include "page/geometry/shape_book.hpp"
-#include "core/number.hpp"
 #include "report/text/formatting.hpp"
 #include "strake/geometry/grid.hpp"
 
@@ -105,8 +105,8 @@ Block instances_block(const std::shared_ptr<const PageShapes>& shapes,
                       const std::shared_ptr<const std::vector<std::uint32_t>>& numbers) {
   const std::size_t n = shapes->instances.size();
   Columns columns("strake-instances");
-  columns.numbers<std::uint32_t>(
-      "shape", n, [shapes](std::size_t i) { return shapes->instances[i].shape; });
+  columns.numbers<std::uint32_t>("shape", n,
+                                 [shapes](std::size_t i) { return shapes->instances[i].shape; });
   columns.numbers<std::uint32_t>("object", n, [shapes, numbers](std::size_t i) {
     return (*numbers)[shapes->instances[i].object];
   });
@@ -115,8 +115,8 @@ Block instances_block(const std::shared_ptr<const PageShapes>& shapes,
                                    for (const float value : shapes->instances[i].matrix)
                                      Columns::append_number(out, value);
                                  });
-  columns.numbers<std::uint32_t>(
-      "colour", n, [shapes](std::size_t i) { return shapes->instances[i].colour; });
+  columns.numbers<std::uint32_t>("colour", n,
+                                 [shapes](std::size_t i) { return shapes->instances[i].colour; });
   return std::move(columns).finish();
 }
 
@@ -133,8 +133,7 @@ Block boxes_block(std::vector<ObjectBox> given, const BoxLattice& lattice, const
         const Vec3d lo = geometry::to_mm((*boxes)[i].box.lo) - from;
         const Vec3d hi = geometry::to_mm((*boxes)[i].box.hi) - from;
         const auto put = [&](double steps) {
-          Columns::append_number(out,
-                                 static_cast<std::uint16_t>(std::clamp(steps, 0.0, 65535.0)));
+          Columns::append_number(out, static_cast<std::uint16_t>(std::clamp(steps, 0.0, 65535.0)));
         };
         for (int k = 0; k < 3; ++k) put(std::floor(lo[k] / lattice.step_mm));
         for (int k = 0; k < 3; ++k) put(std::ceil(hi[k] / lattice.step_mm));
@@ -148,13 +147,13 @@ std::string note_of(const ShownObjects& shown) {
   const std::string metres = std::to_string(static_cast<int>(kReachMm / 1000));
   const std::string near =
       "What clashes, and what is within " + metres + " m of it, is shown as it is";
-  return near + (shown.is_full ? ", as far as there is room; all else as boxes."
-                               : "; all else as boxes.");
+  return near +
+         (shown.is_full ? ", as far as there is room; all else as boxes." : "; all else as boxes.");
 }
 
 std::string scene_member(const model::Scene& scene, const ShownObjects& shown,
-                         const PageShapes& shapes, const SceneBoxes& boxes,
-                         const Vec3d& origin_mm, const BoxLattice& lattice) {
+                         const PageShapes& shapes, const SceneBoxes& boxes, const Vec3d& origin_mm,
+                         const BoxLattice& lattice) {
   std::uint64_t triangles = 0;
   for (const PageInstance& instance : shapes.instances)
     triangles += shapes.meshes[instance.shape].index.size() / 3;
@@ -170,12 +169,12 @@ std::string scene_member(const model::Scene& scene, const ShownObjects& shown,
   append_list_of(out, geometry::to_mm(box.lo));
   out += ", ";
   append_list_of(out, geometry::to_mm(box.hi));
-  out += "], \"objects\": " + std::to_string(objects) +
-         ", \"objects_as_shapes\": " + std::to_string(as_shapes) +
-         ", \"objects_as_boxes\": " + std::to_string(boxes.of_objects.size()) +
-         ", \"objects_left_out\": " +
-         std::to_string(objects - as_shapes - boxes.of_objects.size()) +
-         ", \"triangles\": " + std::to_string(triangles);
+  out +=
+      "], \"objects\": " + std::to_string(objects) +
+      ", \"objects_as_shapes\": " + std::to_string(as_shapes) +
+      ", \"objects_as_boxes\": " + std::to_string(boxes.of_objects.size()) +
+      ", \"objects_left_out\": " + std::to_string(objects - as_shapes - boxes.of_objects.size()) +
+      ", \"triangles\": " + std::to_string(triangles);
   if (!boxes.of_objects.empty()) {
     out += ", \"boxes\": {\"min\": ";
     append_list_of(out, lattice.min_mm);
@@ -207,8 +206,7 @@ Result<ModelBlocks> model_blocks(const model::Scene& scene, const ShownObjects& 
   blocks.blocks.push_back(shapes_block(shapes));
   blocks.blocks.push_back(instances_block(shapes, numbers));
   if (!boxes.of_objects.empty())
-    blocks.blocks.push_back(
-        boxes_block(std::move(boxes.of_objects), lattice, origin, numbers));
+    blocks.blocks.push_back(boxes_block(std::move(boxes.of_objects), lattice, origin, numbers));
   return blocks;
 }
 

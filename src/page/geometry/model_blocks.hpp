@@ -23,8 +23,8 @@ struct ModelBlocks {
 
 /// Makes the blocks of the objects that are shown. `numbers` has the number of each object in the
 /// page. Errors: cancelled, out of memory.
-[[nodiscard]] Result<ModelBlocks> model_blocks(const model::Scene& scene, const ShownObjects& shown,
-                                               std::shared_ptr<const std::vector<std::uint32_t>> numbers,
-                                               const parallel::Context& context);
+[[nodiscard]] Result<ModelBlocks> model_blocks(
+    const model::Scene& scene, const ShownObjects& shown,
+    std::shared_ptr<const std::vector<std::uint32_t>> numbers, const parallel::Context& context);
 
 }  // namespace strake::page

@@ -48,13 +48,13 @@ bool NearPoints::is_near(const geometry::Box3l& box) const {
   const auto cells = static_cast<double>(hi.x - lo.x + 1) * static_cast<double>(hi.y - lo.y + 1) *
                      static_cast<double>(hi.z - lo.z + 1);
   // A box over most of a ship has more cells than there are places.
-  if (cells >= static_cast<double>(cells_.size()))
-    return holds_near({0, points_.size()}, reached);
+  if (cells >= static_cast<double>(cells_.size())) return holds_near({0, points_.size()}, reached);
   Cell cell;
   for (cell.x = lo.x; cell.x <= hi.x; ++cell.x)
     for (cell.y = lo.y; cell.y <= hi.y; ++cell.y)
       for (cell.z = lo.z; cell.z <= hi.z; ++cell.z)
-        if (const auto at = cells_.find(cell); at != cells_.end() && holds_near(at->second, reached))
+        if (const auto at = cells_.find(cell);
+            at != cells_.end() && holds_near(at->second, reached))
           return true;
   return false;
 }

@@ -29,7 +29,7 @@ class NearPoints {
                                 const geometry::Box3l& reached) const;
 
   std::int64_t reach_;
-  std::vector<geometry::Vec3l> points_;  ///< by cell
+  std::vector<geometry::Vec3l> points_;                        ///< by cell
   std::map<Cell, std::pair<std::size_t, std::size_t>> cells_;  ///< ranges of `points_`
 };
 

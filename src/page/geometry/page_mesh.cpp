@@ -33,10 +33,9 @@ PageMesh quantised(const std::vector<Vec3d>& vertices, std::vector<std::uint16_t
   mesh.position.reserve(vertices.size() * 3);
   for (const Vec3d& v : vertices)
     for (int k = 0; k < 3; ++k)
-      mesh.position.push_back(static_cast<std::uint16_t>(
-          std::clamp(std::round((v[k] - double{mesh.min[static_cast<std::size_t>(k)]}) /
-                                double{mesh.step}),
-                     0.0, kMostSteps)));
+      mesh.position.push_back(static_cast<std::uint16_t>(std::clamp(
+          std::round((v[k] - double{mesh.min[static_cast<std::size_t>(k)]}) / double{mesh.step}),
+          0.0, kMostSteps)));
   return mesh;
 }
 
@@ -144,7 +143,8 @@ class UnitFinder {
 }  // namespace
 
 int circle_corners(double radius_mm) {
-  constexpr std::array<std::pair<double, int>, 4> kBySize{{{20, 8}, {150, 12}, {600, 16}, {2000, 24}}};
+  constexpr std::array<std::pair<double, int>, 4> kBySize{
+      {{20, 8}, {150, 12}, {600, 16}, {2000, 24}}};
   for (const auto& [radius, corners] : kBySize)
     if (radius_mm <= radius) return corners;
   return 48;
@@ -162,9 +162,8 @@ std::vector<PageMesh> page_meshes(const model::GridShape& shape) {
   for (const geometry::Part& part : shape.parts) {
     cutter.next_part();
     for (const geometry::Triangle& t : part.triangles)
-      cutter.add(t, [&](std::uint32_t v) {
-        return geometry::to_mm(part.vertices[v].as<double>());
-      });
+      cutter.add(t,
+                 [&](std::uint32_t v) { return geometry::to_mm(part.vertices[v].as<double>()); });
   }
   return cutter.finish();
 }

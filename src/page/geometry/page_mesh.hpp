@@ -34,7 +34,7 @@ struct PageMesh {
 /// A primitive as a page has it: a shape that others share, and what makes it the primitive.
 struct UnitPrimitive {
   geometry::Primitive unit;
-  double sag_mm = 0;           ///< of its circles
+  double sag_mm = 0;          ///< of its circles
   geometry::Mat3d from_unit;  ///< of the primitive's own frame
 };
 

@@ -77,9 +77,9 @@ class ShapeBook {
 
   /// Makes the meshes, of some shapes several.
   Result<PageShapes> finish(const parallel::Context& context) && {
-    auto made = parallel::transform(
-        context, {.name = "page shapes", .n = sources_.size(), .grain = 16},
-        [this](std::size_t s) { return meshes_of(sources_[s]); });
+    auto made =
+        parallel::transform(context, {.name = "page shapes", .n = sources_.size(), .grain = 16},
+                            [this](std::size_t s) { return meshes_of(sources_[s]); });
     if (!made) return made.error();
     PageShapes all;
     std::vector<std::uint32_t> first;
@@ -108,7 +108,8 @@ class ShapeBook {
   void place(const geometry::Primitive& primitive, const geometry::Placement& placement,
              PageInstance& instance) {
     UnitPrimitive unit = unit_of(primitive, placement.linear.determinant() < 0);
-    instance.matrix = matrix_of({placement.linear * unit.from_unit, placement.translation - origin_});
+    instance.matrix =
+        matrix_of({placement.linear * unit.from_unit, placement.translation - origin_});
     const auto [at, is_new] = of_unit_.try_emplace(key_of(unit), 0);
     if (is_new) at->second = next(std::move(unit));
     instance.shape = at->second;

@@ -109,9 +109,10 @@ Result<std::vector<std::uint8_t>> near_objects(const model::Scene& scene,
       context, {.name = "objects near clashes", .n = scene.model->objects.size(), .grain = kGrain},
       [&](std::size_t o) -> std::uint8_t {
         const auto bodies = scene.bodies_of(model::ObjectId{static_cast<std::uint32_t>(o)});
-        return std::ranges::any_of(bodies, [&](const model::GridBody& body) {
-                 return points.is_near(body.box(scene.shapes[body.grid_shape]));
-               })
+        return std::ranges::any_of(bodies,
+                                   [&](const model::GridBody& body) {
+                                     return points.is_near(body.box(scene.shapes[body.grid_shape]));
+                                   })
                    ? 1
                    : 0;
       });

@@ -31,7 +31,7 @@ struct ShownWishes {
 };
 
 struct ShownObjects {
-  std::vector<Shown> of;     ///< an entry per object
+  std::vector<Shown> of;      ///< an entry per object
   bool is_near_only = false;  ///< objects are boxes because there are too many for shapes
   bool is_full = false;       ///< some that were wanted as shapes had no room
 };
@@ -39,7 +39,8 @@ struct ShownObjects {
 /// Chooses. Automatically all objects are shown as they are while shapes and instances stay within
 /// what a browser takes well (decision 0108), else those that are wanted, as far as there is room.
 /// The choice depends on the scene and the wishes alone. Errors: cancelled, out of memory.
-[[nodiscard]] Result<ShownObjects> choose_shown(const model::Scene& scene, const ShownWishes& wishes,
+[[nodiscard]] Result<ShownObjects> choose_shown(const model::Scene& scene,
+                                                const ShownWishes& wishes,
                                                 const parallel::Context& context);
 
 }  // namespace strake::page

@@ -39,13 +39,13 @@ void add_attributes(Columns& columns, const model::Model& model, const PageObjec
     for (const model::ObjectId object : objects.objects)
       stated.push_back(
           texts.number(report::stated_text(model, object, attributes[a]).value_or(std::string())));
-    columns.numbers<std::uint32_t>("attribute_" + std::to_string(a), objects.objects.size(),
-                                   [stated = std::move(stated)](std::size_t i) { return stated[i]; });
+    columns.numbers<std::uint32_t>(
+        "attribute_" + std::to_string(a), objects.objects.size(),
+        [stated = std::move(stated)](std::size_t i) { return stated[i]; });
   }
-  columns.texts("texts", texts.all().size(),
-                [all = texts.all()](std::size_t i, std::string&) -> std::string_view {
-                  return all[i];
-                });
+  columns.texts(
+      "texts", texts.all().size(),
+      [all = texts.all()](std::size_t i, std::string&) -> std::string_view { return all[i]; });
 }
 
 }  // namespace
@@ -69,9 +69,8 @@ Block objects_block(const model::Model& model, std::shared_ptr<const PageObjects
     return model.object(objects->objects[i]);
   };
   Columns columns("strake-objects");
-  columns.texts("id", n, [object](std::size_t i, std::string&) -> std::string_view {
-    return object(i).id;
-  });
+  columns.texts("id", n,
+                [object](std::size_t i, std::string&) -> std::string_view { return object(i).id; });
   columns.texts("name", n, [object](std::size_t i, std::string&) -> std::string_view {
     return object(i).name == object(i).id ? std::string_view() : object(i).name;
   });

@@ -60,16 +60,16 @@ class ColumnsOf {
   }
   template <class Value>
   void millionths(std::string_view name, Value value) {
-    columns_.millionths(name, rows_, [at = at_, value](std::size_t row) -> std::int64_t {
-      return value(at(row));
-    });
+    columns_.millionths(
+        name, rows_, [at = at_, value](std::size_t row) -> std::int64_t { return value(at(row)); });
   }
   /// Adds d with its bracket, and the point; `found(row)` is a result or a region.
   template <class Found>
   void measured(Found found) {
     millionths("d", [found](const auto& row) { return report::millionths(found(row).d_mm); });
-    millionths("d_low",
-               [found](const auto& row) { return report::millionths_floor(found(row).d_lower_mm); });
+    millionths("d_low", [found](const auto& row) {
+      return report::millionths_floor(found(row).d_lower_mm);
+    });
     millionths("d_high",
                [found](const auto& row) { return report::millionths_ceil(found(row).d_upper_mm); });
     constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
@@ -132,12 +132,12 @@ class ResultColumns {
   }
 
   void add_sides() {
-    columns_.keys("key", rows_,
-                  [model = &source_.contents.model, at = found()](std::size_t row,
-                                                                  std::string& out) {
-                    const Found one = at(row);
-                    out += clash::pair_key(one.test.name, *model, one.pair.a, one.pair.b);
-                  });
+    columns_.keys(
+        "key", rows_,
+        [model = &source_.contents.model, at = found()](std::size_t row, std::string& out) {
+          const Found one = at(row);
+          out += clash::pair_key(one.test.name, *model, one.pair.a, one.pair.b);
+        });
     auto columns = of_results();
     const auto numbers = source_.objects.number_of;
     columns.template numbers<std::uint16_t>(
@@ -150,8 +150,8 @@ class ResultColumns {
 
   void add_measures() {
     auto columns = of_results();
-    columns.template numbers<std::uint8_t>(
-        "class", [](const Found& f) { return class_number(f.pair.cls); });
+    columns.template numbers<std::uint8_t>("class",
+                                           [](const Found& f) { return class_number(f.pair.cls); });
     columns.template numbers<std::uint8_t>(
         "relation", [](const Found& f) { return static_cast<std::uint8_t>(f.pair.relation); });
     columns.template numbers<std::uint8_t>(
@@ -200,14 +200,14 @@ class ResultColumns {
     if (any_pair([](const Pair& p) { return p.allowed_regions > 0; }))
       columns.template numbers<std::uint32_t>(
           "allowed_region_count", [](const Found& f) { return f.pair.allowed_regions; });
-    if (any_test([](const Report& test) {
-          return test.options.engine.volumes == clash::Volumes::on;
-        }))
+    if (any_test(
+            [](const Report& test) { return test.options.engine.volumes == clash::Volumes::on; }))
       add_volumes();
   }
 
   static std::uint8_t may_be(const Pair& p) {
-    if (p.severest > (p.allowed < 0 ? p.cls : clash::Class::no_hit)) return class_number(p.severest);
+    if (p.severest > (p.allowed < 0 ? p.cls : clash::Class::no_hit))
+      return class_number(p.severest);
     return kNoClass;
   }
 
@@ -285,7 +285,7 @@ class ResultColumns {
       columns_.numbers<std::uint32_t>(name, rows_,
                                       [numbers](std::size_t row) { return (*numbers)[row]; });
     };
-    const auto add_said = [&](std::string_view name, std::string report::Decision::*member) {
+    const auto add_said = [&](std::string_view name, std::string report::Decision::* member) {
       add(name, [&decided, member](std::size_t row) -> std::string_view {
         return decided[row] == nullptr ? std::string_view() : decided[row]->decision->*member;
       });
@@ -295,10 +295,9 @@ class ResultColumns {
     add_said("comment", &report::Decision::comment);
     if (source_.assignee)
       add("assignee", [this](std::size_t row) { return source_.assignee(source_.rows.at(row)); });
-    columns_.texts("texts", texts.all().size(),
-                   [all = texts.all()](std::size_t i, std::string&) -> std::string_view {
-                     return all[i];
-                   });
+    columns_.texts(
+        "texts", texts.all().size(),
+        [all = texts.all()](std::size_t i, std::string&) -> std::string_view { return all[i]; });
   }
 
   const ResultSource& source_;
