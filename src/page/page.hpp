@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "drawing/drawing_writers.hpp"
 #include "page/results/page_facts.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/scene.hpp"
@@ -60,5 +61,13 @@ struct PageContents {
 /// Writes the page of clash results, with the model in it if the contents have it.
 [[nodiscard]] Status write_clash_page(const report::ClashContents& contents, report::Sink sink,
                                       const parallel::Context& context);
+
+/// Returns a drawing as a page has it.
+[[nodiscard]] PageDrawing page_drawing(const drawing::NeutralDrawing& drawing,
+                                       const drawing::Ink& ink, const model::Model& model);
+
+/// Writes the page of a drawing, with what is drawn of the model if the contents have it.
+[[nodiscard]] Status write_drawing_page(const drawing::DrawingContents& contents,
+                                        drawing::Sink sink, const parallel::Context& context);
 
 }  // namespace strake::page

@@ -200,6 +200,7 @@ WrittenFiles written_files(const ClashOptions& given, bool json) {
     const std::string suffix = suffix_of(file);
     files.csv = files.csv || suffix == ".csv";
     files.json = files.json || suffix == ".json";
+    files.page = files.page || suffix == ".html";
   }
   return files;
 }
@@ -374,7 +375,8 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
                                        request.output.csv,
                                        request.output.classes,
                                        decided,
-                                       &loaded.scene};
+                                       &loaded.scene,
+                                       request.output.shown};
   if (const Status status = write_files(session, given, contents); !status) return status;
   // A run whose files cannot be written is found again by the next one. Whoever reads standard
   // output may take long, for which no other program is to wait.

@@ -69,12 +69,28 @@ report::CsvForm csv_form(const std::string& word) {
 
 }  // namespace
 
+void add_page_geometry_option(CLI::App& command, std::string& option) {
+  add_choice(command, "--page-geometry", option, {"auto", "all", "near", "boxes", "none"},
+             "What .html shows of the model: all of it; what clashes and what is near, and boxes "
+             "for the rest; boxes; or nothing (default auto: all, or where that is too much for a "
+             "browser what is near)")
+      ->group("Result");
+}
+
+report::ModelShown page_geometry(const std::string& option) {
+  if (option == "all") return report::ModelShown::all;
+  if (option == "near") return report::ModelShown::near;
+  if (option == "boxes") return report::ModelShown::boxes;
+  return option == "none" ? report::ModelShown::nothing : report::ModelShown::automatic;
+}
+
 void add_clash_output_options(CLI::App& command, ClashOutputInput& options) {
   constexpr const char* kGroup = "Result";
   command
-      .add_option("--columns", options.columns,
-                  "Attributes of both objects that .csv and .json have besides, as @Tag,@Area: "
-                  "their own or those of the nearest group above that states them")
+      .add_option(
+          "--columns", options.columns,
+          "Attributes of both objects that .csv, .json and .html have besides, as @Tag,@Area: "
+          "their own or those of the nearest group above that states them")
       ->type_name("@NAME,...")
       ->group(kGroup);
   command
@@ -95,6 +111,7 @@ void add_clash_output_options(CLI::App& command, ClashOutputInput& options) {
              "where Excel's decimal sign is the comma with commas in numbers and semicolons "
              "between cells (default standard)")
       ->group(kGroup);
+  add_page_geometry_option(command, options.page_geometry);
 }
 
 Result<ClashOutput> clash_output(const ClashOutputInput& input, const WrittenFiles& files) {
@@ -103,8 +120,8 @@ Result<ClashOutput> clash_output(const ClashOutputInput& input, const WrittenFil
     Result<std::vector<std::string>> columns = columns_of(input.columns);
     if (!columns) return columns.error();
     output.columns = std::move(*columns);
-    if (!files.csv && !files.json)
-      return option_error("attributes are written to .csv and .json only", "--columns",
+    if (!files.csv && !files.json && !files.page)
+      return option_error("attributes are written to .csv, .json and .html only", "--columns",
                           "add -o FILE.csv or -o FILE.json");
   }
   if (!input.classes.empty()) {
@@ -121,6 +138,9 @@ Result<ClashOutput> clash_output(const ClashOutputInput& input, const WrittenFil
   output.csv = csv_form(input.csv);
   if (!input.csv.empty() && !files.csv && !files.pair_log && !files.decisions)
     return option_error("no .csv is written", "--csv", "add -o FILE.csv");
+  output.shown = page_geometry(input.page_geometry);
+  if (!input.page_geometry.empty() && !files.page)
+    return option_error("no page is written", "--page-geometry", "add -o FILE.html");
   return output;
 }
 

@@ -17,7 +17,7 @@ namespace {
 struct Room {
   std::uint64_t shape_bytes = 24'000'000;  ///< before they are compressed
   std::uint64_t instances = 250'000;
-  std::uint64_t triangles = 6'000'000;  ///< of all instances
+  std::uint64_t triangles = 3'000'000;  ///< of all instances
 
   [[nodiscard]] bool holds(const Room& other) const {
     return other.shape_bytes <= shape_bytes && other.instances <= instances &&
