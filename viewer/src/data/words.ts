@@ -30,7 +30,7 @@ export function exact(mm: number): string {
 const grouped = new Intl.NumberFormat('en-GB', { maximumFractionDigits: 0 });
 const tenths = new Intl.NumberFormat('en-GB', { minimumFractionDigits: 1, maximumFractionDigits: 1 });
 
-/** A whole number with spaces between thousands. */
+/** A whole number with commas between thousands. */
 export function count(n: number): string {
   return grouped.format(n);
 }
@@ -40,9 +40,9 @@ export function length(mm: number): string {
   return tenths.format(mm).replace(/^-0\.0$/, '0.0');
 }
 
-/** A coordinate for a table: whole millimetres. */
+/** A coordinate for a table: whole millimetres, no commas, since several stand side by side. */
 export function coordinate(mm: number): string {
-  return grouped.format(mm).replace(/^-0$/, '0');
+  return String(Math.round(mm) + 0);
 }
 
 export function plural(n: number, one: string, many = `${one}s`): string {

@@ -3,7 +3,7 @@
 import { type Filter, isSettled, noFilter, Rows, type SortColumn } from '../data/filter.ts';
 import { sortByValue } from '../data/order.ts';
 import { fileName, hasDisciplines, disciplineOf, objectName, type Report, shown } from '../data/report.ts';
-import { CLASS_PLURALS, CLASS_WORDS, coordinate, count, length, plural, RELATION_WORDS, STATUS_WORDS } from '../data/words.ts';
+import { CLASS_PLURALS, CLASS_WORDS, coordinate, count, length, plural, STATUS_WORDS } from '../data/words.ts';
 import { NONE8 } from '../payload/payload.ts';
 import { classCell, type Column, ResultTable } from '../table/result_table.ts';
 import { classMark, fill, h, toggle } from '../ui/dom.ts';
@@ -208,12 +208,11 @@ export class ListPanel {
       return h('span', { class: 'object-cell' }, h('span', { class: 'object-name' }, objectName(objects, object).slice(0, 200)), below !== '' && h('small', {}, below.slice(0, 60)));
     };
     const columns: Column[] = [
-      { id: 'class', label: 'Class', title: 'What it is', width: '6.6rem', cell: (r) => classCell(results.class[r]!, CLASS_WORDS[results.class[r]!]!) },
+      { id: 'class', label: 'Class', title: 'What it is', width: '6rem', cell: (r) => classCell(results.class[r]!, CLASS_WORDS[results.class[r]!]!) },
       { id: 'd', label: 'd mm', title: 'Distance; less than 0 is depth', width: '4.6rem', right: true, cell: (r) => length(results.d[r]!) },
-      { id: 'a', label: 'Object A', title: 'The one object', width: 'minmax(6rem, 1.4fr)', cell: (r) => name(results.a[r]!, r, 'a') },
-      { id: 'b', label: 'Object B', title: 'The other object', width: 'minmax(6rem, 1.4fr)', cell: (r) => name(results.b[r]!, r, 'b') },
-      { id: 'relation', label: 'Relation', title: 'How they lie to each other', width: 'minmax(0, 0.7fr)', cell: (r) => RELATION_WORDS[results.relation[r]!]! },
-      { id: 'place', label: 'Place mm', title: 'x, y, z', width: '9.4rem', right: true, cell: (r) => `${coordinate(results.x[r]!)} ${coordinate(results.y[r]!)} ${coordinate(results.z[r]!)}` },
+      { id: 'a', label: 'Object A', title: 'The one object', width: 'minmax(5rem, 1fr)', cell: (r) => name(results.a[r]!, r, 'a') },
+      { id: 'b', label: 'Object B', title: 'The other object', width: 'minmax(5rem, 1fr)', cell: (r) => name(results.b[r]!, r, 'b') },
+      { id: 'place', label: 'Place mm', title: 'x, y, z', width: '10.6rem', right: true, cell: (r) => `${coordinate(results.x[r]!)}  ${coordinate(results.y[r]!)}  ${coordinate(results.z[r]!)}` },
     ];
     if (results.status || results.allowed) {
       columns.push({ id: 'status', label: 'Status', title: 'What was decided', width: '5.6rem', cell: (r) => {

@@ -15,7 +15,7 @@ export const BOXES = -1;
 export const MERGED = -2;
 
 // As much as software rendering draws within a frame or two.
-const TRIANGLES_IN_BATCH = 12000;
+const TRIANGLES_IN_BATCH = 6000;
 // Fewer instances of a shape than this are merged with their neighbours: a call of the driver costs as much as some.
 const FEWEST_INSTANCES = 16;
 

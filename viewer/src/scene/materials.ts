@@ -95,7 +95,7 @@ void main() {
 #endif
   vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
   float facing = abs(dot(normal, normalize(seen)));
-  float light = 0.42 + 0.46 * facing + 0.12 * normal.y;
+  float light = 0.55 + 0.37 * facing + 0.12 * normal.y;
 #ifdef ONE_COLOUR
   vec3 base = tint;
 #else

@@ -61,7 +61,9 @@ export class View {
   private dirty = false;
   private scheduled = false;
   private moving = false;
-  private budget: number;
+  /** triangles of the others in the first piece of a picture, while it is turned, and in each that follows */
+  private readonly budgets: { first: number; moving: number; next: number };
+  private fresh = false;
   private highlighted: number[] = [];
   private focus: Vec | undefined;
   private points: Vec[] = [];
@@ -88,7 +90,7 @@ export class View {
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, preserveDrawingBuffer: true, powerPreference: 'high-performance' });
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(window.devicePixelRatio, 2));
     this.renderer.autoClear = false;
-    this.budget = this.software ? 25000 : 1500000;
+    this.budgets = this.software ? { first: 0, moving: 6000, next: 12000 } : { first: 1000000, moving: 1000000, next: 1500000 };
     this.origin = head.origin_mm;
     this.items = makeItems(model, head, objects);
     this.batches = makeBatches(this.items);
@@ -387,6 +389,7 @@ export class View {
   }
 
   private begin(): void {
+    this.fresh = true;
     setDepth(this.camera, this.controls.target, this.reach);
     this.camera.updateMatrixWorld();
     this.renderer.clear();
@@ -426,7 +429,8 @@ export class View {
     const materials = this.ghostly ? this.ghosts : this.solids;
     const started = performance.now();
     const meshes: Mesh[] = [];
-    let left = this.budget;
+    let left = !this.fresh ? this.budgets.next : this.moving ? this.budgets.moving : this.budgets.first;
+    this.fresh = false;
     while (left > 0 && this.queue.length > 0) {
       const batch = this.queue.pop()!;
       meshes.push(this.gpu.mesh(batch, materials));

@@ -20,7 +20,7 @@ export interface TableEvents {
   sorted(column: SortColumn, down: boolean): void;
 }
 
-export const ROW_HEIGHT = 34;
+export const ROW_HEIGHT = 38;
 
 /** A table of rows, which are numbers in the payload. */
 export class ResultTable {
