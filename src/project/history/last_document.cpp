@@ -15,11 +15,6 @@
 namespace strake::project {
 namespace {
 
-Error no_result(const Database& database) {
-  return {ErrorCode::usage, "has no result of a clash test", database.file().string(),
-          "'strake clash -p' makes one"};
-}
-
 Result<std::vector<std::string>> tests_to_tell(Database& database,
                                                const std::optional<std::string>& test) {
   if (!test) return last_tests(database);

@@ -11,11 +11,6 @@
 namespace strake::project {
 namespace {
 
-Error no_result(const Database& database) {
-  return {ErrorCode::usage, "has no result of a clash test", database.file().string(),
-          "'strake clash -p' makes one"};
-}
-
 Error no_names(const Database& database) {
   return {ErrorCode::usage,
           "its last result is of an earlier version of Strake, and not known with the names of all "
@@ -43,6 +38,11 @@ void add_test(const clash::Report& report, const std::vector<std::int64_t>& rows
 }
 
 }  // namespace
+
+Error no_result(const Database& database) {
+  return {ErrorCode::usage, "has no result of a clash test", database.file().string(),
+          "'strake clash -p' makes one"};
+}
 
 Result<LastRun> read_last_run(Database& database, const std::vector<std::string>& tests,
                               const parallel::Context& context) {

@@ -29,6 +29,9 @@ struct LastRun {
   std::optional<RunRecord> record;
 };
 
+/// Returns the error (usage) of a project without results.
+[[nodiscard]] Error no_result(const Database& database);
+
 /// Reads the last results of tests, which are of one run. Errors: usage where one was never run, or
 /// is of the first version of the tables; input for a damaged project; cancelled.
 [[nodiscard]] Result<LastRun> read_last_run(Database& database,

@@ -39,6 +39,7 @@ class Files(Scenario):
     OUTPUTS = [(['clash', 'a.obj', '-o'], '.json'), (['clash', 'a.obj', '-o'], '.csv'),
                (['clash', 'a.obj', '--log-pairs'], '.csv'), (['clash', 'diff', 'old.json', 'old.json', '-o'], '.json'),
                (['draw', 'a.obj', '-o'], '.svg'), (['draw', 'a.obj', '-o'], '.json'), (['draw', 'a.obj', '-o'], '.view'),
+               (['clash', 'a.obj', '-o'], '.html'), (['draw', 'a.obj', '-o'], '.html'),
                (['draw', 'a.obj', '--sheet', 'sheet.toml', '-o'], '.svg'),
                (['draw', 'diff', 'old.view', 'old.view', '-o'], '.json'),
                (['draw', 'diff', 'old.view', 'old.view', '-o'], '.svg'),
