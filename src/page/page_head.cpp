@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "report/clash/clash_head.hpp"
+#include "report/clash/clash_json_members.hpp"
 #include "report/json/json_writer.hpp"
 #include "report/text/formatting.hpp"
 #include "strake/core/version.hpp"

@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "clash/results/clash_key.hpp"
-#include "report/clash/clash_head.hpp"
 #include "report/clash/clash_json_members.hpp"
 #include "report/clash/clash_schema_version.hpp"
 #include "report/clash/group_numbers.hpp"

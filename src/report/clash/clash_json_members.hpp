@@ -67,4 +67,11 @@ void append_test_list(std::string& out, const clash::Findings& findings);
 [[nodiscard]] Status append_tests(std::string& out, const clash::Findings& findings,
                                   const model::Model& model, const parallel::Context& context);
 
+/// Writes the document of write_clash_json() without its long lists: without `results`, the list of
+/// `groups`, and what is only there to compare runs (`elements`, `sheets`, `positional_ids` and
+/// `tested` of the tests). It is for writers that have results in another form. Errors: cancelled,
+/// out of memory.
+[[nodiscard]] Status write_clash_head(const ClashContents& contents, Sink sink,
+                                      const parallel::Context& context);
+
 }  // namespace strake::report
