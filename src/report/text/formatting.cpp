@@ -54,8 +54,9 @@ bool append_mm_quickly(std::string& out, double mm) {
   return true;
 }
 
-/// Returns a whole number that fits; the outermost where it does not.
+/// Returns a whole number that fits; the outermost where it does not, 0 where it is none.
 std::int64_t saturated(double whole) {
+  if (std::isnan(whole)) return 0;
   constexpr double kMost = 9223372036854774784.0;  // the largest double below 2^63
   return static_cast<std::int64_t>(std::clamp(whole, -kMost, kMost));
 }
@@ -101,7 +102,7 @@ void append_mm(std::string& out, double mm) {
 std::int64_t millionths(double value) {
   if (const std::optional<std::uint64_t> found = millionths_quickly(std::fabs(value)))
     return value < 0 ? -static_cast<std::int64_t>(*found) : static_cast<std::int64_t>(*found);
-  if (!(std::fabs(value) < 9e12)) return std::isnan(value) ? 0 : saturated(value * kPerMm);
+  if (!(std::fabs(value) < 9e12)) return saturated(value * kPerMm);
   std::string digits = fixed(value, 6);
   std::erase(digits, '.');
   return parse_integer(digits).value_or(0);
