@@ -67,7 +67,7 @@ export class App {
       return element;
     };
     const theme = h('button', { type: 'button', class: 'small', onclick: () => this.nextTheme(theme) }, 'Auto');
-    theme.setAttribute('aria-label', 'Light or dark: as the system has it');
+    theme.setAttribute('aria-label', 'Auto: light or dark as the system has it');
     fill(
       this.root,
       h('header', { class: 'top' },
@@ -193,7 +193,7 @@ export class App {
     if (next === 'auto') delete document.documentElement.dataset.theme;
     else document.documentElement.dataset.theme = next;
     button.textContent = next[0]!.toUpperCase() + next.slice(1);
-    button.setAttribute('aria-label', next === 'auto' ? 'Light or dark: as the system has it' : `Light or dark: ${next}`);
+    button.setAttribute('aria-label', next === 'auto' ? 'Auto: light or dark as the system has it' : `${button.textContent}: always ${next}`);
     this.scene.theme();
   }
 
