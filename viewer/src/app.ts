@@ -3,7 +3,7 @@
 import { noFilter } from './data/filter.ts';
 import { type Report, shown } from './data/report.ts';
 import { DrawingPanel } from './drawings/drawing_panel.ts';
-import { objectDetails, resultDetails, type DetailEvents } from './panels/details.ts';
+import { groupDetails, objectDetails, resultDetails, type DetailEvents } from './panels/details.ts';
 import { helpDialog } from './panels/help.ts';
 import { ListPanel } from './panels/list_panel.ts';
 import { overview } from './panels/overview.ts';
@@ -169,6 +169,8 @@ export class App {
 
   private showGroup(group: number): void {
     const groups = this.report.groups!;
+    this.row = undefined;
+    fill(this.details, groupDetails(this.report, group, this.detailEvents()));
     this.scene.showPlace(groups.min.map((v) => v[group]!) as Vec, groups.max.map((v) => v[group]!) as Vec);
   }
 

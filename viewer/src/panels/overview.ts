@@ -55,7 +55,7 @@ function cards(report: Report, events: OverviewEvents): HTMLElement {
 function decided(report: Report, events: OverviewEvents): HTMLElement | undefined {
   const status = report.results?.status;
   if (!status) return undefined;
-  const counts = new Array<number>(STATUS_WORDS.length).fill(0);
+  const counts = STATUS_WORDS.map(() => 0);
   for (const s of status) if (s !== NONE8) ++counts[s]!;
   const decisions = report.head.clash?.decisions;
   const reopened = Object.values(decisions?.reopened ?? {}).reduce((a, b) => a + b, 0);
