@@ -3,7 +3,7 @@
 import { noFilter } from './data/filter.ts';
 import { type Report, shown } from './data/report.ts';
 import { DrawingPanel } from './drawings/drawing_panel.ts';
-import { objectDetails, resultDetails, type DetailEvents } from './panels/details.ts';
+import { groupDetails, objectDetails, resultDetails, type DetailEvents } from './panels/details.ts';
 import { helpDialog } from './panels/help.ts';
 import { ListPanel } from './panels/list_panel.ts';
 import { overview } from './panels/overview.ts';
@@ -67,7 +67,7 @@ export class App {
       return element;
     };
     const theme = h('button', { type: 'button', class: 'small', onclick: () => this.nextTheme(theme) }, 'Auto');
-    theme.setAttribute('aria-label', 'Light or dark: as the system has it');
+    theme.setAttribute('aria-label', 'Auto: light or dark as the system has it');
     fill(
       this.root,
       h('header', { class: 'top' },
@@ -169,6 +169,8 @@ export class App {
 
   private showGroup(group: number): void {
     const groups = this.report.groups!;
+    this.row = undefined;
+    fill(this.details, groupDetails(this.report, group, this.detailEvents()));
     this.scene.showPlace(groups.min.map((v) => v[group]!) as Vec, groups.max.map((v) => v[group]!) as Vec);
   }
 
@@ -193,7 +195,7 @@ export class App {
     if (next === 'auto') delete document.documentElement.dataset.theme;
     else document.documentElement.dataset.theme = next;
     button.textContent = next[0]!.toUpperCase() + next.slice(1);
-    button.setAttribute('aria-label', next === 'auto' ? 'Light or dark: as the system has it' : `Light or dark: ${next}`);
+    button.setAttribute('aria-label', next === 'auto' ? 'Auto: light or dark as the system has it' : `${button.textContent}: always ${next}`);
     this.scene.theme();
   }
 

@@ -11,8 +11,7 @@ import { dropBlock, findBlock, unpack } from '../payload/unpack.ts';
 
 /** What hides in a name is made to show: control characters, and marks that turn the direction of writing. */
 export function shown(text: string): string {
-  // eslint-disable-next-line no-control-regex
-  return text.replace(/[\u0000-\u001f\u007f-\u009f\u200b-\u200f\u202a-\u202e\u2060-\u2069\ufeff]/g, '\ufffd');
+  return text.replace(/[\p{Cc}\u200b-\u200f\u202a-\u202e\u2060-\u2069\ufeff]/gu, '\ufffd');
 }
 
 export interface Report {

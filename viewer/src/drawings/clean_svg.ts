@@ -32,7 +32,8 @@ export interface CleanDrawing {
 
 /** Reads a drawing, or returns undefined where it is no SVG. */
 export function cleanSvg(text: string): CleanDrawing | undefined {
-  const parsed = new DOMParser().parseFromString(text, 'image/svg+xml');
+  // Its style would not be taken either; this spares the browser a complaint that the page forbids it.
+  const parsed = new DOMParser().parseFromString(text.replace(/<style>[^<]*<\/style>/g, ''), 'image/svg+xml');
   const root = parsed.documentElement;
   if (root.localName !== 'svg' || root.namespaceURI !== SVG || parsed.querySelector('parsererror')) return undefined;
   const found: CleanDrawing = { svg: undefined as unknown as SVGSVGElement, layers: [], objects: [] };

@@ -201,3 +201,25 @@ export function objectDetails(report: Report, object: number, geometry: boolean,
       copyButton('Copy id', () => objects!.id.at(object))),
   );
 }
+
+export function groupDetails(report: Report, group: number, events: DetailEvents): HTMLElement {
+  const groups = report.groups!;
+  const cls = groups.class[group]!;
+  const volume = groups.volume?.[group] ?? NaN;
+  const corner = (ends: readonly Float64Array[]): string => ends.map((v) => exact(v[group]!)).join(', ');
+  return h(
+    'div',
+    { class: 'details' },
+    h('div', { class: 'details-head' }, h('h2', {}, classMark(cls), ' ', h('span', { class: 'object-name' }, shown(groups.name.at(group)).slice(0, 500))),
+      h('div', { class: 'buttons' }, h('button', { type: 'button', class: 'small', onclick: () => events.group(group) }, 'List its results'))),
+    pairs([
+      ['Results', count(groups.results[group]!)],
+      ['Of these', `${plural(groups.hits[group]!, 'hit')}, ${count(groups.clearance_violations[group]!)} too close, ${plural(groups.contacts[group]!, 'contact')}`],
+      ['Worst', `${CLASS_WORDS[cls]}, ${exact(groups.d[group]!)} mm`],
+      ['Volume', !Number.isNaN(volume) && `${exact(volume)} mm³`],
+      ['From', `${corner(groups.min)} mm`],
+      ['To', `${corner(groups.max)} mm`],
+      ['Id', h('code', {}, groups.id.at(group))],
+    ]),
+  );
+}

@@ -6,7 +6,7 @@ import { fileName, hasDisciplines, disciplineOf, objectName, type Report, shown 
 import { CLASS_PLURALS, CLASS_WORDS, coordinate, count, length, plural, STATUS_WORDS } from '../data/words.ts';
 import { NONE8 } from '../payload/payload.ts';
 import { classCell, type Column, ResultTable } from '../table/result_table.ts';
-import { classMark, fill, h, toggle } from '../ui/dom.ts';
+import { classMark, fill, h, shortName, toggle } from '../ui/dom.ts';
 
 export interface ListEvents {
   chosen(row: number): void;
@@ -205,7 +205,7 @@ export class ListPanel {
     const name = (object: number, row: number, side: 'a' | 'b'): Node => {
       const discipline = disciplineOf(this.report, row, side);
       const below = discipline >= 0 ? shown(this.report.head.disciplines[discipline]!) : this.report.head.files.length > 1 ? fileName(this.report, object) : '';
-      return h('span', { class: 'object-cell' }, h('span', { class: 'object-name' }, objectName(objects, object).slice(0, 200)), below !== '' && h('small', {}, below.slice(0, 60)));
+      return h('span', { class: 'object-cell' }, shortName(objectName(objects, object).slice(0, 200)), below !== '' && h('small', {}, below.slice(0, 60)));
     };
     const columns: Column[] = [
       { id: 'class', label: 'Class', title: 'What it is', width: '6rem', cell: (r) => classCell(results.class[r]!, CLASS_WORDS[results.class[r]!]!) },
@@ -229,7 +229,7 @@ export class ListPanel {
     return [
       { id: 'class', label: 'Worst', title: 'The worst class in it', width: '6.6rem', cell: (g) => classCell(groups.class[g]!, CLASS_WORDS[groups.class[g]!]!) },
       { id: 'd', label: 'd mm', title: 'The least of the worst class', width: '4.6rem', right: true, cell: (g) => length(groups.d[g]!) },
-      { id: 'a', label: 'Group', title: 'What it is about', width: 'minmax(8rem, 2fr)', cell: (g) => h('span', { class: 'object-name' }, shown(groups.name.at(g)).slice(0, 200)) },
+      { id: 'a', label: 'Group', title: 'What it is about', width: 'minmax(8rem, 2fr)', cell: (g) => shortName(shown(groups.name.at(g)).slice(0, 200)) },
       { id: 'status', label: 'Results', title: 'How many results it has', width: '5rem', right: true, cell: (g) => count(groups.results[g]!) },
       { id: 'relation', label: 'Hits', title: 'How many of them are hits', width: '4rem', right: true, cell: (g) => count(groups.hits[g]!) },
       { id: 'b', label: 'Too close', title: 'How many are too close', width: '5.4rem', right: true, cell: (g) => count(groups.clearance_violations[g]!) },

@@ -55,7 +55,7 @@ function cards(report: Report, events: OverviewEvents): HTMLElement {
 function decided(report: Report, events: OverviewEvents): HTMLElement | undefined {
   const status = report.results?.status;
   if (!status) return undefined;
-  const counts = new Array<number>(STATUS_WORDS.length).fill(0);
+  const counts = STATUS_WORDS.map(() => 0);
   for (const s of status) if (s !== NONE8) ++counts[s]!;
   const decisions = report.head.clash?.decisions;
   const reopened = Object.values(decisions?.reopened ?? {}).reduce((a, b) => a + b, 0);
@@ -127,8 +127,9 @@ function matrix(report: Report, events: OverviewEvents): HTMLElement | undefined
     if (hits + contacts + near === 0) return h('td', { class: 'none' }, '–');
     const heat = hits === 0 ? 0 : 1 + Math.min(4, Math.floor((4 * Math.log1p(hits)) / Math.log1p(most)));
     const words = `${names[i]} and ${names[j]}: ${plural(hits, 'hit')}, ${count(near)} too close, ${plural(contacts, 'contact')}`;
-    return h('td', {}, h('button', { type: 'button', class: `heat heat-${heat}`, 'aria-label': words, title: words, onclick: () => events.showCell([i, j]) },
-      h('b', {}, count(hits)), h('span', { class: 'heat-rest' }, `${count(near)} · ${count(contacts)}`)));
+    const unseen = (text: string): HTMLElement => h('span', { class: 'unseen' }, text);
+    return h('td', {}, h('button', { type: 'button', class: `heat heat-${heat}`, title: words, onclick: () => events.showCell([i, j]) },
+      unseen(`${names[i]} and ${names[j]}: `), h('b', {}, count(hits)), unseen(' hits, '), h('span', { class: 'heat-rest' }, `${count(near)} · ${count(contacts)}`), unseen(' too close and contacts')));
   };
   return section(
     byDiscipline ? 'Between disciplines' : 'Between files',

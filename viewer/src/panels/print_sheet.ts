@@ -21,7 +21,7 @@ export function printSheet(report: Report, rows: Uint32Array): HTMLElement {
     head.clash && h('p', {}, `${count(sum.HIT)} hits, ${count(sum.CLEARANCE_VIOLATION)} too close, ${count(sum.CONTACT)} contacts, ${count(sum.ALLOWED)} allowed.`),
     results && h('p', {}, `${count(rows.length)} of ${count(results.count)} results are in the list${listed.length < rows.length ? `; the first ${count(listed.length)} are printed` : ''}.`),
     results && h('table', {},
-      h('thead', {}, h('tr', {}, ...['Class', 'd mm', 'Object A', 'Object B', 'x mm', 'y mm', 'z mm', ...(status ? ['Status'] : [])].map((t) => h('th', { scope: 'col' }, t)))),
+      h('thead', {}, h('tr', {}, ...['Class', 'd mm', 'Object A', 'Object B', 'x mm', 'y mm', 'z mm', ...(status ? ['Status'] : [])].map((t) => h('th', { scope: 'col', class: t.endsWith(' mm') ? 'right' : '' }, t)))),
       h('tbody', {}, ...Array.from(listed, (r) => {
         const s = results.status?.[r] ?? NONE8;
         return h('tr', {},

@@ -3,7 +3,7 @@
 // first, within a frame, and then the rest as long as nothing moves. So it answers at once however large the model is.
 import {
   BufferAttribute, BufferGeometry, Color, ColorManagement, ConeGeometry, EdgesGeometry, Frustum, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh,
-  MeshBasicMaterial, type Object3D, type PerspectiveCamera, Quaternion, Scene, SphereGeometry, Box3, Vector3, WebGLRenderer,
+  MeshBasicMaterial, type Object3D, type PerspectiveCamera, Quaternion, Scene, type ShaderMaterial, SphereGeometry, Box3, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { SceneHead } from '../payload/head.ts';
@@ -57,6 +57,7 @@ export class View {
   private readonly marks = new Scene();
   private readonly origin: Vec;
   private readonly reach: number;
+  private readonly paints = new Map<number, { body: ShaderMaterial; rim: ShaderMaterial }>();
   private queue: Batch[] = [];
   private dirty = false;
   private scheduled = false;
@@ -90,6 +91,8 @@ export class View {
     this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, preserveDrawingBuffer: true, powerPreference: 'high-performance' });
     this.renderer.setPixelRatio(this.software ? 1 : Math.min(window.devicePixelRatio, 2));
     this.renderer.autoClear = false;
+    // Asking whether a program was compiled waits until it is; the tests read pixels instead.
+    this.renderer.debug.checkShaderErrors = false;
     this.budgets = this.software ? { first: 0, moving: 6000, next: 12000 } : { first: 1000000, moving: 1000000, next: 1500000 };
     this.origin = head.origin_mm;
     this.items = makeItems(model, head, objects);
@@ -288,15 +291,29 @@ export class View {
       const geometry = new BufferGeometry();
       geometry.setAttribute('position', new BufferAttribute(mesh.position, 3));
       geometry.setIndex(new BufferAttribute(mesh.index, 1));
-      const body = new Mesh(geometry, makeMaterial(this.shared, { colour }));
+      const paint = this.paintOf(colour);
+      const body = new Mesh(geometry, paint.body);
       body.frustumCulled = false;
       this.pair.add(body);
       if (mesh.index.length < 60000) {
-        const rim = new LineSegments(new EdgesGeometry(geometry, 30), makeMaterial(this.shared, { colour: new Color(colour).multiplyScalar(0.45).getHex(), lines: true }));
+        const rim = new LineSegments(new EdgesGeometry(geometry, 30), paint.rim);
         rim.frustumCulled = false;
         this.pair.add(rim);
       }
     }
+  }
+
+  /** A colour's materials are made once: a new one costs more than drawing with it. */
+  private paintOf(colour: number): { body: ShaderMaterial; rim: ShaderMaterial } {
+    let paint = this.paints.get(colour);
+    if (!paint) {
+      paint = {
+        body: makeMaterial(this.shared, { colour }),
+        rim: makeMaterial(this.shared, { colour: new Color(colour).multiplyScalar(0.45).getHex(), lines: true }),
+      };
+      this.paints.set(colour, paint);
+    }
+    return paint;
   }
 
   private placeSection(): void {

@@ -25,7 +25,7 @@ export const ROW_HEIGHT = 38;
 /** A table of rows, which are numbers in the payload. */
 export class ResultTable {
   readonly element: HTMLElement;
-  private readonly scroller = h('div', { class: 'scroller' });
+  private readonly scroller = h('div', { class: 'scroller', tabindex: -1, onfocus: () => this.element.focus({ preventScroll: true }) });
   private readonly body = h('div', { role: 'rowgroup', class: 'rows' });
   private readonly header = h('div', { role: 'row', class: 'row header', 'aria-rowindex': 1 });
   private readonly virtual: VirtualRows;

@@ -56,3 +56,13 @@ export function toggle(label: string, pressed: boolean, change: (pressed: boolea
 export function classMark(cls: number): HTMLElement {
   return h('span', { class: `mark mark-${['hit', 'contact', 'near'][cls]}`, 'aria-hidden': 'true' });
 }
+
+const END = 9;
+
+/** A name that loses its middle where there is no room: ends tell names apart. */
+export function shortName(name: string): HTMLElement {
+  if (name.length < 2 * END) return h('span', { class: 'object-name' }, name);
+  // A character of two units is not cut in two.
+  const at = name.length - END - (name.charCodeAt(name.length - END) >> 10 === 0x37 ? 1 : 0);
+  return h('span', { class: 'object-name two' }, h('span', { class: 'start' }, name.slice(0, at)), h('span', {}, name.slice(at)));
+}

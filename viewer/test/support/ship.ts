@@ -323,7 +323,7 @@ export function ship(sizes: Sizes): Ship {
 
 function escape(text: string): string {
   // XML has no control characters; the program writes U+FFFD for them.
-  return text.replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f]/g, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
+  return text.replace(/\p{Cc}/gu, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
 }
 
 function drawing(names: readonly string[], centre: Float64Array, size: Float64Array, side: number, view: number, most: number): string {
