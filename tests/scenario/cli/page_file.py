@@ -47,7 +47,7 @@ class PageFile:
     """The head, the columns and the drawings of a page."""
 
     def __init__(self, path):
-        text = path.read_bytes().decode('ascii')
+        text = path.read_bytes().decode()
         self.around = ELEMENT.sub('', text)  # what stands round the payload
         self.blocks = {}
         for name, packed in ELEMENT.findall(text):

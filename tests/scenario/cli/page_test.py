@@ -3,7 +3,8 @@
 import json
 import math
 import re
-import subprocess
+import sys
+from pathlib import Path
 
 from page_file import NONE, PageFile
 from scenario import Scenario, cube, main
@@ -147,28 +148,24 @@ class Numbers(PageScenario):
         self.assertTrue(any('volume_mm3' in result for result in document['results']))
         self.compare(page, document)
 
-    def test_rules_levels_disciplines_and_columns(self):
-        self.ship(400)
-        self.write('rules.toml', '''
-            [disciplines]
-            pipes = 'PIP*'
-            steel = 'BEA* or STF* or PLT*'
-            [[test]]
-            name = "all"
-            matrix = true
-            clearance = "30mm"
-            [[allowed]]
-            name = "pipes may touch steel"
-            a = 'PIP*'
-            b = 'not PIP*'
-            max_depth = "1mm"
-            [[test]]
-            name = "cables"
-            a = 'CAB*'
-            ''')
-        done = self.run_strake('clash', 'ship.glb', '--rules', 'rules.toml', '-o', 'x.html', '-o', 'x.json')
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.compare(self.page(), json.loads((self.folder / 'x.json').read_text()))
+    def test_rules_disciplines_and_exemptions(self):
+        self.ship(1200, '--seed', 7)
+        page, document = self.pair('ship.glb', '--rules', Path(sys.argv[0]).resolve().parents[3] / 'examples' / 'ship_rules.toml',
+                                   '--list-exempted')
+        self.assertTrue(any('allowed' in result for result in document['results']))
+        self.assertTrue(any(result['a'].get('discipline') == 'piping' for result in document['results']))
+        self.assertIn('exempted', document)
+        self.compare(page, document)
+
+    def test_levels_columns_and_positions_for_ids(self):
+        self.write_rvm('p.rvm', [('/A', (0, 0, 0)), ('/A', (80, 0, 0), 'OBST'), ('/B', (160, 0, 0), 'INSU')])
+        self.write('p.att', 'NEW /A\n:Area := deck 1\nEND\n')
+        self.write('a.obj', cube('a', 0, (60, 50, 50), 100))
+        self.write('rules.toml', '[defaults]\nclearance = "20mm"\n[obstruction]\nvolumes = "soft"\n[insulation]\nagainst_insulation = true\n')
+        page, document = self.pair('p.rvm', 'a.obj', '--rules', 'rules.toml', '--columns', '@Area,@Nothing')
+        self.assertLessEqual({'hard', 'soft'}, {result[side]['level'] for result in document['results'] for side in 'ab'})
+        self.assertTrue(any(result[side].get('positional_id') for result in document['results'] for side in 'ab'))
+        self.compare(page, document)
 
     def test_decisions(self):
         self.ship(300)
