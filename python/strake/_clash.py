@@ -223,7 +223,7 @@ class Clashes(Sequence[Clash]):
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> None:
-        """Writes .json (schemas/clash.schema.json) or .csv, the bytes that the program writes, whole or not at all.
+        """Writes .json (schemas/clash.schema.json), .csv or .html (docs/report-page.md), the bytes that the program writes, whole or not at all.
 
         `columns` are attributes of both objects that are written, too, as "DN" or "@DN". Raises: UsageError, OutputError.
         """
