@@ -107,7 +107,7 @@ Status write_page(const PageContents& contents, report::Sink sink,
     std::ranges::move(model.blocks, std::back_inserter(blocks));
   }
   for (std::size_t d = 0; d < contents.drawings.size(); ++d)
-    blocks.push_back(text_block("strake-drawing-" + std::to_string(d), contents.drawings[d].svg));
+    blocks.push_back(view_block("strake-drawing-" + std::to_string(d), contents.drawings[d].svg));
   const clash::Grouping* const grouping =
       contents.clash != nullptr ? contents.clash->grouping : nullptr;
   Result<std::string> head =

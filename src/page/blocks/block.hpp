@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,7 +32,9 @@ struct Block {
   }
 };
 
-/// Returns a block of a text that is made already.
+/// Returns a block of a text that outlasts its writing.
+[[nodiscard]] Block view_block(std::string id, std::string_view text);
+/// Returns a block of a text, which it keeps.
 [[nodiscard]] Block text_block(std::string id, std::string text);
 
 }  // namespace strake::page

@@ -15,13 +15,22 @@ constexpr std::size_t kKeyCharacters = 26;
 
 }  // namespace
 
+Block view_block(std::string id, std::string_view text) {
+  return {std::move(id),
+          {{text.size(), text.size(), [text](std::size_t begin, std::size_t end, std::string& out) {
+              out += text.substr(begin, end - begin);
+            }}}};
+}
+
 Block text_block(std::string id, std::string text) {
   const auto shared = std::make_shared<const std::string>(std::move(text));
-  const std::size_t bytes = shared->size();
-  return {std::move(id),
-          {{bytes, bytes, [shared](std::size_t begin, std::size_t end, std::string& out) {
-              out.append(*shared, begin, end - begin);
-            }}}};
+  Block block = view_block(std::move(id), *shared);
+  // Who keeps the block keeps the text.
+  block.sections.front().append = [shared, inner = block.sections.front().append](
+                                      std::size_t begin, std::size_t end, std::string& out) {
+    inner(begin, end, out);
+  };
+  return block;
 }
 
 void Columns::add(std::string_view name, std::string_view type, std::uint64_t count,
