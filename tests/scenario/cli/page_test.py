@@ -2,6 +2,7 @@
 """The report page: every number in it is that of the JSON of the same run; the model and the drawings that stand in it."""
 import json
 import math
+import os
 import re
 import sys
 from pathlib import Path
@@ -161,7 +162,14 @@ class Numbers(PageScenario):
         self.write_rvm('p.rvm', [('/A', (0, 0, 0)), ('/A', (80, 0, 0), 'OBST'), ('/B', (160, 0, 0), 'INSU')])
         self.write('p.att', 'NEW /A\n:Area := deck 1\nEND\n')
         self.write('a.obj', cube('a', 0, (60, 50, 50), 100))
-        self.write('rules.toml', '[defaults]\nclearance = "20mm"\n[obstruction]\nvolumes = "soft"\n[insulation]\nagainst_insulation = true\n')
+        self.write('rules.toml', '''
+            [defaults]
+            clearance = "20mm"
+            [obstruction]
+            volumes = "soft"
+            [insulation]
+            against_insulation = true
+            ''')
         page, document = self.pair('p.rvm', 'a.obj', '--rules', 'rules.toml', '--columns', '@Area,@Nothing')
         self.assertLessEqual({'hard', 'soft'}, {result[side]['level'] for result in document['results'] for side in 'ab'})
         self.assertTrue(any(result[side].get('positional_id') for result in document['results'] for side in 'ab'))
@@ -198,6 +206,18 @@ class Numbers(PageScenario):
         self.write('b.obj', cube('b', 0, (0, 0, 0), 100))
         self.run_ok('clash', 'b.obj', '-o', 'b.html')
         self.assertEqual(page.around, self.page('b.html').around)
+
+
+class RealModels(PageScenario):
+    def test_a_platform(self):
+        """The files of a platform in the folder that STRAKE_DATA names."""
+        files = sorted(Path(os.environ.get('STRAKE_DATA', '/nowhere')).glob('rvm/*/HA-*.RVM'))
+        if not files:
+            self.skipTest('STRAKE_DATA names no folder with the platform')
+        page, document = self.pair(*files, '--clearance', '25mm', '--group-by', 'element')
+        self.assertGreater(len(document['results']), 300)
+        self.compare(page, document)
+        self.assertLess((self.folder / 'x.html').stat().st_size, 3_000_000)
 
 
 class ModelInPage(PageScenario):
