@@ -73,6 +73,7 @@ set(manual
   docs/formats/gltf.md
   docs/formats/ifc.md
   docs/formats/importers.md
+  docs/formats/page.md
   docs/formats/primitives.md
   docs/formats/step.md
   docs/hidden-line-algorithms.md
@@ -81,6 +82,7 @@ set(manual
   docs/profiles.md
   docs/project.md
   docs/reading-results.md
+  docs/report-page.md
   docs/rules.md
   docs/selection.md
   docs/sheets.md

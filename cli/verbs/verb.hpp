@@ -34,6 +34,7 @@ struct Verb {
 [[nodiscard]] std::vector<Verb> add_project_verbs(CLI::App& program, CommonOptions& common);
 /// The verbs of 'strake cache'; it has no run of its own.
 [[nodiscard]] std::vector<Verb> add_cache_verbs(CLI::App& program, CommonOptions& common);
+[[nodiscard]] Verb add_report(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_convert(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_generate(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_evaluate(CLI::App& program, CommonOptions& common);

@@ -15,6 +15,7 @@
 
 #include "core/output_format.hpp"
 #include "drawing/drawing_writers.hpp"
+#include "publish/drawing_formats.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
 #include "python/bindings/diagnostics.hpp"
@@ -101,7 +102,7 @@ nb::bytes svg(const RunPointer& run) {
 }
 
 void save(const RunPointer& run, const std::filesystem::path& path, const RunOptions& options) {
-  const auto writer = value_or_raise(find_writer(drawing::drawing_writers(), path.string()));
+  const auto writer = value_or_raise(publish::find_drawing_writer(path.string()));
   run_status(options, "write", [&](const parallel::Context& context) -> Status {
     Result<AtomicFile> file = AtomicFile::create(path);
     if (!file) return file.error();
@@ -175,7 +176,7 @@ void bind_drawing(nb::module_& module) {
   module.def(
       "shows_ink",
       [](const std::filesystem::path& path) {
-        return value_or_raise(find_writer(drawing::drawing_writers(), path.string())).needs_ink;
+        return value_or_raise(publish::find_drawing_writer(path.string())).needs_ink;
       },
       nb::arg("path"), "Whether a file shows the lines that get ink, or holds all that there are.");
   module.def("svg", &svg, nb::arg("run"));

@@ -229,10 +229,10 @@ class Clashes(Sequence[Clash]):
         threads: int | None = None,
         progress: Progress | None = None,
     ) -> None:
-        """Writes .json (schemas/clash.schema.json), .csv or another format of the program, the bytes that it writes, whole or
-        not at all.
+        """Writes .json (schemas/clash.schema.json), .csv or another format of the program, the bytes that it writes.
 
-        `columns` are attributes of both objects that are written, too, as "DN" or "@DN". Raises: UsageError, OutputError.
+        A file is whole or not there. `columns` are attributes of both objects that are written, too, as "DN" or "@DN".
+        Raises: UsageError, OutputError.
         """
         options = run_options(threads, progress)
         names = [name.removeprefix("@") for name in texts(columns, "columns")]

@@ -119,7 +119,9 @@ class Drawing:
         return [Diagnostic(*one) for one in self._core.diagnostics]
 
     def save(self, path_to: PathLike, threads: int | None = None, progress: Progress | None = None) -> None:
-        """Writes .svg, or .json or .view (docs/drawing.md), whole or not at all; these two have all of `segments`.
+        """Writes .svg, .html (a page, docs/report-page.md), or .json or .view (docs/drawing.md), whole or not at all.
+
+        The last two have all of `segments`.
 
         Raises: UsageError, OutputError.
         """

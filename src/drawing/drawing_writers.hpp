@@ -6,6 +6,7 @@
 #include "core/output_format.hpp"
 #include "strake/core/result.hpp"
 #include "strake/drawing/write.hpp"
+#include "strake/model/scene.hpp"
 
 namespace strake::drawing {
 
@@ -14,6 +15,7 @@ struct DrawingContents {
   const NeutralDrawing& drawing;
   const Ink& ink;  ///< empty where no writer in use needs it
   const model::Model& model;
+  const model::Scene* scene = nullptr;  ///< what was drawn, where it is known: for what shows it
 };
 
 /// One format that drawings are written in.

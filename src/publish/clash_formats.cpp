@@ -1,17 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/clash_formats.hpp"
 
+#include <array>
 #include <span>
 
+#include "bcf/bcf_writers.hpp"
+#include "page/page.hpp"
+#include "pictures/whole_run.hpp"
 #include "workbook/workbook_writers.hpp"
 
 namespace strake::publish {
 namespace {
 
+constexpr std::array kPages{
+    report::ClashWriter{{".html", ", or {}, a page with the model that opens in a browser"},
+                        page::write_clash_page,
+                        true},
+};
+
 std::vector<report::ClashWriter> clash_writers() {
   std::vector<report::ClashWriter> all;
   for (const std::span<const report::ClashWriter> table :
-       {report::clash_writers(), workbook::clash_writers()})
+       {report::clash_writers(), workbook::clash_writers(), bcf::clash_writers(),
+        pictures::picture_writers(), std::span<const report::ClashWriter>(kPages)})
     all.insert(all.end(), table.begin(), table.end());
   return all;
 }

@@ -175,6 +175,7 @@ WrittenFiles written_files(const ClashOptions& given, bool json) {
     const Result<report::ClashWriter> writer = publish::find_clash_writer(file);
     files.attributes = files.attributes || (writer && writer->attributes);
     files.bcf = files.bcf || is_bcf(file);
+    files.page = files.page || suffix_of(file) == ".html";
   }
   return files;
 }
@@ -351,7 +352,9 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
                                        request.output.classes,
                                        decided,
                                        &loaded.scene,
-                                       form_of_run(request.output.bcf, project)};
+                                       {},
+                                       form_of_run(request.output.bcf, project),
+                                       request.output.shown};
   if (const Status status = write_files(session, given, contents); !status) return status;
   if (const Status status = write_pictures(session, given.pictures, contents); !status)
     return status;

@@ -69,6 +69,21 @@ report::CsvForm csv_form(const std::string& word) {
 
 }  // namespace
 
+void add_page_geometry_option(CLI::App& command, std::string& option) {
+  add_choice(command, "--page-geometry", option, {"auto", "all", "near", "boxes", "none"},
+             "What .html shows of the model: all of it; what clashes and what is near, and boxes "
+             "for the rest; boxes; or nothing (default auto: all, or where that is too much for a "
+             "browser what is near)")
+      ->group("Result");
+}
+
+report::ModelShown page_geometry(const std::string& option) {
+  if (option == "all") return report::ModelShown::all;
+  if (option == "near") return report::ModelShown::near;
+  if (option == "boxes") return report::ModelShown::boxes;
+  return option == "none" ? report::ModelShown::nothing : report::ModelShown::automatic;
+}
+
 void add_clash_output_options(CLI::App& command, ClashOutputInput& options) {
   constexpr const char* kGroup = "Result";
   command
@@ -96,6 +111,7 @@ void add_clash_output_options(CLI::App& command, ClashOutputInput& options) {
              "between cells (default standard)")
       ->group(kGroup);
   add_bcf_options(command, options.bcf);
+  add_page_geometry_option(command, options.page_geometry);
 }
 
 Result<ClashOutput> clash_output(const ClashOutputInput& input, const WrittenFiles& files) {
@@ -125,6 +141,9 @@ Result<ClashOutput> clash_output(const ClashOutputInput& input, const WrittenFil
   const Result<report::BcfForm> bcf = bcf_form(input.bcf, files.bcf);
   if (!bcf) return bcf.error();
   output.bcf = *bcf;
+  output.shown = page_geometry(input.page_geometry);
+  if (!input.page_geometry.empty() && !files.page)
+    return option_error("no page is written", "--page-geometry", "add -o FILE.html");
   return output;
 }
 

@@ -21,7 +21,7 @@ namespace strake::cli {
 
 /// As written.
 struct ClashOutputInput {
-  std::string columns, classes, top, csv;
+  std::string columns, classes, top, csv, page_geometry;
   BcfInput bcf;
 };
 
@@ -32,11 +32,12 @@ struct ClashOutput {
   std::optional<std::uint64_t> rows;  ///< of the table; absent: as many as it has by itself
   report::CsvForm csv;
   report::BcfForm bcf;
+  report::ModelShown shown = report::ModelShown::automatic;  ///< of the model in a page
 };
 
 /// What a run writes, as far as the options bear on it.
 struct WrittenFiles {
-  bool csv = false, bcf = false;
+  bool csv = false, bcf = false, page = false;
   bool attributes = false;  ///< a format that has ClashOutput::columns
   bool pair_log = false;   ///< CSV too, but without attributes
   bool decisions = false;  ///< likewise
@@ -44,6 +45,11 @@ struct WrittenFiles {
 };
 
 void add_clash_output_options(CLI::App& command, ClashOutputInput& options);
+
+/// Adds --page-geometry: how much of the model a page shows.
+void add_page_geometry_option(CLI::App& command, std::string& option);
+/// Returns what the option asks for.
+[[nodiscard]] report::ModelShown page_geometry(const std::string& option);
 
 /// Errors: usage for what is misspelt, and for an option that bears on none of the files.
 [[nodiscard]] Result<ClashOutput> clash_output(const ClashOutputInput& input,

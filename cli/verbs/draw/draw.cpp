@@ -20,6 +20,7 @@
 #include "core/output_format.hpp"
 #include "core/text_encoding.hpp"
 #include "drawing/drawing_writers.hpp"
+#include "publish/drawing_formats.hpp"
 
 namespace strake::cli {
 
@@ -29,7 +30,8 @@ namespace {
 /// ".json and .view".
 std::string suffixes_by_ink(bool needs_ink) {
   std::vector<OutputFormat> formats;
-  for (const drawing::DrawingWriter& writer : drawing::drawing_writers())
+  const std::vector<drawing::DrawingWriter> writers = publish::drawing_writers();
+  for (const drawing::DrawingWriter& writer : writers)
     if (writer.needs_ink == needs_ink) formats.push_back(writer.format);
   return list_suffixes(formats, "and");
 }
@@ -52,10 +54,10 @@ Status check_view_name(const DrawOptions& given) {
 Status check_drawing_outputs(Session& session, const DrawOptions& given) {
   const bool remembers = !given.save.empty() || !given.stored.empty();
   if (given.outputs.empty() && !session.json() && !remembers)
-    return Error{ErrorCode::usage, "nowhere to draw to", "-o",
-                 fmt::format("write -o FILE{}, or --json",
-                             formats_of(drawing::drawing_writers()).front().suffix)};
-  return session.files().add_outputs(given.outputs, formats_of(drawing::drawing_writers()));
+    return Error{
+        ErrorCode::usage, "nowhere to draw to", "-o",
+        fmt::format("write -o FILE{}, or --json", publish::drawing_formats().front().suffix)};
+  return session.files().add_outputs(given.outputs, publish::drawing_formats());
 }
 
 /// Draws the model files, or a project as if its model came from them.
@@ -75,7 +77,8 @@ Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
   const auto drawing = put_on_paper(session, *lines, *loaded->model, prepared->layout);
   if (!drawing) return drawing.error();
   tell_drawing(session, *drawing, *loaded->model);
-  if (const Status status = write_drawing(session, given, *drawing, *loaded->model); !status)
+  if (const Status status = write_drawing(session, given, *drawing, *loaded->model, &loaded->scene);
+      !status)
     return status.error();
   return strict_exit_code(given.input, *loaded);
 }
@@ -320,7 +323,7 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
       ->type_name("SIZE")
       ->group("Output");
   command->add_option("--title", options->title, "Title of the sheet")->group("Output");
-  add_output_option(*command, options->outputs, "Drawing", formats_of(drawing::drawing_writers()));
+  add_output_option(*command, options->outputs, "Drawing", publish::drawing_formats());
   add_stored(*command, *options);
   add_sheet(*command, *options);
   add_distribution_option(*command, common);

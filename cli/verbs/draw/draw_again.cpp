@@ -65,7 +65,7 @@ Result<ExitCode> draw_again(Session& session, const DrawOptions& given) {
     return error;
   }
   tell_drawing(session, *drawing, read->model);
-  if (const Status status = write_drawing(session, given, *drawing, read->model); !status)
+  if (const Status status = write_drawing(session, given, *drawing, read->model, nullptr); !status)
     return status.error();
   return ExitCode::done;
 }

@@ -12,6 +12,7 @@
 #include "core/units.hpp"
 #include "drawing/drawing_writers.hpp"
 #include "drawing/layout/paper_size.hpp"
+#include "publish/drawing_formats.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/geometry/grid.hpp"
 
@@ -117,7 +118,7 @@ bool keeps_hidden_lines(const DrawOptions& given, bool keep_hidden) {
   if (given.visible_only) return false;
   if (keep_hidden || (!given.hidden.empty() && given.hidden != "off")) return true;
   return std::ranges::any_of(given.outputs, [](const std::string& file) {
-    const Result<drawing::DrawingWriter> writer = find_writer(drawing::drawing_writers(), file);
+    const Result<drawing::DrawingWriter> writer = publish::find_drawing_writer(file);
     return writer && !writer->needs_ink;
   });
 }

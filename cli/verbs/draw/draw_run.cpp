@@ -17,6 +17,7 @@
 #include "cli/verbs/draw/far_objects.hpp"
 #include "core/output_format.hpp"
 #include "drawing/drawing_writers.hpp"
+#include "publish/drawing_formats.hpp"
 #include "strake/drawing/write.hpp"
 
 namespace strake::cli {
@@ -113,10 +114,11 @@ void tell_drawing(Session& session, const drawing::NeutralDrawing& drawing,
 }
 
 Status write_drawing(Session& session, const DrawOptions& given,
-                     const drawing::NeutralDrawing& drawing, const model::Model& model) {
+                     const drawing::NeutralDrawing& drawing, const model::Model& model,
+                     const model::Scene* scene) {
   std::vector<drawing::DrawingWriter> writers;
   for (const std::string& file : given.outputs) {
-    const Result<drawing::DrawingWriter> writer = find_writer(drawing::drawing_writers(), file);
+    const Result<drawing::DrawingWriter> writer = publish::find_drawing_writer(file);
     if (!writer) return writer.error();
     writers.push_back(*writer);
   }
@@ -131,7 +133,7 @@ Status write_drawing(Session& session, const DrawOptions& given,
   }
   for (std::size_t i = 0; i < writers.size(); ++i) {
     const Status status = session.write(given.outputs[i], [&](Session::Sink sink) {
-      return writers[i].write({drawing, ink, model}, sink, session.context());
+      return writers[i].write({drawing, ink, model, scene}, sink, session.context());
     });
     if (!status) return status;
   }

@@ -40,9 +40,10 @@ struct PreparedView {
 void tell_drawing(Session& session, const drawing::NeutralDrawing& drawing,
                   const model::Model& model);
 
-/// Writes a drawing to the files of -o, and to standard output under --json.
+/// Writes a drawing to the files of -o, and to standard output under --json. `scene` is what was
+/// drawn; null: it is not known.
 [[nodiscard]] Status write_drawing(Session& session, const DrawOptions& given,
                                    const drawing::NeutralDrawing& drawing,
-                                   const model::Model& model);
+                                   const model::Model& model, const model::Scene* scene);
 
 }  // namespace strake::cli

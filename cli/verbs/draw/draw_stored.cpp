@@ -379,8 +379,7 @@ DrawOptions as_stored(const OpenedProject& opened, const std::string& view) {
 
 }  // namespace
 
-Result<report::ViewDocument> stored_document(Session& session, OpenedProject& opened,
-                                             const std::string& view) {
+Result<FormerSheet> former_sheet(Session& session, OpenedProject& opened, const std::string& view) {
   const Result<ViewOfProject> asked = view_to_draw(as_stored(opened, view), opened);
   if (!asked) return asked.error();
   Result<project::FormerDrawing> former = [&] {
@@ -398,10 +397,17 @@ Result<report::ViewDocument> stored_document(Session& session, OpenedProject& op
   layout.far_left_out = std::move(former->far_objects);
   for (const model::Selection& selection : request->uncut)
     layout.uncut_selections.push_back(selection.text());
-  const Result<drawing::NeutralDrawing> drawing =
+  Result<drawing::NeutralDrawing> drawing =
       drawing::lay_out(former->drawing, former->model, layout, session.context());
   if (!drawing) return drawing.error();
-  return document_of(session, *drawing, former->model,
+  return FormerSheet{std::move(*drawing), std::move(former->model), ink_options(asked->shown)};
+}
+
+Result<report::ViewDocument> stored_document(Session& session, OpenedProject& opened,
+                                             const std::string& view) {
+  const Result<FormerSheet> former = former_sheet(session, opened, view);
+  if (!former) return former.error();
+  return document_of(session, former->drawing, former->model,
                      opened.file + ", view '" + view + "' as stored");
 }
 
@@ -440,7 +446,9 @@ Result<ExitCode> draw_stored(Session& session, const DrawOptions& given) {
   if (!drawing) return drawing.error();
   tell_drawing(session, *drawing, *loaded->model);
   if (const Status status = run.store(); !status) return status.error();
-  if (const Status status = write_drawing(session, view->shown, *drawing, *loaded->model); !status)
+  if (const Status status =
+          write_drawing(session, view->shown, *drawing, *loaded->model, &loaded->scene);
+      !status)
     return status.error();
   return run.differs() ? ExitCode::check_failed : strict_exit_code(given.input, *loaded);
 }

@@ -17,8 +17,19 @@ namespace strake::cli {
 /// view and options have the signatures of now.
 [[nodiscard]] Result<ExitCode> draw_stored(Session& session, const DrawOptions& given);
 
+/// A drawing that a project has stored, on its sheet.
+struct FormerSheet {
+  drawing::NeutralDrawing drawing;
+  model::Model model;  ///< its objects and files, by name
+  drawing::InkOptions ink;
+};
+
 /// Returns the drawing of a view that a project has stored, as it was when it was solved. Errors:
 /// those of project::former_drawing().
+[[nodiscard]] Result<FormerSheet> former_sheet(Session& session, OpenedProject& opened,
+                                               const std::string& view);
+
+/// Returns the same as a document.
 [[nodiscard]] Result<report::ViewDocument> stored_document(Session& session, OpenedProject& opened,
                                                            const std::string& view);
 

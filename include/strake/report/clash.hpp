@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -73,6 +74,15 @@ struct BcfForm {
   std::string author = "strake";  ///< who made them
 };
 
+/// How much of the model a report shows that shows it.
+enum class ModelShown : std::uint8_t {
+  automatic,  ///< all of it, or where that is too much what is near clashes, and boxes for the rest
+  all,
+  near,   ///< what clashes and what is near, as far as there is room; boxes for the rest
+  boxes,  ///< the box of each object
+  nothing,
+};
+
 /// What a report is written from.
 struct ClashContents {
   const clash::Findings& findings;
@@ -98,6 +108,7 @@ struct ClashContents {
   std::function<Result<std::string>(const clash::ResultRef&, const parallel::Context&)> picture_of =
       {};
   BcfForm bcf = {};
+  ModelShown shown = ModelShown::automatic;  ///< how much of `scene` is shown
 };
 
 /// Writes the document of schemas/clash.schema.json, one result a line, streamed: memory does not

@@ -7,31 +7,13 @@
 #include <vector>
 
 #include "core/text_encoding.hpp"
+#include "project/history/last_run.hpp"
 #include "project/results/run_records.hpp"
 #include "project/results/stored_tests.hpp"
 #include "strake/report/clash.hpp"
 
 namespace strake::project {
 namespace {
-
-/// The results of tests of one run, and the model that it ran over.
-struct LastRun {
-  clash::Findings findings;
-  model::Model model;
-  std::optional<RunRecord> record;
-};
-
-Error no_result(const Database& database) {
-  return {ErrorCode::usage, "has no result of a clash test", database.file().string(),
-          "'strake clash -p' makes one"};
-}
-
-Error no_names(const Database& database) {
-  return {ErrorCode::usage,
-          "its last result is of an earlier version of Strake, and not known with the names of all "
-          "objects",
-          database.file().string(), "run 'strake clash -p' once more"};
-}
 
 Result<std::vector<std::string>> tests_to_tell(Database& database,
                                                const std::optional<std::string>& test) {
@@ -45,29 +27,6 @@ Result<std::vector<std::string>> tests_to_tell(Database& database,
   }
   return Error{ErrorCode::usage, "no test is called " + in_quotes(*test), database.file().string(),
                there.empty() ? "'strake clash -p' runs tests" : there};
-}
-
-Result<LastRun> read_last_run(Database& database, const std::vector<std::string>& tests,
-                              const parallel::Context& context) {
-  LastRun run;
-  for (const std::string& name : tests) {
-    Result<std::optional<StoredTest>> stored = read_test(database, name, context);
-    if (!stored) return stored.error();
-    if (!*stored) return no_result(database);
-    StoredTest& test = **stored;
-    Result<std::optional<model::Model>> model = read_test_objects(database, test);
-    if (!model) return model.error();
-    if (!*model) return no_names(database);
-    if (!run.findings.tests.empty() && (**model).objects.size() != run.model.objects.size())
-      return database.damaged("the tests of one run are of different models");
-    run.model = std::move(**model);
-    test.results.report.name = name;
-    run.findings.tests.push_back(std::move(test.results.report));
-    Result<std::optional<RunRecord>> record = read_run_record(database, test.run);
-    if (!record) return record.error();
-    run.record = std::move(*record);
-  }
-  return run;
 }
 
 }  // namespace

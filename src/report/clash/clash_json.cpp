@@ -90,8 +90,8 @@ void diagnostics(std::string& out, const Diagnostics& all) {
       "\n  ");
 }
 
-void groups(BufferedWriter& buffer, const clash::Grouping& grouping) {
-  std::string& out = buffer.text();
+/// Appends how results are grouped, up to the list.
+void begin_groups(std::string& out, const clash::Grouping& grouping) {
   out += "\"groups\": {\"by\": \"";
   out += name(grouping.rules.by);
   out += "\"";
@@ -99,6 +99,11 @@ void groups(BufferedWriter& buffer, const clash::Grouping& grouping) {
     out += ", \"distance_mm\": ";
     append_mm(out, grouping.rules.distance_mm);
   }
+}
+
+void groups(BufferedWriter& buffer, const clash::Grouping& grouping) {
+  std::string& out = buffer.text();
+  begin_groups(out, grouping);
   out += ", ";
   append_list(
       out, "list", grouping.groups,
@@ -199,13 +204,8 @@ Status exempted_pairs(BufferedWriter& buffer, const ClashContents& contents,
       });
 }
 
-}  // namespace
-
-Status write_clash_json(const ClashContents& contents, Sink sink,
-                        const parallel::Context& context) {
-  const clash::Findings& findings = contents.findings;
-  BufferedWriter buffer(sink);
-  std::string& out = buffer.text();
+/// Writes what stands before the tests.
+void begin_document(std::string& out, const ClashContents& contents) {
   out += "{\n\"schema_version\": ";
   out += kClashSchemaVersion;
   out += ",\n";
@@ -219,32 +219,70 @@ Status write_clash_json(const ClashContents& contents, Sink sink,
     rules(out, *contents.rules);
     out += ",\n";
   }
-  if (Status s = append_tests(out, findings, contents.model, context); !s) return s;
+}
+
+/// Writes what stands between the tests and the groups.
+Status middle_of_document(BufferedWriter& buffer, const ClashContents& contents,
+                          const parallel::Context& context) {
+  std::string& out = buffer.text();
   out += ",\n\"hash\": ";
-  append_json(out, hash_of(findings));
+  append_json(out, hash_of(contents.findings));
   out += ",\n";
   Diagnostics all;
   if (contents.loading != nullptr) all = *contents.loading;
-  all.append(findings.all_diagnostics());
+  all.append(contents.findings.all_diagnostics());
   diagnostics(out, all);
   out += ",\n";
   if (const Status s = not_compared(buffer, contents, context); !s) return s;
+  if (contents.decided == nullptr) return {};
   out += ",\n";
-  if (contents.decided != nullptr) {
-    decisions(out, *contents.decided);
-    out += ",\n";
-  }
-  if (contents.grouping != nullptr) {
-    groups(buffer, *contents.grouping);
-    out += ",\n";
-  }
-  if (const Status s = results(buffer, contents, context); !s) return s;
-  if (std::ranges::any_of(findings.tests, &Report::lists_exempted)) {
+  decisions(out, *contents.decided);
+  return {};
+}
+
+/// Writes what stands behind the results.
+Status end_document(BufferedWriter& buffer, const ClashContents& contents,
+                    const parallel::Context& context) {
+  std::string& out = buffer.text();
+  if (std::ranges::any_of(contents.findings.tests, &Report::lists_exempted)) {
     out += ",\n";
     if (const Status s = exempted_pairs(buffer, contents, context); !s) return s;
   }
   out += "\n}\n";
   return {};
+}
+
+}  // namespace
+
+Status write_clash_json(const ClashContents& contents, Sink sink,
+                        const parallel::Context& context) {
+  BufferedWriter buffer(sink);
+  std::string& out = buffer.text();
+  begin_document(out, contents);
+  if (Status s = append_tests(out, contents.findings, contents.model, context); !s) return s;
+  if (Status s = middle_of_document(buffer, contents, context); !s) return s;
+  out += ",\n";
+  if (contents.grouping != nullptr) {
+    groups(buffer, *contents.grouping);
+    out += ",\n";
+  }
+  if (const Status s = results(buffer, contents, context); !s) return s;
+  return end_document(buffer, contents, context);
+}
+
+Status write_clash_head(const ClashContents& contents, Sink sink,
+                        const parallel::Context& context) {
+  BufferedWriter buffer(sink);
+  std::string& out = buffer.text();
+  begin_document(out, contents);
+  append_test_list(out, contents.findings);
+  if (Status s = middle_of_document(buffer, contents, context); !s) return s;
+  if (contents.grouping != nullptr) {
+    out += ",\n";
+    begin_groups(out, *contents.grouping);
+    out += '}';
+  }
+  return end_document(buffer, contents, context);
 }
 
 }  // namespace strake::report

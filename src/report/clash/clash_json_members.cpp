@@ -508,7 +508,8 @@ std::vector<bool> positional_ids(const model::Model& model) {
   return ids;
 }
 
-void test(std::string& out, const Report& report, const ElementHashes& elements) {
+/// `elements` is null where the test is told without what was compared with what.
+void test(std::string& out, const Report& report, const ElementHashes* elements) {
   out += "{\"name\": ";
   append_json(out, report.name);
   out += ", ";
@@ -528,8 +529,10 @@ void test(std::string& out, const Report& report, const ElementHashes& elements)
     out += ", ";
     matrix(out, report);
   }
-  out += ", ";
-  tested(out, report, elements);
+  if (elements != nullptr) {
+    out += ", ";
+    tested(out, report, *elements);
+  }
   out += ", \"hash\": ";
   append_json(out, report.hash);
   out += "}";
@@ -553,9 +556,15 @@ Status append_tests(std::string& out, const clash::Findings& findings, const mod
     out += "\",\n";
   }
   append_list(
-      out, "tests", findings.tests, [&](const Report& report) { test(out, report, elements); },
+      out, "tests", findings.tests, [&](const Report& report) { test(out, report, &elements); },
       "\n  ");
   return {};
+}
+
+void append_test_list(std::string& out, const clash::Findings& findings) {
+  append_list(
+      out, "tests", findings.tests, [&](const Report& report) { test(out, report, nullptr); },
+      "\n  ");
 }
 
 }  // namespace strake::report

@@ -59,9 +59,19 @@ void append_exempted_pair(std::string& out, const ClashContents& contents, std::
 void append_not_compared(std::string& out, const ClashContents& contents, std::size_t test,
                          const clash::NotCompared& what);
 
+/// Appends the member `tests` without what of it names objects by their places in `elements`.
+void append_test_list(std::string& out, const clash::Findings& findings);
+
 /// Appends the members `elements` and `tests` of the clash document: what was checked, by which
 /// rules and tolerances, and how much was found. Errors: cancelled, out of memory.
 [[nodiscard]] Status append_tests(std::string& out, const clash::Findings& findings,
                                   const model::Model& model, const parallel::Context& context);
+
+/// Writes the document of write_clash_json() without its long lists: without `results`, the list of
+/// `groups`, and what is only there to compare runs (`elements`, `sheets`, `positional_ids` and
+/// `tested` of the tests). It is for writers that have results in another form. Errors: cancelled,
+/// out of memory.
+[[nodiscard]] Status write_clash_head(const ClashContents& contents, Sink sink,
+                                      const parallel::Context& context);
 
 }  // namespace strake::report

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/text/formatting.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <ranges>
 #include <span>
 #include <vector>
@@ -18,20 +20,28 @@ namespace {
 
 constexpr double kPerMm = 1e6;
 
-/// Appends what append_mm() gives for most numbers, in a third of the time. Returns false, and
-/// appends nothing, for those that are huge, no numbers, or so near the middle between two texts
-/// that only exact arithmetic tells which is nearer.
-bool append_mm_quickly(std::string& out, double mm) {
-  const double size = std::fabs(mm);
-  if (!(size < 1e9)) return false;
+constexpr std::uint64_t kUnits = 1000000;
+
+/// Returns the millionths nearest to a number that is not negative, as for most numbers is found
+/// quickly; nothing for those that are huge, no numbers, or so near the middle between two that
+/// only exact arithmetic tells which is nearer.
+std::optional<std::uint64_t> millionths_quickly(double size) {
+  if (!(size < 1e9)) return std::nullopt;
   const auto whole = static_cast<std::uint64_t>(size);
   // The fraction is exact, its product off by less than a billionth.
   const double scaled = (size - static_cast<double>(whole)) * kPerMm;
   const auto below = static_cast<std::uint64_t>(scaled);
   const double rest = scaled - static_cast<double>(below);
-  if (std::fabs(rest - 0.5) < 1e-6) return false;
-  constexpr std::uint64_t kUnits = 1000000;
-  const std::uint64_t units = whole * kUnits + below + (rest > 0.5 ? 1U : 0U);
+  if (std::fabs(rest - 0.5) < 1e-6) return std::nullopt;
+  return whole * kUnits + below + (rest > 0.5 ? 1U : 0U);
+}
+
+/// Appends what append_mm() gives for most numbers, in a third of the time. Returns false, and
+/// appends nothing, for all others.
+bool append_mm_quickly(std::string& out, double mm) {
+  const std::optional<std::uint64_t> found = millionths_quickly(std::fabs(mm));
+  if (!found) return false;
+  const std::uint64_t units = *found;
   if (mm < 0 && units != 0) out += '-';
   std::array<char, 24> digits{};
   out.append(digits.data(),
@@ -42,6 +52,13 @@ bool append_mm_quickly(std::string& out, double mm) {
   for (std::uint64_t place = kUnits / 10; fraction != 0; fraction %= place, place /= 10)
     out += static_cast<char>('0' + fraction / place);
   return true;
+}
+
+/// Returns a whole number that fits; the outermost where it does not, 0 where it is none.
+std::int64_t saturated(double whole) {
+  if (std::isnan(whole)) return 0;
+  constexpr double kMost = 9223372036854774784.0;  // the largest double below 2^63
+  return static_cast<std::int64_t>(std::clamp(whole, -kMost, kMost));
 }
 
 }  // namespace
@@ -81,6 +98,18 @@ void append_mm(std::string& out, double mm) {
   if (out.back() == '.') out.pop_back();
   if (out.compare(start, std::string::npos, "-0") == 0) out.replace(start, 2, "0");
 }
+
+std::int64_t millionths(double value) {
+  if (const std::optional<std::uint64_t> found = millionths_quickly(std::fabs(value)))
+    return value < 0 ? -static_cast<std::int64_t>(*found) : static_cast<std::int64_t>(*found);
+  if (!(std::fabs(value) < 9e12)) return saturated(value * kPerMm);
+  std::string digits = fixed(value, 6);
+  std::erase(digits, '.');
+  return parse_integer(digits).value_or(0);
+}
+
+std::int64_t millionths_floor(double value) { return saturated(std::floor(value * kPerMm)); }
+std::int64_t millionths_ceil(double value) { return saturated(std::ceil(value * kPerMm)); }
 
 void append_mm_floor(std::string& out, double mm) {
   append_mm(out, std::floor(mm * kPerMm) / kPerMm);

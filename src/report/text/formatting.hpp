@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,13 @@ void append_mm(std::string& out, double mm);
 /// Append millimetres rounded down or up, so that a bracket stays certain.
 void append_mm_floor(std::string& out, double mm);
 void append_mm_ceil(std::string& out, double mm);
+
+/// Return the millionths that append_mm(), append_mm_floor() and append_mm_ceil() write: divided by
+/// 10^6 they are the numbers that their texts read as. What does not fit becomes the outermost that
+/// does, what is no number 0.
+[[nodiscard]] std::int64_t millionths(double value);
+[[nodiscard]] std::int64_t millionths_floor(double value);
+[[nodiscard]] std::int64_t millionths_ceil(double value);
 
 /// Append fields of a result with something between: the bounds of d, the coordinates of a point,
 /// the names of the flags, each between quotes.

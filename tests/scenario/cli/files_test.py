@@ -40,6 +40,7 @@ class Files(Scenario):
                  for ending in ('.json', '.csv', '.xlsx', '.xml', '.ifcclash.json', '.joints.csv', '.svg', '.glb', '.bcf')),
                (['clash', 'a.obj', '--log-pairs'], '.csv'), (['clash', 'diff', 'old.json', 'old.json', '-o'], '.json'),
                (['draw', 'a.obj', '-o'], '.svg'), (['draw', 'a.obj', '-o'], '.json'), (['draw', 'a.obj', '-o'], '.view'),
+               (['clash', 'a.obj', '-o'], '.html'), (['draw', 'a.obj', '-o'], '.html'),
                (['draw', 'a.obj', '--sheet', 'sheet.toml', '-o'], '.svg'),
                (['draw', 'diff', 'old.view', 'old.view', '-o'], '.json'),
                (['draw', 'diff', 'old.view', 'old.view', '-o'], '.svg'),

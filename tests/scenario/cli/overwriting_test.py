@@ -34,6 +34,8 @@ OUTPUTS = [
     (['draw', '-p', 'p.strake', '-o'], '.json', [*STORED, *READ]),
     (['draw', '-p', 'p.strake', '--save', 'top', '-o'], '.svg', [*STORED, *READ]),
     (['draw', 'diff', 'old.view', 'new.view', '-o'], '.svg', ['old.view', 'new.view']),
+    (['report', '-p', 'p.strake', '-o'], '.html', [*STORED, *READ]),
+    (['clash', *MODELS, '-o'], '.html', READ),
     (['project', 'update', 'p.strake', '-o'], '.json', [*STORED, *READ]),
     (['project', 'update', 'p.strake', *MODELS, '-o'], '.csv', [*STORED, *READ]),
     (['project', 'export', 'p.strake', '-o'], '.glb', [*STORED, *READ]),
@@ -154,7 +156,7 @@ class Overwriting(Scenario):
 
     def test_every_option_that_names_an_output_is_tried(self):
         """An option whose help says that a file is written stands above."""
-        tried = {(' '.join(word for word in command[:2] if word in ('clash', 'draw', 'diff', 'list', 'history', 'project',
+        tried = {(' '.join(word for word in command[:2] if word in ('clash', 'draw', 'diff', 'list', 'history', 'project', 'report',
                                                                     'update', 'export')), command[-1])
                  for command, _, _ in OUTPUTS} | {('generate ship', '-o'), ('generate ship', '--truth'), ('evaluate', '-o')}
         for verb in VERBS:

@@ -29,7 +29,7 @@ COUNTS = ['info a.obj --objects', 'project list p.strake --rows', 'clash a.obj -
           'generate ship -o x.glb --imported-detail',
           'generate ship -o x.glb --imported-detail 1 --imported-triangles']
 CHOICES = ['clash a.obj --fail-on', 'clash a.obj --thickness-cap', 'clash a.obj --contacts', 'clash a.obj --group-by',
-           'clash a.obj --sort', 'clash a.obj --csv', 'clash a.obj --profile', 'clash a.obj --broad-phase',
+           'clash a.obj --sort', 'clash a.obj --csv', 'clash a.obj --page-geometry', 'clash a.obj --profile', 'clash a.obj --broad-phase',
            'clash a.obj --narrow-phase', 'clash a.obj --distribution',
            'clash diff c.json c.json --fail-on', 'draw diff v.view v.view --fail-on', 'draw a.obj -o x.svg --view',
            'draw a.obj -o x.svg --hidden', 'draw a.obj -o x.svg --stage', 'draw a.obj -o x.svg --intersections',
@@ -158,8 +158,11 @@ USAGE = [
     ("clash a.obj --decisions ''", '--decisions', 'the value is empty'),
     ('clash missing.obj --group-by element --group-distance 0', '--group-distance', 'such as 3m'),
     ('clash a.obj --group-by element --group-contacts --contacts count', '--group-contacts', 'leave out'),
-    ('clash a.obj -o x.bcf', '-o', '.json or .csv'), ('clash a.obj -o x', '-o', '.json or .csv'),
-    ('clash a.obj -o a.obj', '-o', '.json or .csv'),
+    ('clash a.obj --page-geometry all', '--page-geometry', 'add -o FILE.html'),
+    ('report -o x.html', '-p', 'no project'), ('report -p p.strake', '-o', 'nowhere'),
+    ('report -p p.strake -o x.pdf', '-o', '.html'), ('report -p p.strake -o x.html --page-geometry half', '--page-geometry', 'auto'),
+    ('clash a.obj -o x.bcf', '-o', '.json or .csv or .html'), ('clash a.obj -o x', '-o', '.json or .csv or .html'),
+    ('clash a.obj -o a.obj', '-o', '.json or .csv or .html'),
     ('clash a.obj -o x.json -o ./x.json', '-o', 'twice'),
     ('clash a.obj --log-pairs x.json', '--log-pairs', '.csv'),
     ('clash a.obj -o x.csv --log-pairs x.csv', '--log-pairs', 'its own name'),
@@ -377,7 +380,7 @@ class WrongInputs(Scenario):
         named = ' '.join(line for line, _, _ in USAGE + OUTPUT) + ' --rules --sheet'
         flags = {'--help', '--version', '--json', '--stats', '--strict', '--obstructions', '--insulation', '--curves', '--volumes',
                  '--turned', '--fresh', '--attributes', '--formats', '--title', '--output', '--compare'}
-        for verb in (['clash'], ['clash', 'diff'], ['draw'], ['draw', 'diff'], ['info'], ['evaluate'], ['generate', 'ship'],
+        for verb in (['clash'], ['clash', 'diff'], ['draw'], ['draw', 'diff'], ['info'], ['report'], ['evaluate'], ['generate', 'ship'],
                      ['cache', 'list'], ['cache', 'clear'],
                      *(['project', verb] for verb in ('new', 'add', 'update', 'remove', 'list', 'info', 'check', 'export'))):
             for option in self.options(verb) - flags:

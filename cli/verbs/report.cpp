@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "cli/run/load.hpp"
+#include "cli/run/project_input.hpp"
+#include "cli/verbs/clash/clash_output.hpp"
+#include "cli/verbs/clash/clash_result.hpp"
+#include "cli/verbs/draw/draw_stored.hpp"
+#include "cli/verbs/verb.hpp"
+#include "core/output_format.hpp"
+#include "page/page.hpp"
+#include "project/history/last_run.hpp"
+#include "project/results/clash_queries.hpp"
+#include "project/results/stored_tests.hpp"
+#include "project/views/stored_views.hpp"
+#include "strake/drawing/ink.hpp"
+
+namespace strake::cli {
+
+namespace {
+
+constexpr std::array<OutputFormat, 1> kPages{{{".html", " as {}, which opens in a browser"}}};
+
+struct ReportOptions {
+  ProjectOptions project;
+  std::vector<std::string> outputs;
+  std::string page_geometry;
+};
+
+/// What a project says of itself.
+struct ProjectFacts {
+  project::LastRun run;
+  project::DecisionsOfNow decisions;
+  std::vector<page::TrendPoint> trend;
+  std::vector<page::PageDrawing> drawings;
+};
+
+Result<std::vector<page::TrendPoint>> trend_of(project::Database& database) {
+  const Result<std::vector<project::TrendRow>> rows = project::read_trend(database);
+  if (!rows) return rows.error();
+  std::vector<page::TrendPoint> trend;
+  for (const project::TrendRow& row : *rows)
+    trend.push_back({row.run,
+                     row.started,
+                     row.test,
+                     row.hit,
+                     row.contact,
+                     row.clearance_violation,
+                     row.allowed,
+                     row.appeared,
+                     row.gone,
+                     {row.fresh, row.active, row.reviewed, row.approved, row.resolved},
+                     row.cannot_tell});
+  return trend;
+}
+
+/// Returns the stored views as they were drawn last. One that cannot be had is told and left out.
+Result<std::vector<page::PageDrawing>> drawings_of(Session& session, OpenedProject& opened) {
+  const Result<std::vector<project::StoredView>> views =
+      project::list_views(opened.project.database());
+  if (!views) return views.error();
+  std::vector<page::PageDrawing> drawings;
+  for (const project::StoredView& view : *views) {
+    const Result<FormerSheet> sheet = former_sheet(session, opened, view.name);
+    if (!sheet) {
+      if (sheet.error().code == ErrorCode::cancelled || sheet.error().code == ErrorCode::memory)
+        return sheet.error();
+      session.console().warn(
+          fmt::format("view '{}' is left out: {}", view.name, sheet.error().text()));
+      continue;
+    }
+    const Result<drawing::Ink> ink =
+        drawing::choose_ink(sheet->drawing, sheet->ink, session.context());
+    if (!ink) return ink.error();
+    drawings.push_back(page::page_drawing(sheet->drawing, *ink, sheet->model));
+    drawings.back().title = view.name;
+  }
+  return drawings;
+}
+
+Result<ProjectFacts> facts_of(Session& session, OpenedProject& opened) {
+  const auto timer = session.step("read results");
+  project::Database& database = opened.project.database();
+  const Result<std::vector<std::string>> tests = project::last_tests(database);
+  if (!tests) return tests.error();
+  Result<project::LastRun> run = project::read_last_run(database, *tests, session.context());
+  if (!run) return run.error();
+  Result<project::DecisionsOfNow> decisions = project::decisions_of_now(database, *run);
+  if (!decisions) return decisions.error();
+  Result<std::vector<page::TrendPoint>> trend = trend_of(database);
+  if (!trend) return trend.error();
+  Result<std::vector<page::PageDrawing>> drawings = drawings_of(session, opened);
+  if (!drawings) return drawings.error();
+  return ProjectFacts{std::move(*run), std::move(*decisions), std::move(*trend),
+                      std::move(*drawings)};
+}
+
+/// Whether two models have the same objects under the same numbers.
+bool has_same_objects(const model::Model& x, const model::Model& y) {
+  if (x.objects.size() != y.objects.size()) return false;
+  for (std::size_t o = 0; o < x.objects.size(); ++o)
+    if (x.objects[o].id != y.objects[o].id ||
+        x.files[x.objects[o].file].label != y.files[y.objects[o].file].label)
+      return false;
+  return true;
+}
+
+/// Returns how the run grouped its results; by nothing where it did not.
+ClashResultInput grouping_of_run(const project::LastRun& run) {
+  ClashResultInput input;
+  if (!run.record) return input;
+  input.group_by = run.record->grouping.by;
+  input.group_distance = run.record->grouping.distance;
+  input.group_contacts = run.record->grouping.contacts;
+  input.sort = run.record->grouping.sort;
+  return input;
+}
+
+Status write_project_page(Session& session, const ReportOptions& given, const OpenedProject& opened,
+                          const Loaded& loaded, ProjectFacts& facts) {
+  const project::LastRun& run = facts.run;
+  const bool has_results = !run.findings.tests.empty();
+  const bool is_as_tested = !has_results || has_same_objects(run.model, *loaded.model);
+  if (!is_as_tested)
+    session.console().warn(
+        "the model changed since the last run: the page has its results without the model "
+        "('strake clash -p' tests what there is now)");
+  const model::Model& model = is_as_tested ? *loaded.model : run.model;
+  const Result<std::optional<clash::Grouping>> grouping =
+      group(session, grouping_of_run(run), run.findings, model, &facts.decisions.decided);
+  if (!grouping) return grouping.error();
+  const Diagnostics loading = loaded.diagnostics();
+  const report::ClashContents clash{run.findings,
+                                    model,
+                                    *grouping ? &**grouping : nullptr,
+                                    run.record && run.record->rules ? &*run.record->rules : nullptr,
+                                    is_as_tested ? &loading : nullptr,
+                                    {},
+                                    {},
+                                    {},
+                                    &facts.decisions.decided};
+  const auto assignee = [&](const page::PageRow& row) -> std::string_view {
+    const auto at = facts.decisions.clashes.find(run.rows[row.test][row.pair]);
+    return at == facts.decisions.clashes.end() ? std::string_view() : at->second.row.assignee;
+  };
+  const page::PageContents page{opened.project.path().filename().string(),
+                                model,
+                                has_results ? &clash : nullptr,
+                                assignee,
+                                is_as_tested ? &loaded.scene : nullptr,
+                                page_geometry(given.page_geometry),
+                                {},
+                                std::move(facts.drawings),
+                                std::move(facts.trend)};
+  for (const std::string& file : given.outputs) {
+    const Status status = session.write(
+        file, [&](Session::Sink sink) { return page::write_page(page, sink, session.context()); });
+    if (!status) return status;
+  }
+  return {};
+}
+
+Result<ExitCode> run_report(Session& session, const ReportOptions& given) {
+  if (given.project.file.empty())
+    return Error{ErrorCode::usage, "no project is given", "-p", "write -p FILE"};
+  if (given.outputs.empty())
+    return Error{ErrorCode::usage, "nowhere to write to", "-o", "write -o FILE.html"};
+  if (const Status status = session.files().add_outputs(given.outputs, kPages); !status)
+    return status.error();
+  Result<OpenedProject> opened = open_project(session, given.project, project::Access::read);
+  if (!opened) return opened.error();
+  Result<ProjectFacts> facts = facts_of(session, *opened);
+  if (!facts) return facts.error();
+  // The page shows curves coarser than any test needs them.
+  const Result<Loaded> loaded = load_project(session, *opened, {});
+  if (!loaded) return loaded.error();
+  if (const Status status = write_project_page(session, given, *opened, *loaded, *facts); !status)
+    return status.error();
+  return ExitCode::done;
+}
+
+}  // namespace
+
+Verb add_report(CLI::App& program, CommonOptions& common) {
+  const auto options = std::make_shared<ReportOptions>();
+  CLI::App* const command = program.add_subcommand(
+      "report", "What a project knows, as one page: results, decisions, runs, model, drawings");
+  add_project_options(*command, options->project,
+                      "The project that the page is about (docs/project.md)");
+  add_output_option(*command, options->outputs, "The page", kPages);
+  add_page_geometry_option(*command, options->page_geometry);
+  add_common_options(*command, common);
+  command->footer(R"(
+The page has the results of the last run, with what was decided about them by now, the runs before it,
+the model, and the stored views as they were drawn last. It is one file, which opens without a network
+(docs/report-page.md).
+
+Examples:
+  strake report -p ship.strake -o report.html
+  strake report -p ship.strake --page-geometry boxes -o small.html)");
+  return {command, [options](Session& session) { return run_report(session, *options); }};
+}
+
+}  // namespace strake::cli

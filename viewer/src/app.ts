@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// Puts the panels together: what is chosen in one is shown in the others, and stands in the address.
+import { noFilter } from './data/filter.ts';
+import { type Report, shown } from './data/report.ts';
+import { DrawingPanel } from './drawings/drawing_panel.ts';
+import { groupDetails, objectDetails, resultDetails, type DetailEvents } from './panels/details.ts';
+import { helpDialog } from './panels/help.ts';
+import { ListPanel } from './panels/list_panel.ts';
+import { overview } from './panels/overview.ts';
+import { printSheet } from './panels/print_sheet.ts';
+import { ScenePanel } from './panels/scene_panel.ts';
+import { fill, h } from './ui/dom.ts';
+import type { Vec } from './scene/items.ts';
+
+type Place = 'overview' | 'list' | 'drawings';
+const THEMES = ['auto', 'light', 'dark'] as const;
+
+export class App {
+  private readonly scene: ScenePanel;
+  private readonly list: ListPanel | undefined;
+  private readonly drawings: DrawingPanel | undefined;
+  private readonly details = h('aside', { class: 'details-panel', 'aria-label': 'Details', tabindex: 0 });
+  private readonly views: Partial<Record<Place, HTMLElement>> = {};
+  private readonly tabs: Partial<Record<Place, HTMLButtonElement>> = {};
+  private readonly help = helpDialog();
+  private readonly printed = h('div', { class: 'print-only' });
+  private place: Place = 'overview';
+  private row: number | undefined;
+
+  constructor(
+    private readonly report: Report,
+    private readonly root: HTMLElement,
+  ) {
+    this.scene = new ScenePanel(report, { picked: (object) => this.pick(object) });
+    if (report.results) {
+      this.list = new ListPanel(report, {
+        chosen: (row) => this.choose(row, true),
+        opened: (row) => {
+          this.choose(row, true);
+          this.scene.fly();
+        },
+        group: (group) => this.showGroup(group),
+      });
+    }
+    if (report.head.drawings.length > 0) this.drawings = new DrawingPanel(report, { picked: (object) => this.pick(object) });
+    this.build();
+    this.listen();
+  }
+
+  start(): void {
+    this.list?.update();
+    this.tellNothing();
+    const drawingFirst = !this.list && this.drawings;
+    if (!this.followAddress()) this.go(drawingFirst ? 'drawings' : this.list ? 'overview' : 'list');
+    void this.scene.open();
+  }
+
+  private build(): void {
+    const { head } = this.report;
+    const names: [Place, string, boolean][] = [['overview', 'Overview', true], ['list', this.list ? 'Clashes' : 'Model', !!this.list || !!head.scene], ['drawings', 'Drawings', !!this.drawings]];
+    for (const [place, label, there] of names) {
+      if (there) this.tabs[place] = h('button', { type: 'button', role: 'tab', 'aria-selected': 'false', id: `tab-${place}`, 'aria-controls': `view-${place}`, onclick: () => this.go(place) }, label);
+    }
+    const panel = (place: Place, content: HTMLElement): HTMLElement => {
+      const element = h('div', { role: 'tabpanel', id: `view-${place}`, class: `view view-${place}`, 'aria-labelledby': `tab-${place}`, hidden: true }, content);
+      this.views[place] = element;
+      return element;
+    };
+    const theme = h('button', { type: 'button', class: 'small', onclick: () => this.nextTheme(theme) }, 'Auto');
+    theme.setAttribute('aria-label', 'Auto: light or dark as the system has it');
+    fill(
+      this.root,
+      h('header', { class: 'top' },
+        h('div', { class: 'brand' }, h('span', { class: 'logo', 'aria-hidden': 'true' }), h('h1', {}, shown(head.title).slice(0, 200))),
+        h('div', { class: 'tabs main-tabs', role: 'tablist', 'aria-label': 'Parts of the report' }, ...Object.values(this.tabs)),
+        h('div', { class: 'buttons' },
+          theme,
+          h('button', { type: 'button', class: 'small', title: 'Print (P)', onclick: () => window.print() }, 'Print'),
+          h('button', { type: 'button', class: 'small', title: 'Help (?)', onclick: () => this.help.showModal() }, 'Help'))),
+      h('main', {},
+        panel('overview', overview(this.report, {
+          showClass: (cls) => this.limit((f) => f.classes.add(cls)),
+          showCell: (cell) => this.limit((f) => (f.cell = cell)),
+          showTest: (test) => this.limit((f) => (f.test = test)),
+          showStatus: (status) => this.limit((f) => f.statuses.add(status)),
+        })),
+        panel('list', h('div', { class: `work${this.list ? '' : ' no-list'}` }, this.list?.element, h('div', { class: 'right-side' }, this.scene.element, this.details))),
+        ...(this.drawings ? [panel('drawings', this.drawings.element)] : [])),
+      h('footer', { class: 'foot' }, [shown(head.program), head.made && shown(head.made).slice(0, 40), 'all lengths in millimetres'].filter(Boolean).join(' · ')),
+      this.help,
+      this.printed,
+    );
+  }
+
+  private listen(): void {
+    window.addEventListener('hashchange', () => this.followAddress());
+    window.addEventListener('keydown', (event) => this.key(event));
+    window.addEventListener('beforeprint', () => fill(this.printed, printSheet(this.report, this.list?.shown ?? new Uint32Array(0))));
+    window.addEventListener('afterprint', () => fill(this.printed));
+    window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.scene.theme());
+  }
+
+  private go(place: Place): void {
+    this.place = place;
+    for (const [name, view] of Object.entries(this.views)) view.hidden = name !== place;
+    for (const [name, tab] of Object.entries(this.tabs)) tab.setAttribute('aria-selected', String(name === place));
+    // The details go where they are looked at.
+    (place === 'drawings' ? this.views.drawings! : this.views.list?.querySelector('.right-side'))?.append(this.details);
+    if (place === 'drawings') void this.drawings?.show();
+    if (place === 'list') this.list?.refresh();
+  }
+
+  private limit(change: (filter: ReturnType<typeof noFilter>) => unknown): void {
+    this.list?.limit((filter) => {
+      Object.assign(filter, noFilter());
+      change(filter);
+    });
+    this.go('list');
+  }
+
+  /** Shows a clash everywhere. */
+  private choose(row: number, fly: boolean): void {
+    this.row = row;
+    const results = this.report.results!;
+    fill(this.details, resultDetails(this.report, row, this.detailEvents()));
+    this.details.scrollTop = 0;
+    this.scene.showResult(row, fly);
+    this.drawings?.mark([results.a[row]!, results.b[row]!]);
+    history.replaceState(null, '', `#clash=${results.key.at(row)}`);
+  }
+
+  private pick(object: number | undefined): void {
+    if (object === undefined) {
+      this.clear();
+      return;
+    }
+    this.row = undefined;
+    fill(this.details, objectDetails(this.report, object, this.scene.hasShape(object), this.detailEvents(object)));
+    this.scene.showObject(object, false);
+    this.drawings?.mark([object]);
+  }
+
+  private clear(): void {
+    this.row = undefined;
+    this.scene.showNothing();
+    this.drawings?.mark([]);
+    this.tellNothing();
+    history.replaceState(null, '', ' ');
+  }
+
+  private tellNothing(): void {
+    fill(this.details, h('p', { class: 'hint' }, this.list ? 'Choose a clash in the list, or an object in the model.' : 'Choose an object.'));
+  }
+
+  private detailEvents(object?: number): DetailEvents {
+    return {
+      step: (by) => this.list?.step(by),
+      fly: () => {
+        this.go('list');
+        if (object === undefined) this.scene.fly();
+        else this.scene.showObject(object, true);
+      },
+      object: (o) => this.pick(o),
+      showAllOf: (o) => this.limit((f) => (f.object = o)),
+      group: (g) => this.limit((f) => (f.group = g)),
+      link: (key) => `${location.href.replace(/#.*$/, '')}#clash=${key}`,
+    };
+  }
+
+  private showGroup(group: number): void {
+    const groups = this.report.groups!;
+    this.row = undefined;
+    fill(this.details, groupDetails(this.report, group, this.detailEvents()));
+    this.scene.showPlace(groups.min.map((v) => v[group]!) as Vec, groups.max.map((v) => v[group]!) as Vec);
+  }
+
+  /** Goes where the address says; false where it says nothing. */
+  private followAddress(): boolean {
+    const key = /^#clash=([0-9a-z]+)$/.exec(location.hash)?.[1];
+    if (!key || !this.report.results) return false;
+    const row = this.report.results.key.find(key);
+    this.go('list');
+    if (row < 0) {
+      fill(this.details, h('p', { class: 'note', role: 'alert' }, 'This report has no clash of the key that the link names. It may be mended, or the link is of another model.'));
+      return true;
+    }
+    this.choose(row, true);
+    this.list?.choose(row);
+    return true;
+  }
+
+  private nextTheme(button: HTMLButtonElement): void {
+    const now = document.documentElement.dataset.theme ?? 'auto';
+    const next = THEMES[(THEMES.indexOf(now as 'auto') + 1) % THEMES.length]!;
+    if (next === 'auto') delete document.documentElement.dataset.theme;
+    else document.documentElement.dataset.theme = next;
+    button.textContent = next[0]!.toUpperCase() + next.slice(1);
+    button.setAttribute('aria-label', next === 'auto' ? 'Auto: light or dark as the system has it' : `${button.textContent}: always ${next}`);
+    this.scene.theme();
+  }
+
+  private key(event: KeyboardEvent): void {
+    const target = event.target as HTMLElement;
+    if (event.ctrlKey || event.metaKey || event.altKey || this.help.open) return;
+    if (event.key === 'Escape') {
+      if (target instanceof HTMLInputElement) target.blur();
+      else if (!this.scene.giveUp()) this.clear();
+      return;
+    }
+    if (target instanceof HTMLInputElement && target.type !== 'range') return;
+    const key = event.key.toLowerCase();
+    if (event.key === '?') this.help.showModal();
+    else if (event.key === '/' && this.list) {
+      this.go('list');
+      this.list.search.focus();
+    } else if (key === 'j' || key === 'k') {
+      this.go('list');
+      this.list?.step(key === 'j' ? 1 : -1);
+    } else if (key === 'p') window.print();
+    else if (event.key === 'Enter' && this.row !== undefined && !target.closest('button, a, summary')) this.scene.fly();
+    else if (this.place !== 'list' || !this.scene.shortcut(key)) return;
+    event.preventDefault();
+  }
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes of an SVG what draws, and nothing that does anything else: elements and attributes of a list, made anew.
+
+const SVG = 'http://www.w3.org/2000/svg';
+
+const ATTRIBUTES_OF_ALL = ['class', 'id', 'transform', 'data-id', 'data-name', 'data-file', 'data-view', 'data-scale'];
+const ELEMENTS: Record<string, readonly string[]> = {
+  svg: ['viewBox', 'width', 'height'],
+  g: [],
+  path: ['d'],
+  rect: ['x', 'y', 'width', 'height', 'rx', 'ry'],
+  circle: ['cx', 'cy', 'r'],
+  ellipse: ['cx', 'cy', 'rx', 'ry'],
+  line: ['x1', 'y1', 'x2', 'y2'],
+  polyline: ['points'],
+  polygon: ['points'],
+  text: ['x', 'y', 'dx', 'dy', 'text-anchor', 'font-size', 'textLength', 'lengthAdjust'],
+  tspan: ['x', 'y', 'dx', 'dy'],
+  title: [],
+};
+const PAINT = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'stroke-linecap', 'stroke-linejoin', 'fill-rule', 'fill-opacity'];
+// A paint that names a place elsewhere is none.
+const PLAIN_PAINT = /^[#\w\s.,%()-]*$/;
+const INKSCAPE = 'http://www.inkscape.org/namespaces/inkscape';
+
+export interface CleanDrawing {
+  svg: SVGSVGElement;
+  layers: { label: string; group: SVGGElement }[];
+  /** what can be picked: id, file, element */
+  objects: { id: string; file: string; element: SVGElement }[];
+}
+
+/** Reads a drawing, or returns undefined where it is no SVG. */
+export function cleanSvg(text: string): CleanDrawing | undefined {
+  // Its style would not be taken either; this spares the browser a complaint that the page forbids it.
+  const parsed = new DOMParser().parseFromString(text.replace(/<style>[^<]*<\/style>/g, ''), 'image/svg+xml');
+  const root = parsed.documentElement;
+  if (root.localName !== 'svg' || root.namespaceURI !== SVG || parsed.querySelector('parsererror')) return undefined;
+  const found: CleanDrawing = { svg: undefined as unknown as SVGSVGElement, layers: [], objects: [] };
+  found.svg = taken(root, found, 0) as SVGSVGElement;
+  return found;
+}
+
+// Drawings of this program are six deep; more would only fill the stack.
+const DEEPEST = 64;
+
+function taken(from: Element, found: CleanDrawing, depth: number): SVGElement {
+  const name = from.localName;
+  const element = document.createElementNS(SVG, name) as SVGElement;
+  for (const attribute of [...ATTRIBUTES_OF_ALL, ...ELEMENTS[name]!]) {
+    const value = from.getAttribute(attribute);
+    // Ids of a drawing would be those of the page.
+    if (value !== null) element.setAttribute(attribute === 'id' ? 'data-layer' : attribute, value);
+  }
+  for (const attribute of PAINT) {
+    const value = from.getAttribute(attribute);
+    if (value !== null && PLAIN_PAINT.test(value) && !/url/i.test(value)) element.setAttribute(attribute, value);
+  }
+  if (name === 'g' && from.getAttributeNS(INKSCAPE, 'groupmode') === 'layer') {
+    found.layers.push({ label: from.getAttributeNS(INKSCAPE, 'label') ?? from.id, group: element as SVGGElement });
+  }
+  const id = from.getAttribute('data-id');
+  if (id !== null) found.objects.push({ id, file: from.getAttribute('data-file') ?? '', element });
+  for (const child of from.childNodes) {
+    if (child.nodeType === Node.TEXT_NODE && (name === 'text' || name === 'tspan' || name === 'title')) element.append(child.textContent ?? '');
+    else if (child instanceof Element && child.namespaceURI === SVG && Object.hasOwn(ELEMENTS, child.localName) && depth < DEEPEST) element.append(taken(child, found, depth + 1));
+  }
+  return element;
+}

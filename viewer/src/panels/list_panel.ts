@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// The list of results or of groups, with what it is limited to.
+import { type Filter, isSettled, noFilter, Rows, type SortColumn } from '../data/filter.ts';
+import { sortByValue } from '../data/order.ts';
+import { fileName, hasDisciplines, disciplineOf, objectName, type Report, shown } from '../data/report.ts';
+import { CLASS_PLURALS, CLASS_WORDS, coordinate, count, length, plural, STATUS_WORDS } from '../data/words.ts';
+import { NONE8 } from '../payload/payload.ts';
+import { classCell, type Column, ResultTable } from '../table/result_table.ts';
+import { classMark, fill, h, shortName, toggle } from '../ui/dom.ts';
+
+export interface ListEvents {
+  chosen(row: number): void;
+  opened(row: number): void;
+  group(group: number): void;
+}
+
+const SEVERITY_OF_GROUP = [0, 2, 1];
+
+export class ListPanel {
+  readonly element: HTMLElement;
+  readonly search = h('input', { type: 'search', placeholder: 'Search names, ids, files, comments', 'aria-label': 'Search', spellcheck: 'false', autocomplete: 'off' });
+  readonly rows: Rows;
+  filter: Filter = noFilter();
+  private readonly table: ResultTable;
+  private readonly groupTable: ResultTable | undefined;
+  private readonly bar = h('div', { class: 'filters' });
+  private readonly pills = h('div', { class: 'pills' });
+  private readonly counted = h('p', { class: 'counted', role: 'status' });
+  private readonly holder = h('div', { class: 'table-holder' });
+  private sort: { column: SortColumn; down: boolean } = { column: 'worst', down: false };
+  private groupSort: { column: SortColumn; down: boolean } = { column: 'worst', down: false };
+  private groupsShown = false;
+  private current = -1;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(
+    private readonly report: Report,
+    events: ListEvents,
+  ) {
+    this.rows = new Rows(report);
+    this.table = new ResultTable('Results', this.columns(), {
+      chosen: (row) => {
+        this.current = row;
+        events.chosen(row);
+      },
+      opened: (row) => events.opened(row),
+      sorted: (column, down) => {
+        this.sort = { column, down };
+        this.table.setSort(column, down);
+        this.update();
+      },
+    }, 'results');
+    if (report.groups) {
+      this.groupTable = new ResultTable('Groups', this.groupColumns(), {
+        chosen: (group) => events.group(group),
+        opened: (group) => this.showGroup(group),
+        sorted: (column, down) => {
+          this.groupSort = { column, down };
+          this.groupTable!.setSort(column, down);
+          this.updateGroups();
+        },
+      }, 'groups');
+    }
+    this.search.addEventListener('input', () => {
+      clearTimeout(this.timer);
+      this.timer = setTimeout(() => {
+        this.filter.text = this.search.value;
+        this.update();
+      }, report.head.counts.results > 100000 ? 250 : 80);
+    });
+    this.makeBar();
+    fill(this.holder, this.table.element);
+    this.element = h('div', { class: 'list' }, h('div', { class: 'list-head' }, this.search, this.bar, this.pills, this.counted), this.holder);
+  }
+
+  /** Limits the list, and shows it. */
+  limit(change: (filter: Filter) => void): void {
+    change(this.filter);
+    this.search.value = this.filter.text;
+    this.groupsShown = false;
+    this.makeBar();
+    this.update();
+  }
+
+  /** Applies the filter and the order. */
+  update(): void {
+    const rows = this.rows.sort(this.rows.filter(this.filter), this.sort.column, this.sort.down);
+    this.table.show(rows as Uint32Array<ArrayBuffer>, this.current);
+    this.makePills();
+    fill(this.holder, this.groupsShown && this.groupTable ? this.groupTable.element : this.table.element);
+    if (this.groupsShown) this.updateGroups();
+    else this.say(rows.length, this.report.head.counts.results, 'result');
+  }
+
+  get shown(): Uint32Array {
+    return this.table.shown;
+  }
+
+  choose(row: number): void {
+    this.current = row;
+    this.table.choose(row);
+  }
+
+  step(by: number): void {
+    this.table.step(by);
+  }
+
+  refresh(): void {
+    this.table.refresh();
+  }
+
+  private say(shownRows: number, all: number, what: string): void {
+    this.counted.textContent = shownRows === all ? plural(all, what) : `${count(shownRows)} of ${plural(all, what)}`;
+  }
+
+  private showGroup(group: number): void {
+    this.limit((f) => Object.assign(f, noFilter(), { group }));
+  }
+
+  private updateGroups(): void {
+    const groups = this.report.groups!;
+    const words = this.filter.text.toLowerCase().split(/\s+/).filter(Boolean);
+    const kept: number[] = [];
+    for (let g = 0; g < groups.count; ++g) {
+      if (this.filter.classes.size > 0 && !this.filter.classes.has(groups.class[g]!)) continue;
+      const name = words.length > 0 ? groups.name.at(g).toLowerCase() : '';
+      if (words.every((word) => name.includes(word))) kept.push(g);
+    }
+    let rows = Uint32Array.from(kept);
+    const { column, down } = this.groupSort;
+    const sign = down ? -1 : 1;
+    const numbers: Partial<Record<SortColumn, (g: number) => number>> = {
+      d: (g) => groups.d[g]!, class: (g) => SEVERITY_OF_GROUP[groups.class[g]!]!, status: (g) => groups.results[g]!, relation: (g) => groups.hits[g]!, b: (g) => groups.clearance_violations[g]!,
+    };
+    const value = numbers[column];
+    if (value) rows = sortByValue(rows, (g) => sign * value(g)) as Uint32Array<ArrayBuffer>;
+    if (column === 'a') {
+      const collator = new Intl.Collator('en', { numeric: true });
+      rows = Uint32Array.from([...rows].sort((p, q) => sign * collator.compare(groups.name.at(p), groups.name.at(q)) || p - q));
+    }
+    this.groupTable!.show(rows, -1);
+    this.say(rows.length, groups.count, 'group');
+  }
+
+  private makeBar(): void {
+    const { report, filter } = this;
+    const change = (): void => this.update();
+    const counts = [0, 0, 0];
+    for (const c of report.results?.class ?? []) ++counts[c]!;
+    const kinds = [0, 2, 1].map((cls) => {
+      const button = toggle('', filter.classes.has(cls), (on) => {
+        if (on) filter.classes.add(cls);
+        else filter.classes.delete(cls);
+        change();
+      });
+      button.append(classMark(cls), ` ${CLASS_PLURALS[cls]} `, h('b', {}, count(counts[cls]!)));
+      return button;
+    });
+    const statuses = report.results?.status ? STATUS_WORDS.map((word, s) => toggle(word, filter.statuses.has(s), (on) => {
+      if (on) filter.statuses.add(s);
+      else filter.statuses.delete(s);
+      change();
+    }, { class: `status-${s}` })) : [];
+    const anySettled = !!report.results?.status || !!report.results?.allowed;
+    fill(
+      this.bar,
+      this.groupTable && h('div', { class: 'segments', role: 'group', 'aria-label': 'Results or groups' },
+        ...[false, true].map((groups) => h('button', { type: 'button', 'aria-pressed': String(this.groupsShown === groups), onclick: () => {
+          this.groupsShown = groups;
+          this.makeBar();
+          this.update();
+        } }, groups ? 'Groups' : 'Results'))),
+      ...kinds,
+      ...statuses,
+      anySettled && toggle('Open only', !filter.settled, (on) => {
+        filter.settled = !on;
+        change();
+      }, { title: 'Without what a rule allows or people approved' }),
+      toggle('Uncertain', filter.uncertain, (on) => {
+        filter.uncertain = on;
+        change();
+      }, { title: 'Only results that may be of a severer class' }),
+    );
+  }
+
+  private makePills(): void {
+    const { filter, report } = this;
+    const pill = (label: string, clear: () => void): HTMLElement =>
+      h('button', { type: 'button', class: 'pill', title: 'Take this limit away', onclick: () => {
+        clear();
+        this.update();
+      } }, label, h('span', { 'aria-hidden': 'true' }, ' ✕'));
+    const names = hasDisciplines(report) ? report.head.disciplines : report.head.files;
+    const list: HTMLElement[] = [];
+    if (filter.cell) list.push(pill(`${shown(names[filter.cell[0]]!)} with ${shown(names[filter.cell[1]]!)}`, () => (filter.cell = undefined)));
+    if (filter.test !== undefined) list.push(pill(`Test: ${shown(report.head.clash!.tests[filter.test]!.name) || 'the only one'}`, () => (filter.test = undefined)));
+    if (filter.group !== undefined) list.push(pill(`Group: ${shown(report.groups!.name.at(filter.group)).slice(0, 80)}`, () => (filter.group = undefined)));
+    if (filter.object !== undefined) list.push(pill(`Object: ${objectName(report.objects!, filter.object).slice(0, 80)}`, () => (filter.object = undefined)));
+    fill(this.pills, ...list);
+  }
+
+  private columns(): Column[] {
+    const results = this.report.results!;
+    const objects = this.report.objects!;
+    const name = (object: number, row: number, side: 'a' | 'b'): Node => {
+      const discipline = disciplineOf(this.report, row, side);
+      const below = discipline >= 0 ? shown(this.report.head.disciplines[discipline]!) : this.report.head.files.length > 1 ? fileName(this.report, object) : '';
+      return h('span', { class: 'object-cell' }, shortName(objectName(objects, object).slice(0, 200)), below !== '' && h('small', {}, below.slice(0, 60)));
+    };
+    const columns: Column[] = [
+      { id: 'class', label: 'Class', title: 'What it is', width: '6rem', cell: (r) => classCell(results.class[r]!, CLASS_WORDS[results.class[r]!]!) },
+      { id: 'd', label: 'd mm', title: 'Distance; less than 0 is depth', width: '4.6rem', right: true, cell: (r) => length(results.d[r]!) },
+      { id: 'a', label: 'Object A', title: 'The one object', width: 'minmax(5rem, 1fr)', cell: (r) => name(results.a[r]!, r, 'a') },
+      { id: 'b', label: 'Object B', title: 'The other object', width: 'minmax(5rem, 1fr)', cell: (r) => name(results.b[r]!, r, 'b') },
+      { id: 'place', label: 'Place mm', title: 'x, y, z', width: '10.6rem', right: true, cell: (r) => `${coordinate(results.x[r]!)}  ${coordinate(results.y[r]!)}  ${coordinate(results.z[r]!)}` },
+    ];
+    if (results.status || results.allowed) {
+      columns.push({ id: 'status', label: 'Status', title: 'What was decided', width: '5.6rem', cell: (r) => {
+        const status = results.status?.[r] ?? NONE8;
+        if (status !== NONE8) return h('span', { class: `chip status-${status}` }, STATUS_WORDS[status]!);
+        return isSettled(this.report, r) ? h('span', { class: 'chip' }, 'Allowed') : '';
+      } });
+    }
+    return columns;
+  }
+
+  private groupColumns(): Column[] {
+    const groups = this.report.groups!;
+    return [
+      { id: 'class', label: 'Worst', title: 'The worst class in it', width: '6.6rem', cell: (g) => classCell(groups.class[g]!, CLASS_WORDS[groups.class[g]!]!) },
+      { id: 'd', label: 'd mm', title: 'The least of the worst class', width: '4.6rem', right: true, cell: (g) => length(groups.d[g]!) },
+      { id: 'a', label: 'Group', title: 'What it is about', width: 'minmax(8rem, 2fr)', cell: (g) => shortName(shown(groups.name.at(g)).slice(0, 200)) },
+      { id: 'status', label: 'Results', title: 'How many results it has', width: '5rem', right: true, cell: (g) => count(groups.results[g]!) },
+      { id: 'relation', label: 'Hits', title: 'How many of them are hits', width: '4rem', right: true, cell: (g) => count(groups.hits[g]!) },
+      { id: 'b', label: 'Too close', title: 'How many are too close', width: '5.4rem', right: true, cell: (g) => count(groups.clearance_violations[g]!) },
+      { id: 'number', label: 'Show', title: 'Its results', width: '4.4rem', cell: (g) => h('button', { type: 'button', class: 'small', tabindex: -1, onclick: (event) => {
+        event.stopPropagation();
+        this.showGroup(g);
+      } }, 'List') },
+    ];
+  }
+}

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+// The model with its tools. What cannot be drawn is said in its place, and the rest of the page goes on.
+import { openModel, objectName, type Report } from '../data/report.ts';
+import { length } from '../data/words.ts';
+import type { Vec } from '../scene/items.ts';
+import type { Others, Shown } from '../scene/view.ts';
+import { View } from '../scene/view.ts';
+import { fill, h, toggle } from '../ui/dom.ts';
+
+export interface SceneEvents {
+  picked(object: number | undefined): void;
+}
+
+const OTHERS: [Others, string][] = [['ghost', 'Ghosts'], ['solid', 'Solid'], ['hide', 'Hidden']];
+
+/** What is drawn of a result. */
+export function shownOf(report: Report, row: number): Shown {
+  const results = report.results!;
+  const at: Vec = [results.x[row]!, results.y[row]!, results.z[row]!];
+  const d = results.d[row]!;
+  const { witness } = results;
+  const kind = witness?.kind[row];
+  let arrow: Shown['arrow'];
+  if (witness && kind === 0) {
+    arrow = { from: witness.p.map((p) => p[row]!) as Vec, to: witness.q.map((q) => q[row]!) as Vec, depth: false };
+  } else if (witness && kind === 1) {
+    arrow = { from: at, to: at.map((v, k) => v - witness.q[k]![row]! * d) as Vec, depth: true };
+  }
+  return { a: results.a[row]!, b: results.b[row]!, at, arrow };
+}
+
+export class ScenePanel {
+  readonly element = h('div', { class: 'scene' });
+  private readonly stage = h('div', { class: 'stage' });
+  private readonly canvas = h('canvas', { tabindex: 0, role: 'img', 'aria-label': 'The model. Arrow keys turn it, plus and minus bring it nearer and farther.' });
+  private readonly label = h('div', { class: 'depth-label', hidden: true });
+  private readonly told = h('div', { class: 'stage-note', role: 'status' });
+  private readonly legend = h('div', { class: 'legend-pair', hidden: true });
+  private readonly measured = h('div', { class: 'measure', role: 'status', hidden: true });
+  private readonly sectionSize = h('input', { type: 'range', min: 0, max: 100, value: 45, 'aria-label': 'Size of the section box' });
+  private readonly sectionTools = h('span', { class: 'section-tools', hidden: true }, this.sectionSize);
+  private sectionButton: HTMLButtonElement | undefined;
+  private measureButton: HTMLButtonElement | undefined;
+  private othersButtons: HTMLButtonElement[] = [];
+  private view: View | undefined;
+  private row: number | undefined;
+  private wanted: (() => void) | undefined;
+
+  constructor(
+    private readonly report: Report,
+    private readonly events: SceneEvents,
+  ) {
+    this.stage.append(this.canvas, this.label, this.legend, this.measured, this.told);
+    this.element.append(this.tools(), this.stage);
+    this.sectionSize.addEventListener('input', () => this.placeSection());
+    this.canvas.addEventListener('keydown', (event) => this.key(event));
+  }
+
+  get ready(): boolean {
+    return this.view !== undefined;
+  }
+
+  /** Reads the model and draws it; what goes wrong is told where the picture would be. */
+  async open(): Promise<void> {
+    const { head } = this.report;
+    if (!head.scene) return this.tell('This page has the lists without the model.');
+    this.tell('Opening the model…');
+    // The list is drawn before the model is unpacked.
+    await new Promise((done) => setTimeout(done, 0));
+    try {
+      const model = await openModel(head);
+      this.view = new View(this.canvas, model!, head.scene, head.counts.objects, {
+        picked: (object) => this.events.picked(object),
+        measured: (points) => this.tellMeasured(points),
+        drawn: () => this.placeLabel(),
+      });
+    } catch (error) {
+      const words = error instanceof Error ? error.message : String(error);
+      return this.tell(/webgl/i.test(words) ? 'This browser cannot show 3D: it has no WebGL 2, or it is switched off. The lists and drawings work without it.' : `The model cannot be shown. ${words}`);
+    }
+    this.element.classList.add('ready');
+    this.told.hidden = true;
+    this.theme();
+    this.view.fit();
+    this.wanted?.();
+  }
+
+  theme(): void {
+    const style = getComputedStyle(document.documentElement);
+    this.view?.setTheme(style.getPropertyValue('--stage').trim(), style.getPropertyValue('--ghost').trim());
+  }
+
+  showResult(row: number, fly: boolean): void {
+    this.row = row;
+    this.wanted = () => this.showResult(row, fly);
+    if (!this.view) return;
+    const shown = shownOf(this.report, row);
+    this.view.show(shown, fly);
+    const missing = [shown.a, shown.b].filter((o) => !this.view!.has(o));
+    this.tellLegend(shown.a, shown.b);
+    if (missing.length > 0) this.tell(missing.length === 2 ? 'Neither of the two has a shape in this page.' : 'One of the two has no shape in this page.');
+    else this.told.hidden = true;
+    this.placeLabel();
+  }
+
+  showObject(object: number, fly: boolean): void {
+    this.row = undefined;
+    this.wanted = () => this.showObject(object, fly);
+    this.view?.showObject(object, fly);
+    this.legend.hidden = true;
+    this.told.hidden = this.ready;
+  }
+
+  showNothing(): void {
+    this.row = undefined;
+    this.wanted = undefined;
+    this.view?.show(undefined, false);
+    this.legend.hidden = true;
+    this.told.hidden = this.ready;
+  }
+
+  showPlace(min: Vec, max: Vec): void {
+    this.wanted = () => this.showPlace(min, max);
+    this.view?.showBox(min, max);
+  }
+
+  fly(): void {
+    if (this.row === undefined) this.view?.fit();
+    else this.view?.flyToShown();
+  }
+
+  hasShape(object: number): boolean {
+    return this.view?.has(object) ?? false;
+  }
+
+  /** Does what a key asks for; false where it asks for nothing here. */
+  shortcut(key: string): boolean {
+    const { view } = this;
+    if (!view) return false;
+    const sides = { 1: 'top', 2: 'front', 3: 'side', 4: 'iso' } as const;
+    if (key in sides) view.look(sides[key as unknown as 1]);
+    else if (key === 'f') view.fit();
+    else if (key === 'g') this.setOthers(OTHERS[(OTHERS.findIndex(([o]) => o === view.others) + 1) % OTHERS.length]![0]);
+    else if (key === 'b') this.sectionButton?.click();
+    else if (key === 'm') this.measureButton?.click();
+    else return false;
+    return true;
+  }
+
+  /** Ends what is under way; false where nothing is. */
+  giveUp(): boolean {
+    if (!this.view?.measuring) return false;
+    this.measureButton?.click();
+    return true;
+  }
+
+  private tools(): HTMLElement {
+    const tool = (label: string, title: string, act: () => void): HTMLElement => h('button', { type: 'button', class: 'small', title, onclick: act }, label);
+    this.othersButtons = OTHERS.map(([others, label]) => h('button', { type: 'button', 'aria-pressed': String(others === 'ghost'), onclick: () => this.setOthers(others) }, label));
+    this.sectionButton = toggle('Section', false, (on) => {
+      this.sectionTools.hidden = !on;
+      this.placeSection();
+    }, { title: 'Only what is near the clash (B)', class: 'small' });
+    this.measureButton = toggle('Measure', false, (on) => {
+      if (!this.view) return;
+      this.view.measuring = on;
+      this.canvas.classList.toggle('measuring', on);
+      if (on) this.tellMeasured([]);
+      else this.view.clearMeasure();
+      this.measured.hidden = !on;
+    }, { title: 'The distance of two points (M)', class: 'small' });
+    return h(
+      'div',
+      { class: 'tools', role: 'toolbar', 'aria-label': 'View of the model' },
+      tool('Clash', 'Fly to the clash (Enter)', () => this.fly()),
+      tool('All', 'The whole model (F)', () => this.view?.fit()),
+      h('span', { class: 'gap' }),
+      tool('Top', 'From the top (1)', () => this.view?.look('top')),
+      tool('Front', 'From the front (2)', () => this.view?.look('front')),
+      tool('Side', 'From the side (3)', () => this.view?.look('side')),
+      tool('Iso', 'Askew (4)', () => this.view?.look('iso')),
+      h('span', { class: 'gap' }),
+      h('div', { class: 'segments', role: 'group', 'aria-label': 'Other objects', title: 'Other objects (G)' }, ...this.othersButtons),
+      this.sectionButton,
+      this.sectionTools,
+      this.measureButton,
+    );
+  }
+
+  private setOthers(others: Others): void {
+    if (this.view) this.view.others = others;
+    this.othersButtons.forEach((button, i) => button.setAttribute('aria-pressed', String(OTHERS[i]![0] === others)));
+  }
+
+  /** From a hand's breadth to a hall, the same share more at each step. */
+  private placeSection(): void {
+    this.view?.section(this.sectionTools.hidden ? undefined : 50 * 400 ** (Number(this.sectionSize.value) / 100));
+  }
+
+  private tell(text: string): void {
+    this.told.hidden = false;
+    fill(this.told, text);
+  }
+
+  private tellLegend(a: number, b: number): void {
+    const objects = this.report.objects!;
+    this.legend.hidden = false;
+    fill(this.legend,
+      ...([['a', a], ['b', b]] as const).map(([side, object]) => h('div', {}, h('span', { class: `swatch swatch-${side}`, 'aria-hidden': 'true' }), ` ${side.toUpperCase()} `, objectName(objects, object).slice(0, 120))));
+  }
+
+  private tellMeasured(points: Vec[]): void {
+    if (points.length < 2) {
+      fill(this.measured, points.length === 0 ? 'Click the first point.' : 'Click the second point.');
+      return;
+    }
+    const [p, q] = points as [Vec, Vec];
+    const off = p.map((v, k) => q[k]! - v);
+    fill(this.measured, h('b', {}, `${length(Math.hypot(...off))} mm`), ` Δx ${length(off[0]!)}, Δy ${length(off[1]!)}, Δz ${length(off[2]!)}`);
+  }
+
+  /** The depth stands beside the place, wherever that is on the screen. */
+  private placeLabel(): void {
+    const { view } = this;
+    this.stage.classList.toggle('settled', view?.settled ?? false);
+    if (!view?.shown || this.row === undefined) {
+      this.label.hidden = true;
+      return;
+    }
+    const at = view.project(view.shown.at);
+    this.label.hidden = !at;
+    if (!at) return;
+    const d = this.report.results!.d[this.row]!;
+    const words = d < 0 ? `${length(-d)} mm deep` : d === 0 ? 'touching' : `${length(d)} mm apart`;
+    if (this.label.textContent !== words) this.label.textContent = words;
+    this.label.dataset.x = at.x.toFixed(1);
+    this.label.dataset.y = at.y.toFixed(1);
+    this.label.style.transform = `translate(${at.x + 14}px, ${at.y - 30}px)`;
+  }
+
+  private key(event: KeyboardEvent): void {
+    const turns: Record<string, [number, number]> = { ArrowLeft: [-0.12, 0], ArrowRight: [0.12, 0], ArrowUp: [0, 0.12], ArrowDown: [0, -0.12] };
+    const turn = turns[event.key];
+    if (turn) this.view?.turn(...turn);
+    else if (event.key === '+') this.view?.zoom(0.8);
+    else if (event.key === '-') this.view?.zoom(1.25);
+    else return;
+    event.preventDefault();
+  }
+}

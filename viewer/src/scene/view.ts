@@ -1,0 +1,517 @@
+// SPDX-License-Identifier: Apache-2.0
+// The 3D view. A picture is drawn when something changes, and in pieces: the two objects of the clash and what is near
+// first, within a frame, and then the rest as long as nothing moves. So it answers at once however large the model is.
+import {
+  BufferAttribute, BufferGeometry, Color, ColorManagement, ConeGeometry, EdgesGeometry, Frustum, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh,
+  MeshBasicMaterial, type Object3D, type PerspectiveCamera, Quaternion, Scene, type ShaderMaterial, SphereGeometry, Box3, Vector3, WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { SceneHead } from '../payload/head.ts';
+import type { Model } from '../payload/payload.ts';
+import { type Batch, distanceTo, makeBatches } from './batches.ts';
+import { distanceFor, LOOKS, makeCamera, setDepth, type Side } from './camera.ts';
+import { type BatchMaterials, GpuBatches } from './gpu_batches.ts';
+import { type Items, itemsOf, makeItems, meshOf, objectBox, type Vec } from './items.ts';
+import { makeMaterial, ObjectStates, type SharedUniforms } from './materials.ts';
+import { type Hit, type Limits, pick, type Ray } from './ray.ts';
+
+export type Others = 'ghost' | 'solid' | 'hide';
+
+/** A clash, in millimetres of the model. */
+export interface Shown {
+  a: number;
+  b: number;
+  at: Vec;
+  /** what is drawn as the depth or the distance */
+  arrow: { from: Vec; to: Vec; depth: boolean } | undefined;
+}
+
+/** Okabe and Ito's orange and blue: told apart with any kind of colour vision. */
+export const COLOUR_A = 0xe69f00;
+export const COLOUR_B = 0x2f8fd8;
+const COLOUR_PICKED = 0x009e73;
+
+const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
+const FAR = 1e12;
+
+export interface ViewEvents {
+  picked(object: number | undefined): void;
+  measured(points: Vec[]): void;
+  drawn(): void;
+}
+
+export class View {
+  readonly items: Items;
+  readonly renderer: WebGLRenderer;
+  readonly camera: PerspectiveCamera = makeCamera();
+  readonly software: boolean;
+  private readonly controls: OrbitControls;
+  private readonly states: ObjectStates;
+  private readonly shared: SharedUniforms;
+  private readonly ghosts: BatchMaterials;
+  private readonly solids: BatchMaterials;
+  private readonly batches: Batch[];
+  private readonly gpu: GpuBatches;
+  private readonly pieces = new Scene();
+  private readonly pair = new Scene();
+  private readonly marks = new Scene();
+  private readonly origin: Vec;
+  private readonly reach: number;
+  private readonly paints = new Map<number, { body: ShaderMaterial; rim: ShaderMaterial }>();
+  private queue: Batch[] = [];
+  private dirty = false;
+  private scheduled = false;
+  private moving = false;
+  /** triangles of the others in the first piece of a picture, while it is turned, and in each that follows */
+  private readonly budgets: { first: number; moving: number; next: number };
+  private fresh = false;
+  private highlighted: number[] = [];
+  private focus: Vec | undefined;
+  private points: Vec[] = [];
+  private others_: Others = 'ghost';
+  measuring = false;
+  shown: Shown | undefined;
+  private sectionHalf: number | undefined;
+
+  /** Throws where the browser has no WebGL 2. */
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    model: Model,
+    head: SceneHead,
+    objects: number,
+    private readonly events: ViewEvents,
+  ) {
+    ColorManagement.enabled = false;
+    const probe = document.createElement('canvas').getContext('webgl2');
+    if (!probe) throw new Error('no WebGL 2');
+    const info = probe.getExtension('WEBGL_debug_renderer_info');
+    const name = String(probe.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : probe.RENDERER));
+    probe.getExtension('WEBGL_lose_context')?.loseContext();
+    this.software = SOFTWARE.test(name);
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, preserveDrawingBuffer: true, powerPreference: 'high-performance' });
+    this.renderer.setPixelRatio(this.software ? 1 : Math.min(window.devicePixelRatio, 2));
+    this.renderer.autoClear = false;
+    // Asking whether a program was compiled waits until it is; the tests read pixels instead.
+    this.renderer.debug.checkShaderErrors = false;
+    this.budgets = this.software ? { first: 0, moving: 6000, next: 12000 } : { first: 1000000, moving: 1000000, next: 1500000 };
+    this.origin = head.origin_mm;
+    this.items = makeItems(model, head, objects);
+    this.batches = makeBatches(this.items);
+    this.gpu = new GpuBatches(this.items);
+    this.states = new ObjectStates(objects);
+    for (let o = 0; o < objects; ++o) this.states.colour(o, 0x9aa3ad);
+    const { colour, object } = model.instances;
+    if (colour) for (let i = 0; i < colour.length; ++i) this.states.colour(object[i]!, colour[i]!);
+    this.shared = { states: { value: this.states.texture }, sectionMin: { value: new Vector3(-FAR, -FAR, -FAR) }, sectionMax: { value: new Vector3(FAR, FAR, FAR) }, focus: { value: new Vector3() }, fade: { value: FAR } };
+    const both = (ghost: boolean): BatchMaterials => ({
+      instanced: makeMaterial(this.shared, { instanced: true, ghost }),
+      merged: makeMaterial(this.shared, { ghost }),
+    });
+    this.ghosts = both(true);
+    this.solids = both(false);
+    for (const scene of [this.pieces, this.pair, this.marks]) scene.matrixWorldAutoUpdate = false;
+    const { bounds } = this.items;
+    this.reach = Math.max(1000, 2 * Math.hypot(bounds[3]! - bounds[0]!, bounds[4]! - bounds[1]!, bounds[5]! - bounds[2]!));
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener('start', () => (this.moving = true));
+    this.controls.addEventListener('end', () => {
+      this.moving = false;
+      this.redraw();
+    });
+    this.controls.addEventListener('change', () => this.redraw());
+    this.listen();
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    this.resize();
+    this.look('iso');
+  }
+
+  /** Colours of what is behind and of ghosts, for light or dark. */
+  setTheme(background: string, ghost: string): void {
+    this.renderer.setClearColor(new Color(background), 1);
+    for (const material of Object.values(this.ghosts)) (material.uniforms.tint!.value as Color).set(ghost);
+    this.redraw();
+  }
+
+  get others(): Others {
+    return this.others_;
+  }
+  set others(value: Others) {
+    this.others_ = value;
+    this.redraw();
+  }
+
+  has(object: number): boolean {
+    return itemsOf(this.items, object).length > 0;
+  }
+
+  /** Shows a clash, or none; the camera goes there unless it is told not to. */
+  show(shown: Shown | undefined, fly = true): void {
+    this.shown = shown;
+    this.points = [];
+    this.paint(shown ? [[shown.a, COLOUR_A], [shown.b, COLOUR_B]] : []);
+    this.focus = shown ? this.local(shown.at) : undefined;
+    this.mark();
+    if (shown && fly) this.flyToShown();
+    this.placeSection();
+    this.redraw();
+  }
+
+  /** Shows one object. */
+  showObject(object: number, fly: boolean): void {
+    this.shown = undefined;
+    this.paint([[object, COLOUR_PICKED]]);
+    const box = objectBox(this.items, object);
+    this.focus = box ? (box.min.map((v, k) => (v + box.max[k]!) / 2) as Vec) : undefined;
+    this.mark();
+    if (box && fly) this.goTo(this.focus!, Math.max(50, Math.hypot(...box.max.map((v, k) => v - box.min[k]!)) / 2) * 1.6);
+    this.redraw();
+  }
+
+  /** Shows the place of a group. */
+  showBox(min: Vec, max: Vec): void {
+    this.focus = this.local(min.map((v, k) => (v + max[k]!) / 2) as Vec);
+    this.goTo(this.focus, Math.max(500, Math.hypot(...max.map((v, k) => v - min[k]!)) / 2 + 500));
+    this.redraw();
+  }
+
+  flyToShown(): void {
+    const { shown } = this;
+    if (!shown || !this.focus) return this.fit();
+    const sizes = [shown.a, shown.b].map((o) => objectBox(this.items, o)).filter((box) => box !== undefined)
+      .map((box) => Math.hypot(...box.max.map((v, k) => v - box.min[k]!)));
+    const arrow = shown.arrow ? Math.hypot(...shown.arrow.to.map((v, k) => v - shown.arrow!.from[k]!)) : 0;
+    // The smaller of the two is seen whole, and of the larger the part that matters.
+    const radius = Math.min(Math.max(60, 4 * arrow, 0.75 * Math.min(...sizes, 4000)), 3000);
+    this.goTo(this.focus, radius);
+  }
+
+  /** The whole model. */
+  fit(): void {
+    const { bounds } = this.items;
+    if (!Number.isFinite(bounds[0]!)) return;
+    this.goTo([0, 1, 2].map((k) => (bounds[k]! + bounds[3 + k]!) / 2) as Vec, this.reach / 4);
+  }
+
+  look(side: Side): void {
+    const direction = new Vector3(...LOOKS[side]).normalize();
+    const away = this.camera.position.distanceTo(this.controls.target) || distanceFor(this.camera, this.reach / 4);
+    this.camera.position.copy(this.controls.target).addScaledVector(direction, -away);
+    this.camera.lookAt(this.controls.target);
+    this.controls.update();
+    this.redraw();
+  }
+
+  zoom(factor: number): void {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.redraw();
+  }
+
+  turn(sideways: number, upwards: number): void {
+    const away = this.camera.position.clone().sub(this.controls.target);
+    const length = away.length();
+    const angle = Math.atan2(away.y, away.x) + sideways;
+    const height = Math.min(1.55, Math.max(-1.55, Math.asin(away.z / length) + upwards));
+    away.set(Math.cos(angle) * Math.cos(height), Math.sin(angle) * Math.cos(height), Math.sin(height)).multiplyScalar(length);
+    this.camera.position.copy(this.controls.target).add(away);
+    this.camera.lookAt(this.controls.target);
+    this.redraw();
+  }
+
+  /** A box round the clash outside of which nothing is shown; half its side in millimetres, or undefined for none. */
+  section(half: number | undefined): void {
+    this.sectionHalf = half;
+    this.placeSection();
+    this.mark();
+    this.redraw();
+  }
+
+  /** Where a point of the model stands on the canvas in pixels, or undefined behind the camera. */
+  project(point: Vec): { x: number; y: number } | undefined {
+    this.camera.updateMatrixWorld();
+    const p = new Vector3(...this.local(point)).project(this.camera);
+    if (p.z > 1 || p.z < -1) return undefined;
+    return { x: ((p.x + 1) / 2) * this.canvas.clientWidth, y: ((1 - p.y) / 2) * this.canvas.clientHeight };
+  }
+
+  clearMeasure(): void {
+    this.points = [];
+    this.mark();
+    this.redraw();
+    this.events.measured([]);
+  }
+
+  /** What is at a place of the canvas. */
+  at(x: number, y: number): Hit | undefined {
+    this.camera.updateMatrixWorld();
+    const from = this.camera.position.toArray() as Vec;
+    const through = new Vector3((x / this.canvas.clientWidth) * 2 - 1, 1 - (y / this.canvas.clientHeight) * 2, 0.5).unproject(this.camera);
+    const along = through.sub(this.camera.position).normalize().toArray() as Vec;
+    const ray: Ray = { from, along };
+    const chosen = new Set(this.highlighted);
+    const limits: Limits = { min: this.shared.sectionMin.value.toArray() as Vec, max: this.shared.sectionMax.value.toArray() as Vec };
+    // One reaches through ghosts for the objects of the clash, and through nothing else.
+    if (chosen.size > 0 && this.others_ !== 'solid') {
+      const hit = pick(this.items, ray, { ...limits, visible: (object) => chosen.has(object) });
+      if (hit || this.others_ === 'hide') return hit;
+    }
+    return pick(this.items, ray, limits);
+  }
+
+  redraw(): void {
+    this.dirty = true;
+    if (this.scheduled) return;
+    this.scheduled = true;
+    requestAnimationFrame(() => this.frame());
+  }
+
+  /** Whether everything in view has been drawn. */
+  get settled(): boolean {
+    return !this.scheduled && this.queue.length === 0;
+  }
+
+  private local(point: Vec): Vec {
+    return point.map((v, k) => v - this.origin[k]!) as Vec;
+  }
+
+  private paint(chosen: [number, number][]): void {
+    for (const object of this.highlighted) this.states.hide(object, false);
+    this.highlighted = chosen.map(([object]) => object);
+    for (const child of [...this.pair.children] as Mesh[]) {
+      child.geometry.dispose();
+      this.pair.remove(child);
+    }
+    for (const [object, colour] of chosen) {
+      const list = itemsOf(this.items, object);
+      if (list.length === 0) continue;
+      // The object itself is drawn apart, in its colour; in its batch it is left out.
+      this.states.hide(object, true);
+      const mesh = meshOf(this.items, list);
+      const geometry = new BufferGeometry();
+      geometry.setAttribute('position', new BufferAttribute(mesh.position, 3));
+      geometry.setIndex(new BufferAttribute(mesh.index, 1));
+      const paint = this.paintOf(colour);
+      const body = new Mesh(geometry, paint.body);
+      body.frustumCulled = false;
+      this.pair.add(body);
+      if (mesh.index.length < 60000) {
+        const rim = new LineSegments(new EdgesGeometry(geometry, 30), paint.rim);
+        rim.frustumCulled = false;
+        this.pair.add(rim);
+      }
+    }
+  }
+
+  /** A colour's materials are made once: a new one costs more than drawing with it. */
+  private paintOf(colour: number): { body: ShaderMaterial; rim: ShaderMaterial } {
+    let paint = this.paints.get(colour);
+    if (!paint) {
+      paint = {
+        body: makeMaterial(this.shared, { colour }),
+        rim: makeMaterial(this.shared, { colour: new Color(colour).multiplyScalar(0.45).getHex(), lines: true }),
+      };
+      this.paints.set(colour, paint);
+    }
+    return paint;
+  }
+
+  private placeSection(): void {
+    const { sectionMin, sectionMax } = this.shared;
+    if (this.sectionHalf === undefined || !this.focus) {
+      sectionMin.value.setScalar(-FAR);
+      sectionMax.value.setScalar(FAR);
+      return;
+    }
+    sectionMin.value.set(...this.focus).subScalar(this.sectionHalf);
+    sectionMax.value.set(...this.focus).addScalar(this.sectionHalf);
+  }
+
+  /** The arrow of the depth, the section box and what is measured: over everything. */
+  private mark(): void {
+    for (const child of [...this.marks.children] as Mesh[]) {
+      child.geometry.dispose();
+      this.marks.remove(child);
+    }
+    const over = (object: Object3D & { material: { depthTest: boolean; transparent: boolean } }): void => {
+      object.material.depthTest = false;
+      object.material.transparent = true;
+      object.frustumCulled = false;
+      this.marks.add(object);
+    };
+    const line = (points: Vec[], colour: number): void =>
+      over(new Line(new BufferGeometry().setFromPoints(points.map((p) => new Vector3(...p))), new LineBasicMaterial({ color: colour })));
+    const dot = (p: Vec, colour: number): void => {
+      const ball = new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ color: colour }));
+      ball.position.set(...p);
+      ball.userData.pixels = 5;
+      over(ball);
+    };
+    if (this.shown && this.focus) {
+      dot(this.focus, 0xd62f6b);
+      const arrow = this.shown.arrow;
+      if (arrow) {
+        const [from, to] = [this.local(arrow.from), this.local(arrow.to)];
+        line([from, to], 0xd62f6b);
+        if (arrow.depth) {
+          const cone = new Mesh(new ConeGeometry(0.5, 1.6, 16), new MeshBasicMaterial({ color: 0xd62f6b }));
+          cone.position.set(...to);
+          const along = new Vector3(...to).sub(new Vector3(...from)).normalize();
+          cone.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along));
+          cone.userData.pixels = 9;
+          over(cone);
+        } else {
+          dot(from, 0xd62f6b);
+          dot(to, 0xd62f6b);
+        }
+      }
+    }
+    if (this.sectionHalf !== undefined && this.focus) {
+      const h = this.sectionHalf;
+      const corner = (i: number): Vec => this.focus!.map((v, k) => v + ((i >> k) & 1 ? h : -h)) as Vec;
+      for (const path of [[0, 1, 3, 2, 0, 4, 5, 7, 6, 4], [1, 5], [3, 7], [2, 6]]) line(path.map(corner), 0x8a63d2);
+    }
+    this.points.forEach((p) => dot(p, 0x111111));
+    if (this.points.length === 2) line(this.points, 0x111111);
+  }
+
+  private goTo(target: Vec, radius: number): void {
+    const direction = this.camera.getWorldDirection(new Vector3());
+    this.controls.target.set(...target);
+    this.camera.position.copy(this.controls.target).addScaledVector(direction, -distanceFor(this.camera, radius));
+    this.controls.update();
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement!;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.redraw();
+  }
+
+  /** Draws a picture anew, or goes on with one. */
+  private frame(): void {
+    this.scheduled = false;
+    if (this.dirty) {
+      this.dirty = false;
+      this.begin();
+    }
+    this.piece();
+    if (this.queue.length > 0 && !this.moving) {
+      this.scheduled = true;
+      requestAnimationFrame(() => this.frame());
+    }
+    this.events.drawn();
+  }
+
+  private begin(): void {
+    this.fresh = true;
+    setDepth(this.camera, this.controls.target, this.reach);
+    this.camera.updateMatrixWorld();
+    this.renderer.clear();
+    // Ghosts are of use near what one looks at; those of a whole ship are a fog.
+    const across = this.camera.position.distanceTo(this.controls.target) * Math.tan((this.camera.fov * Math.PI) / 360);
+    this.shared.fade.value = Math.max(1200, 2 * across);
+    this.shared.focus.value.set(...(this.focus ?? (this.controls.target.toArray() as Vec)));
+    this.renderer.render(this.pair, this.camera);
+    this.queue = this.others_ === 'hide' && this.highlighted.length > 0 ? [] : this.inView();
+  }
+
+  /** Batches that can be seen, the nearest to the clash last: they are taken from the end. */
+  private inView(): Batch[] {
+    const frustum = new Frustum().setFromProjectionMatrix(new Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse));
+    const { sectionMin, sectionMax } = this.shared;
+    const box = new Box3();
+    const section = new Box3(sectionMin.value, sectionMax.value);
+    const near = this.focus ?? (this.controls.target.toArray() as Vec);
+    const order: { batch: Batch; distance: number }[] = [];
+    const farthest = this.ghostly ? 1.5 * this.shared.fade.value : Infinity;
+    for (const batch of this.batches) {
+      box.min.fromArray(batch.box, 0);
+      box.max.fromArray(batch.box, 3);
+      if (!frustum.intersectsBox(box) || !section.intersectsBox(box)) continue;
+      const distance = distanceTo(batch.box, near);
+      if (distance < farthest) order.push({ batch, distance });
+    }
+    order.sort((p, q) => q.distance - p.distance);
+    return order.map((o) => o.batch);
+  }
+
+  private get ghostly(): boolean {
+    return this.others_ !== 'solid' && this.highlighted.length > 0;
+  }
+
+  private piece(): void {
+    const materials = this.ghostly ? this.ghosts : this.solids;
+    const started = performance.now();
+    const meshes: Mesh[] = [];
+    let left = !this.fresh ? this.budgets.next : this.moving ? this.budgets.moving : this.budgets.first;
+    this.fresh = false;
+    while (left > 0 && this.queue.length > 0) {
+      const batch = this.queue.pop()!;
+      meshes.push(this.gpu.mesh(batch, materials));
+      left -= batch.triangles + 500;
+      // A first picture is as well made of new buffers, which take longer than drawing them.
+      if (performance.now() - started > 25) break;
+    }
+    this.pieces.children = meshes;
+    this.renderer.render(this.pieces, this.camera);
+    this.pieces.children = [];
+    // No ghost stands before the two: those that were drawn over them are drawn over in turn.
+    if (this.ghostly) this.renderer.render(this.pair, this.camera);
+    this.sizeMarks();
+    this.renderer.render(this.marks, this.camera);
+  }
+
+  /** Marks are as large on the screen from near as from afar. */
+  private sizeMarks(): void {
+    const perPixel = (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.max(1, this.canvas.clientHeight);
+    for (const child of this.marks.children) {
+      const pixels = child.userData.pixels as number | undefined;
+      if (pixels) child.scale.setScalar(Math.max(1e-3, this.camera.position.distanceTo(child.position) * perPixel * pixels));
+      child.updateMatrixWorld();
+    }
+  }
+
+  private listen(): void {
+    let down: { x: number; y: number } | undefined;
+    this.canvas.addEventListener('pointerdown', (e) => (down = { x: e.clientX, y: e.clientY }));
+    this.canvas.addEventListener('pointerup', (e) => {
+      const moved = down ? Math.hypot(e.clientX - down.x, e.clientY - down.y) : Infinity;
+      down = undefined;
+      if (moved > 4 || e.button !== 0) return;
+      const frame = this.canvas.getBoundingClientRect();
+      this.clicked(e.clientX - frame.left, e.clientY - frame.top);
+    });
+    this.canvas.addEventListener('wheel', (e) => e.preventDefault(), { passive: false });
+    this.canvas.addEventListener('webglcontextrestored', () => this.redraw());
+  }
+
+  private clicked(x: number, y: number): void {
+    const hit = this.at(x, y);
+    if (!this.measuring) return this.events.picked(hit?.object);
+    if (!hit) return;
+    if (this.points.length === 2) this.points = [];
+    this.points.push(this.snap(hit, x, y));
+    this.mark();
+    this.redraw();
+    this.events.measured(this.points.map((p) => p.map((v, k) => v + this.origin[k]!) as Vec));
+  }
+
+  /** A corner that is near enough on the screen is meant. */
+  private snap(hit: Hit, x: number, y: number): Vec {
+    let best = 12;
+    let point = hit.point;
+    for (const corner of hit.corners) {
+      const p = this.project(corner.map((v, k) => v + this.origin[k]!) as Vec);
+      const off = p ? Math.hypot(p.x - x, p.y - y) : Infinity;
+      if (off < best) {
+        best = off;
+        point = corner;
+      }
+    }
+    return point;
+  }
+}
+

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of results: sorted by a click on a column, gone through with the keys.
+import { add, classMark, h } from '../ui/dom.ts';
+import type { SortColumn } from '../data/filter.ts';
+import { VirtualRows } from './virtual_rows.ts';
+
+export interface Column {
+  id: SortColumn;
+  label: string;
+  title: string;
+  /** how wide, as CSS grids have it */
+  width: string;
+  right?: boolean;
+  cell(row: number): Node | string;
+}
+
+export interface TableEvents {
+  chosen(row: number): void;
+  opened(row: number): void;
+  sorted(column: SortColumn, down: boolean): void;
+}
+
+export const ROW_HEIGHT = 38;
+
+/** A table of rows, which are numbers in the payload. */
+export class ResultTable {
+  readonly element: HTMLElement;
+  private readonly scroller = h('div', { class: 'scroller', tabindex: -1, onfocus: () => this.element.focus({ preventScroll: true }) });
+  private readonly body = h('div', { role: 'rowgroup', class: 'rows' });
+  private readonly header = h('div', { role: 'row', class: 'row header', 'aria-rowindex': 1 });
+  private readonly virtual: VirtualRows;
+  private rows = new Uint32Array(0);
+  private current = -1;
+  private sort: { column: SortColumn; down: boolean } = { column: 'worst', down: false };
+
+  constructor(
+    label: string,
+    private readonly columns: readonly Column[],
+    private readonly events: TableEvents,
+    private readonly prefix: string,
+  ) {
+    const template = columns.map((c) => c.width).join(' ');
+    this.header.style.gridTemplateColumns = template;
+    this.element = h('div', {
+      role: 'grid', class: `table table-${prefix}`, tabindex: 0, 'aria-label': label, 'aria-colcount': columns.length,
+      onkeydown: (event) => this.key(event),
+    });
+    this.scroller.append(this.body);
+    add(this.element, h('div', { role: 'rowgroup' }, this.header), this.scroller);
+    this.virtual = new VirtualRows(this.scroller, this.body, ROW_HEIGHT, (index) => this.row(index, template));
+    this.makeHeader();
+  }
+
+  show(rows: Uint32Array<ArrayBuffer>, keep: number): void {
+    this.rows = rows;
+    this.element.setAttribute('aria-rowcount', String(rows.length + 1));
+    this.current = keep < 0 ? -1 : rows.indexOf(keep);
+    this.virtual.reset(rows.length);
+    if (this.current >= 0) this.virtual.reveal(this.current);
+    this.activate();
+  }
+
+  get shown(): Uint32Array {
+    return this.rows;
+  }
+
+  setSort(column: SortColumn, down: boolean): void {
+    this.sort = { column, down };
+    this.makeHeader();
+  }
+
+  /** Marks a row as the chosen one, where it is in the table. */
+  choose(row: number): void {
+    this.current = this.rows.indexOf(row);
+    if (this.current >= 0) this.virtual.reveal(this.current);
+    this.activate();
+  }
+
+  /** Goes on by so many rows. */
+  step(by: number): void {
+    if (this.rows.length === 0) return;
+    this.goTo(Math.min(this.rows.length - 1, Math.max(0, this.current + by)));
+  }
+
+  refresh(): void {
+    this.virtual.refresh();
+    this.activate();
+  }
+
+  private goTo(index: number): void {
+    this.current = index;
+    this.virtual.reveal(index);
+    this.activate();
+    this.events.chosen(this.rows[index]!);
+  }
+
+  private activate(): void {
+    for (const row of this.body.querySelectorAll('[aria-selected="true"]')) row.setAttribute('aria-selected', 'false');
+    const row = this.virtual.row(this.current);
+    if (row) {
+      row.setAttribute('aria-selected', 'true');
+      this.element.setAttribute('aria-activedescendant', row.id);
+    } else {
+      this.element.removeAttribute('aria-activedescendant');
+    }
+  }
+
+  private makeHeader(): void {
+    this.header.replaceChildren(
+      ...this.columns.map((column, i) => {
+        const sorted = this.sort.column === column.id;
+        return h(
+          'div',
+          { role: 'columnheader', 'aria-colindex': i + 1, 'aria-sort': sorted ? (this.sort.down ? 'descending' : 'ascending') : 'none', class: column.right ? 'right' : '' },
+          h('button', { type: 'button', title: column.title, onclick: () => this.events.sorted(column.id, sorted && !this.sort.down) }, column.label, sorted && h('span', { 'aria-hidden': 'true', class: 'arrow' }, this.sort.down ? '▾' : '▴')),
+        );
+      }),
+    );
+  }
+
+  private row(index: number, template: string): HTMLElement {
+    const number = this.rows[index]!;
+    const row = h('div', {
+      role: 'row', class: 'row', id: `${this.prefix}-row-${index}`, 'aria-rowindex': index + 2, 'aria-selected': String(index === this.current),
+      onclick: () => this.goTo(index), ondblclick: () => this.events.opened(number),
+    });
+    row.style.gridTemplateColumns = template;
+    this.columns.forEach((column, i) => {
+      const cell = h('div', { role: 'gridcell', 'aria-colindex': i + 1, class: column.right ? 'right' : '' });
+      const content = column.cell(number);
+      add(cell, content);
+      if (typeof content === 'string' && content.length > 8) cell.title = content.slice(0, 300);
+      row.append(cell);
+    });
+    return row;
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.target !== this.element || event.ctrlKey || event.metaKey || event.altKey) return;
+    const page = this.virtual.rowsInView();
+    const moves: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -Infinity, End: Infinity };
+    const by = moves[event.key];
+    if (by !== undefined) {
+      event.preventDefault();
+      this.step(by);
+    } else if (event.key === 'Enter' && this.current >= 0) {
+      event.preventDefault();
+      this.events.opened(this.rows[this.current]!);
+    }
+  }
+}
+
+export function classCell(cls: number, word: string): HTMLElement {
+  return h('span', { class: 'class-cell' }, classMark(cls), word);
+}

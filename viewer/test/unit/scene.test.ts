@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { distanceTo, makeBatches } from '../../src/scene/batches.ts';
+import { itemsOf, makeItems, meshOf, objectBox, type Items, type Vec } from '../../src/scene/items.ts';
+import { meets, pick, type Ray } from '../../src/scene/ray.ts';
+import { decodeHead } from '../../src/payload/head.ts';
+import { decodeBoxes, decodeInstances, decodeShapes } from '../../src/payload/payload.ts';
+import { seeded, ship } from '../support/ship.ts';
+
+function scene(objects: number, boxes: number): Items {
+  const made = ship({ objects, boxes, results: 5, scene: true });
+  const head = decodeHead(new TextEncoder().encode(JSON.stringify({ ...made.head, blocks: [] })));
+  const bytes = (id: string): Uint8Array<ArrayBuffer> => made.blocks.get(id) as Uint8Array<ArrayBuffer>;
+  const shapes = decodeShapes(bytes('strake-shapes'));
+  const model = { shapes, instances: decodeInstances(bytes('strake-instances'), head, shapes), boxes: boxes > 0 ? decodeBoxes(bytes('strake-boxes'), head) : undefined };
+  return makeItems(model, head.scene!, head.counts.objects);
+}
+
+test('the box of an item holds its triangles, and touches them', () => {
+  const items = scene(60, 20);
+  for (let item = 0; item < items.count; ++item) {
+    const { position } = meshOf(items, [item]);
+    for (let k = 0; k < 3; ++k) {
+      const values = [...position].filter((_, i) => i % 3 === k);
+      assert.ok(Math.abs(Math.min(...values) - items.box[6 * item + k]!) < 1e-2);
+      assert.ok(Math.abs(Math.max(...values) - items.box[6 * item + 3 + k]!) < 1e-2);
+    }
+  }
+});
+
+test('each object has its items', () => {
+  const items = scene(60, 20);
+  for (let o = 0; o < 80; ++o) assert.deepEqual([...itemsOf(items, o)], [o]);
+  assert.equal(objectBox(items, 80), undefined);
+});
+
+test('batches have every item once and hold what is in them', () => {
+  const items = scene(900, 300);
+  const seen = new Uint8Array(items.count);
+  for (const batch of makeBatches(items)) {
+    for (const item of batch.items) {
+      ++seen[item]!;
+      for (let k = 0; k < 3; ++k) assert.ok(items.box[6 * item + k]! >= batch.box[k]! && items.box[6 * item + 3 + k]! <= batch.box[3 + k]!);
+    }
+  }
+  assert.ok(seen.every((n) => n === 1));
+  assert.equal(distanceTo(new Float32Array([0, 0, 0, 1, 1, 1]), [4, 5, 1]), 5);
+  assert.equal(distanceTo(new Float32Array([0, 0, 0, 1, 1, 1]), [0.5, 0.5, 0.5]), 0);
+});
+
+test('a ray finds what a search through all triangles finds', () => {
+  const items = scene(300, 40);
+  const all = meshOf(items, Uint32Array.from({ length: items.count }, (_, i) => i));
+  const random = seeded(9);
+  let found = 0;
+  for (let i = 0; i < 60; ++i) {
+    const from = [0, 1, 2].map(() => (random() - 0.5) * 12000) as Vec;
+    const to = [0, 1, 2].map(() => (random() - 0.5) * 2000);
+    const length = Math.hypot(...to.map((v, k) => v - from[k]!));
+    const ray: Ray = { from, along: to.map((v, k) => (v - from[k]!) / length) as Vec };
+    let best = Infinity;
+    for (let t = 0; t < all.index.length; t += 3) best = Math.min(best, meets(all.position, 3 * all.index[t]!, 3 * all.index[t + 1]!, 3 * all.index[t + 2]!, ray));
+    const hit = pick(items, ray);
+    assert.equal(hit?.distance ?? Infinity, best);
+    if (hit) ++found;
+  }
+  assert.ok(found > 10);
+});
+
+test('what a section or a choice leaves out is not met', () => {
+  const items = scene(27, 0);
+  const box = objectBox(items, 13)!;
+  const middle = box.min.map((v, k) => (v + box.max[k]!) / 2) as Vec;
+  const ray: Ray = { from: [middle[0], middle[1], 99999], along: [0, 0, -1] };
+  const top = pick(items, ray)!;
+  const only = pick(items, ray, { visible: (o) => o === 13 })!;
+  assert.equal(only.object, 13);
+  assert.ok(top.point[2] >= only.point[2]);
+  const cut = pick(items, ray, { min: [-1e9, -1e9, -1e9], max: [1e9, 1e9, only.point[2] - 1] });
+  assert.ok(!cut || cut.point[2] <= only.point[2] - 1);
+});
