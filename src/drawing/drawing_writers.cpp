@@ -11,6 +11,10 @@ Status as_svg(const DrawingContents& contents, Sink sink, const parallel::Contex
   return {};
 }
 
+Status as_dxf(const DrawingContents& contents, Sink sink, const parallel::Context& context) {
+  return write_dxf(contents.drawing, contents.ink, contents.model, sink, context);
+}
+
 Status as_json(const DrawingContents& contents, Sink sink, const parallel::Context& context) {
   return write_view_json(contents.drawing, contents.model, sink, context);
 }
@@ -21,6 +25,7 @@ Status as_rows(const DrawingContents& contents, Sink sink, const parallel::Conte
 
 constexpr std::array kWriters{
     DrawingWriter{{".svg", " as {}"}, true, as_svg},
+    DrawingWriter{{".dxf", ", for CAD as {}"}, true, as_dxf},
     DrawingWriter{{".json", ", or its neutral form as {}"}, false, as_json},
     DrawingWriter{{".view", ", or {} for millions of lines"}, false, as_rows},
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writers of drawings: SVG, JSON and binary rows.
+// Writers of drawings: SVG, DXF, JSON and binary rows.
 #pragma once
 
 #include <string_view>
@@ -22,6 +22,15 @@ using Sink = parallel::FunctionRef<void(std::string_view)>;
 /// group per object (data-id, data-name) with one path; styles are written once. Neither time nor
 /// path of this run is written.
 void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model, Sink sink);
+
+/// Writes DXF of AutoCAD 2007 (AC1021, UTF-8), documented in docs/formats/dxf.md: the view in model
+/// space at true size in mm, joined lines, arcs, circles and ellipses on a layer per class of line;
+/// the sheet as a layout of its size with a viewport at the drawing's scale. Each entity carries
+/// id, name and file of its object. Neither time nor path of this run is written. Errors:
+/// cancelled, out of memory.
+[[nodiscard]] Status write_dxf(const NeutralDrawing& drawing, const Ink& ink,
+                               const model::Model& model, Sink sink,
+                               const parallel::Context& context);
 
 /// Writes the neutral drawing as JSON, documented in schemas/view.schema.json. Errors: cancelled,
 /// out of memory.
