@@ -105,10 +105,11 @@ void save(const RunPointer& run, const std::filesystem::path& path, const RunOpt
   run_status(options, "write", [&](const parallel::Context& context) -> Status {
     Result<AtomicFile> file = AtomicFile::create(path);
     if (!file) return file.error();
-    const Status written = writer.write(
+    const auto written = writer.write(
         {run->drawing, run->ink, run->model->model()},
         [&](std::string_view text) { file->write(text); }, context);
-    return written ? file->commit() : written;
+    if (!written) return written.error();
+    return file->commit();
   });
 }
 

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -57,8 +58,9 @@ nb::bytes svg(const SheetRun& run) {
 void save(const SheetRun& run, const std::filesystem::path& path) {
   const auto writer = value_or_raise(find_writer(sheets::sheet_writers(), path.string()));
   AtomicFile file = value_or_raise(AtomicFile::create(path));
-  check(writer.write(run.sheet, run.model->model(),
-                     [&](std::string_view text) { file.write(text); }));
+  const auto written = writer.write(std::span(&run.sheet, 1), run.model->model(),
+                                    [&](std::string_view text) { file.write(text); }, {});
+  if (!written) check(written.error());
   check(file.commit());
 }
 

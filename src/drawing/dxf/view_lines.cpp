@@ -130,6 +130,17 @@ SortedLines sorted_lines(const Ink& ink) {
   return sorted;
 }
 
+/// Cuts the objects into shares of work of some thousand lines, or one object; returns where each
+/// begins, and the end.
+std::vector<std::size_t> shares_of(const std::vector<SortedLines::OfObject>& objects) {
+  constexpr std::size_t kLines = 4096;
+  std::vector<std::size_t> begins{0};
+  for (std::size_t i = 1; i < objects.size(); ++i)
+    if (objects[i].end - objects[begins.back()].begin > kLines) begins.push_back(i);
+  if (!objects.empty()) begins.push_back(objects.size());
+  return begins;
+}
+
 }  // namespace
 
 Status write_view_lines(const ViewLines& view, const model::Model& model,
@@ -159,12 +170,21 @@ Status write_view_lines(const ViewLines& view, const model::Model& model,
       }
     }
   };
-  return write_in_batches(
-      "dxf", sorted.objects.size(),
-      [&](std::size_t begin, std::size_t end, std::string& out) {
-        for (std::size_t i = begin; i < end; ++i) append_object(sorted.objects[i], out);
+  const std::vector<std::size_t> shares = shares_of(sorted.objects);
+  const parallel::ProgressPhase phase(context.progress, "dxf", sorted.lines.size());
+  return make_in_order(
+      "dxf", shares.size() - 1,
+      [&](std::size_t share) {
+        std::string text;
+        for (std::size_t i = shares[share]; i < shares[share + 1]; ++i)
+          append_object(sorted.objects[i], text);
+        return text;
       },
-      sink, context);
+      [&](const std::string& text, std::size_t share) {
+        sink(text);
+        phase.add(sorted.objects[shares[share + 1] - 1].end - sorted.objects[shares[share]].begin);
+      },
+      context);
 }
 
 }  // namespace strake::drawing::dxf
