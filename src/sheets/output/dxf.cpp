@@ -21,20 +21,20 @@ using drawing::dxf::PaperSpace;
 using drawing::dxf::ViewLayer;
 
 /// The classes that have layers of their own beside those of views, behind these in the file.
-struct MarkLayer {
+struct DxfMarkLayer {
   LineClass line;
   LayerName name;
 };
-constexpr std::array kMarkLayers{
-    MarkLayer{LineClass::grid, {"AM_7", "Grid lines"}},
-    MarkLayer{LineClass::grid_label, {"AM_7_TEXT", "Labels of grid lines"}},
-    MarkLayer{LineClass::leader, {"AM_5", "Leaders of tags"}},
-    MarkLayer{LineClass::title, drawing::dxf::kTitleLayer},
-    MarkLayer{LineClass::frame, {"AM_BOR", "Frame and title block"}},
-    MarkLayer{LineClass::frame_thin, drawing::dxf::kThinFrameLayer},
+constexpr std::array kDxfMarkLayers{
+    DxfMarkLayer{LineClass::grid, {"AM_7", "Grid lines"}},
+    DxfMarkLayer{LineClass::grid_label, {"AM_7_TEXT", "Labels of grid lines"}},
+    DxfMarkLayer{LineClass::leader, {"AM_5", "Leaders of tags"}},
+    DxfMarkLayer{LineClass::title, drawing::dxf::kTitleLayer},
+    DxfMarkLayer{LineClass::frame, {"AM_BOR", "Frame and title block"}},
+    DxfMarkLayer{LineClass::frame_thin, drawing::dxf::kThinFrameLayer},
 };
 
-LineClass class_of(ViewLayer layer) {
+LineClass class_of_view_layer(ViewLayer layer) {
   switch (layer) {
     case ViewLayer::hidden_by_other:
     case ViewLayer::hidden_by_self:
@@ -59,7 +59,7 @@ LineClass class_of(ViewLayer layer) {
   return LineClass::edge;
 }
 
-drawing::dxf::LayerStyle layer_style(const LayerName& name, const LineStyle& style) {
+drawing::dxf::LayerStyle dxf_layer_style(const LayerName& name, const LineStyle& style) {
   return {.name = std::string(name.name),
           .description = std::string(name.description),
           .width_mm = style.width_mm,
@@ -67,49 +67,51 @@ drawing::dxf::LayerStyle layer_style(const LayerName& name, const LineStyle& sty
           .color = style.color};
 }
 
-std::vector<drawing::dxf::LayerStyle> layers_of(const LineStyles& styles) {
+std::vector<drawing::dxf::LayerStyle> dxf_layers_of(const LineStyles& styles) {
   std::vector<drawing::dxf::LayerStyle> layers;
   for (std::size_t i = 0; i < drawing::dxf::kViewLayers; ++i) {
     const auto layer = static_cast<ViewLayer>(i);
-    layers.push_back(layer_style(drawing::dxf::name_of(layer), style_of(styles, class_of(layer))));
+    layers.push_back(dxf_layer_style(drawing::dxf::name_of(layer),
+                                     style_of(styles, class_of_view_layer(layer))));
   }
-  for (const MarkLayer& layer : kMarkLayers)
-    layers.push_back(layer_style(layer.name, style_of(styles, layer.line)));
+  for (const DxfMarkLayer& layer : kDxfMarkLayers)
+    layers.push_back(dxf_layer_style(layer.name, style_of(styles, layer.line)));
   layers.push_back(drawing::dxf::viewport_layer());
   return layers;
 }
 
 /// Returns the number of the layer that marks of a class lie on.
-std::size_t layer_of(LineClass line) {
-  for (std::size_t i = 0; i < kMarkLayers.size(); ++i)
-    if (kMarkLayers.at(i).line == line) return drawing::dxf::kViewLayers + i;
+std::size_t dxf_layer_of(LineClass line) {
+  for (std::size_t i = 0; i < kDxfMarkLayers.size(); ++i)
+    if (kDxfMarkLayers.at(i).line == line) return drawing::dxf::kViewLayers + i;
   for (std::size_t i = 0; i < drawing::dxf::kViewLayers; ++i)
-    if (class_of(static_cast<ViewLayer>(i)) == line) return i;
+    if (class_of_view_layer(static_cast<ViewLayer>(i)) == line) return i;
   return static_cast<std::size_t>(ViewLayer::edge);
 }
 
-drawing::dxf::TextAlign align_of(Align align) {
+drawing::dxf::TextAlign dxf_align_of(Align align) {
   return align == Align::start    ? drawing::dxf::TextAlign::start
          : align == Align::middle ? drawing::dxf::TextAlign::middle
                                   : drawing::dxf::TextAlign::end;
 }
 
-void add_marks(PaperSpace& paper, const Marks& marks) {
+void add_dxf_marks(PaperSpace& paper, const Marks& marks) {
   for (const Text& text : marks.texts) {
     if (!text.clears) continue;
     const PaperBox box = box_of(text);
-    paper.add_cover(layer_of(text.line), {box.left, box.top, box.right, box.bottom});
+    paper.add_cover(dxf_layer_of(text.line), {box.left, box.top, box.right, box.bottom});
   }
   for (const Path& path : marks.paths) {
     if (path.filled)
-      paper.add_filled(layer_of(path.line), path.points);
+      paper.add_filled(dxf_layer_of(path.line), path.points);
     else
-      paper.add_lines(layer_of(path.line), path.points);
+      paper.add_lines(dxf_layer_of(path.line), path.points);
   }
   for (const Circle& circle : marks.circles)
-    paper.add_circle(layer_of(circle.line), circle.center, circle.radius_mm);
+    paper.add_circle(dxf_layer_of(circle.line), circle.center, circle.radius_mm);
   for (const Text& text : marks.texts)
-    paper.add_text(layer_of(text.line), text.at, text.height_mm, align_of(text.align), text.text);
+    paper.add_text(dxf_layer_of(text.line), text.at, text.height_mm, dxf_align_of(text.align),
+                   text.text);
 }
 
 }  // namespace
@@ -119,15 +121,15 @@ Status write_dxf(const Sheet& sheet, const model::Model& model, drawing::Sink si
   drawing::dxf::SheetFile file{.width_mm = sheet.width_mm,
                                .height_mm = sheet.height_mm,
                                .opens_on_paper = true,
-                               .layers = layers_of(sheet.styles),
-                               .viewport_layer = drawing::dxf::kViewLayers + kMarkLayers.size(),
+                               .layers = dxf_layers_of(sheet.styles),
+                               .viewport_layer = drawing::dxf::kViewLayers + kDxfMarkLayers.size(),
                                .views = {}};
   for (const PlacedView& view : sheet.views) file.views.push_back({view.drawing, view.ink});
   const auto add_all_marks = [&](PaperSpace& paper) {
-    add_marks(paper, sheet.frame);
+    add_dxf_marks(paper, sheet.frame);
     for (const PlacedView& view : sheet.views)
       for (const Marks* marks : {&view.frame, &view.grid, &view.tags, &view.caption})
-        add_marks(paper, *marks);
+        add_dxf_marks(paper, *marks);
   };
   return write_sheet_file(file, add_all_marks, model, sink, context);
 }
