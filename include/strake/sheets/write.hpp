@@ -29,9 +29,9 @@ void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink
 
 /// Writes a sheet as DXF (drawing::write_dxf): views at true size in model space, one beside the
 /// other as on the sheet; the sheet as a layout of its size, with a viewport for each view, frame,
-/// captions, grid lines and tags. Artwork of a template is left out. Errors: cancelled, out of
-/// memory.
-[[nodiscard]] Status write_dxf(const Sheet& sheet, const model::Model& model, drawing::Sink sink,
-                               const parallel::Context& context);
+/// captions, grid lines and tags. Returns that a template was left out ("template-left-out"), where
+/// there is one. Errors: cancelled, out of memory.
+[[nodiscard]] Result<Diagnostics> write_dxf(const Sheet& sheet, const model::Model& model,
+                                            drawing::Sink sink, const parallel::Context& context);
 
 }  // namespace strake::sheets

@@ -116,8 +116,8 @@ void add_dxf_marks(PaperSpace& paper, const Marks& marks) {
 
 }  // namespace
 
-Status write_dxf(const Sheet& sheet, const model::Model& model, drawing::Sink sink,
-                 const parallel::Context& context) {
+Result<Diagnostics> write_dxf(const Sheet& sheet, const model::Model& model, drawing::Sink sink,
+                              const parallel::Context& context) {
   drawing::dxf::SheetFile file{.width_mm = sheet.width_mm,
                                .height_mm = sheet.height_mm,
                                .opens_on_paper = true,
@@ -131,7 +131,13 @@ Status write_dxf(const Sheet& sheet, const model::Model& model, drawing::Sink si
       for (const Marks* marks : {&view.frame, &view.grid, &view.tags, &view.caption})
         add_dxf_marks(paper, *marks);
   };
-  return write_sheet_file(file, add_all_marks, model, sink, context);
+  const Status status = write_sheet_file(file, add_all_marks, model, sink, context);
+  if (!status) return status.error();
+  Diagnostics noticed;
+  if (sheet.artwork)
+    noticed.add(Severity::warning, "template-left-out",
+                "the DXF has the sheet without its template, which is SVG", "the template");
+  return noticed;
 }
 
 }  // namespace strake::sheets

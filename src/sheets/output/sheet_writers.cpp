@@ -14,9 +14,7 @@ Result<Diagnostics> as_svg(std::span<const Sheet> sheets, const model::Model& mo
 
 Result<Diagnostics> as_dxf(std::span<const Sheet> sheets, const model::Model& model,
                            drawing::Sink sink, const parallel::Context& context) {
-  const Status status = write_dxf(sheets.front(), model, sink, context);
-  if (!status) return status.error();
-  return Diagnostics();
+  return write_dxf(sheets.front(), model, sink, context);
 }
 
 constexpr std::array kWriters{
