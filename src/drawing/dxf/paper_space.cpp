@@ -43,7 +43,8 @@ void PaperSpace::add_circle(std::size_t layer, const PaperPoint& centre, double 
 
 void PaperSpace::add_text(std::size_t layer, const PaperPoint& at, double height_mm,
                           TextAlign align, std::string_view text) {
-  append_text(text_, head(layer), up(at), height_mm, align, text);
+  // An audit throws texts of nothing away.
+  if (!text.empty()) append_text(text_, head(layer), up(at), height_mm, align, text);
 }
 
 void PaperSpace::add_cover(std::size_t layer, const PaperFrame& area) {

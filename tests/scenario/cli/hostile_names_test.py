@@ -60,6 +60,9 @@ class HostileNames(Scenario):
             self.assertEqual({len(row) for row in rows}, {len(rows[0])}, name)
         elif name.endswith('.svg'):
             ElementTree.fromstring(content)
+        elif name.endswith('.dxf'):
+            lines = content.decode().split('\n')
+            self.assertEqual([line for line in lines[:-1:2] if not line.isdecimal()], [], name)
 
     def check_json(self, *command):
         done = self.run_strake(*command, '--json', encoding='utf-8')
@@ -82,12 +85,13 @@ class HostileNames(Scenario):
         self.told('clash', *self.models, '--a', f'name = "{PLANTED}*"', code=(0, 2))
 
     def test_drawings(self):
-        self.told('draw', *self.models, '--title', 'plain', '-o', 'd.svg', '-o', 'd.json', '-o', 'd.view', '--stats')
+        self.told('draw', *self.models, '--title', 'plain', '-o', 'd.svg', '-o', 'd.dxf', '-o', 'd.json', '-o', 'd.view',
+                  '--stats')
         self.told('draw', *self.models[:2], '-o', 'e.view')
         self.told('draw', 'diff', 'd.view', 'e.view', '-o', 'diff.svg', '-o', 'diff.json')
         self.write('s.toml', '[[view]]\ndirection = "top"\n[[tag]]\nselect = "name = \'*\'"\ntext = "{name}"\n')
         self.told('draw', *self.models[:2], '--sheet', 's.toml', '-o', 's.svg', code=(0, 3))
-        for name in ('d.svg', 'd.json', 'diff.svg', 'diff.json'):
+        for name in ('d.svg', 'd.dxf', 'd.json', 'diff.svg', 'diff.json'):
             self.check_file(name)
 
     def test_projects(self):
