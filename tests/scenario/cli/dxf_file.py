@@ -6,7 +6,8 @@ from collections import Counter, defaultdict
 
 # The package of Debian serves another Python, too: it is Python alone.
 sys.path.append('/usr/lib/python3/dist-packages')
-import ezdxf  # noqa: E402  pylint: disable=wrong-import-position
+import ezdxf  # noqa: E402
+from ezdxf.lldxf.encoding import decode_dxf_unicode  # noqa: E402
 
 LAYERS = {'contour': 'AM_0', 'boundary': 'AM_0_BOUNDARY', 'intersection': 'AM_0_INTERSECTION', 'section': 'AM_0_SECTION',
           'hatch': 'AM_8', 'polyline': 'AM_4', 'smooth': 'AM_4_SMOOTH', 'sharp': 'AM_0_EDGE', 'non_manifold': 'AM_0_EDGE'}
@@ -23,9 +24,14 @@ def read(path):
     return document, [error.message for error in [*audit.errors, *audit.fixes]]
 
 
+def shown(value):
+    """What a program shows of a value: ezdxf leaves it as it is written."""
+    return decode_dxf_unicode(value).replace('^ ', '^')
+
+
 def object_of(entity):
     """(id, name, file), as the entity says itself."""
-    return tuple(tag.value for tag in entity.get_xdata('STRAKE') if tag.code == 1000)
+    return tuple(shown(tag.value) for tag in entity.get_xdata('STRAKE') if tag.code == 1000)
 
 
 def segments_of(entity):
@@ -93,7 +99,8 @@ class View:
     def layer(self, piece, hidden):
         if piece['state'] == 'visible':
             return LAYERS[piece['kind']]
-        return HIDDEN.get(piece['state']) if hidden else None
+        # Hidden edges of smooth surfaces get no ink.
+        return HIDDEN.get(piece['state']) if hidden and piece['kind'] != 'smooth' else None
 
     def width(self, curve):
         """Half the minor axis of a curve, mm at true size."""

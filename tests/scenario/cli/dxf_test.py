@@ -68,7 +68,7 @@ class Dxf(Scenario):
                 self.check_sheet(document, view)
                 count += 1
         self.assertEqual(count, 31)
-        self.assertGreater(arcs, 100)
+        self.assertGreater(arcs, 80)
 
     def check_sheet(self, document, view):
         """The layout is the sheet, and its window shows the view at the scale of the drawing."""
@@ -92,7 +92,7 @@ class Dxf(Scenario):
         self.assertEqual(faults, [])
         names = {object_of(entity)[1] for entity in document.modelspace()}
         self.assertEqual(len(names), len(NAMES))
-        for name in ('plain', 'two\ufffdlines\ufffd\ufffd0\ufffdSECTION', '100%%d %%%', '^ J ^ M^ ', NAMES[4], NAMES[5], NAMES[7],
+        for name in ('plain', 'two\ufffdlines\ufffd\ufffd0\ufffdSECTION', '100%%d %%%', NAMES[3], NAMES[4], NAMES[5], NAMES[7],
                      'x' * 252 + '\u2026', NAMES[10]):
             self.assertIn(name, names)
         for entity in document.modelspace():
@@ -115,7 +115,7 @@ class Dxf(Scenario):
         for form in ('v.json', 'v.view'):
             self.text('draw', form, '-o', 'again.dxf', '--quiet')
             self.assertEqual((self.folder / 'again.dxf').read_bytes(), (self.folder / 'v.dxf').read_bytes(), form)
-        self.text('draw', 'v.view', '-o', 'larger.dxf', '--scale', '2:1', '--paper', 'A0', '--quiet')
+        self.text('draw', 'v.view', '-o', 'larger.dxf', '--scale', '1:2', '--paper', 'A1', '--quiet')
         document, faults = read(self.folder / 'larger.dxf')
         self.assertEqual(faults, [])
         view = json.loads((self.folder / 'v.json').read_text(encoding='utf-8'))
@@ -140,7 +140,7 @@ class Dxf(Scenario):
             x, y, *_ = window.dxf.view_center_point
             seen.append((x - half[1], y - half[0], x + half[1], y + half[0]))
         front, top = seen[:2]
-        self.assertEqual(front[0] - top[0], 0, 'a view below another is in line with it')
+        self.assertAlmostEqual(front[0], top[0], 2, 'a view below another is in line with it')
         for entity in document.modelspace().query('LINE'):
             for p in (entity.dxf.start, entity.dxf.end):
                 within = [box for box in seen if box[0] <= p.x <= box[2] and box[1] <= p.y <= box[3]]
