@@ -30,8 +30,9 @@ constexpr double kRound = 5e-4, kFull = 1e-7;
 double rounded(double value, double per_unit) {
   return std::nearbyint(value * per_unit) / per_unit + 0.0;
 }
-/// Rounds to a millionth of a millimetre.
-PaperPoint rounded_centre(const PaperPoint& p) { return {rounded(p.x, 1e6), rounded(p.y, 1e6)}; }
+PaperPoint rounded(const PaperPoint& p, double per_unit) {
+  return {rounded(p.x, per_unit), rounded(p.y, per_unit)};
+}
 
 /// An arc against the clock, by its parameters from the major axis.
 struct Arc {
@@ -44,7 +45,8 @@ struct Arc {
 double positive_turn(double angle) { return angle < 0 ? angle + 2 * kPi : angle; }
 
 Arc arc_of(const Stroke& stroke, const StrokeRun& run) {
-  Arc arc{run.curve->centre, axes_of(*run.curve)};
+  // As the ends of lines, a centre is known to a micrometre.
+  Arc arc{rounded(run.curve->centre, 1e3), axes_of(*run.curve)};
   arc.full = std::fabs(turn_of(stroke, run)) >= 2 * kPi * (1 - kFull) &&
              stroke.points[run.first] == stroke.points[run.last];
   const auto turn = geometry::sin_cos(arc.axes.turn_rad);
@@ -60,20 +62,20 @@ Arc arc_of(const Stroke& stroke, const StrokeRun& run) {
 }
 
 void append_curve(std::string& out, const EntityHead& head, const Arc& arc) {
-  const PaperPoint centre = rounded_centre(arc.centre);
   const auto degrees = [](double rad) { return rounded(rad * 180 / kPi, 1e8); };
   const auto& [major, minor, turn_rad] = arc.axes;
   if (major - minor <= kRound) {
     const double radius = rounded((major + minor) / 2, 1e6);
-    if (arc.full) return append_circle(out, head, centre, radius);
+    if (arc.full) return append_circle(out, head, arc.centre, radius);
     const auto angle = [&](double parameter) {
       const double turned = degrees(parameter + turn_rad);
       return turned < 0 ? turned + 360 : turned >= 360 ? turned - 360 : turned;
     };
-    return append_arc(out, head, centre, radius, angle(arc.from), angle(arc.to));
+    return append_arc(out, head, arc.centre, radius, angle(arc.from), angle(arc.to));
   }
   const auto turn = geometry::sin_cos(turn_rad);
-  append_ellipse(out, head, centre, rounded_centre({major * turn.cos, major * turn.sin}),
+  append_ellipse(out, head, arc.centre,
+                 rounded(PaperPoint{major * turn.cos, major * turn.sin}, 1e6),
                  rounded(minor / major, 1e10), arc.full ? 0 : rounded(arc.from, 1e10),
                  arc.full ? 2 * kPi : rounded(arc.to, 1e10));
 }
