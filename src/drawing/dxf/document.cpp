@@ -66,20 +66,22 @@ void append_header(Groups& groups, const Document& document) {
 
 void append_classes(Groups& groups) {
   struct Class {
-    std::string_view name, type;
+    std::string_view name, type, application = "ObjectDBX Classes";
+    bool is_entity = false;
   };
   begin_section(groups, "CLASSES");
-  for (const Class& c :
-       {Class{"ACDBDICTIONARYWDFLT", "AcDbDictionaryWithDefault"},
-        Class{"ACDBPLACEHOLDER", "AcDbPlaceHolder"}, Class{"LAYOUT", "AcDbLayout"}})
+  for (const Class& c : {Class{"ACDBDICTIONARYWDFLT", "AcDbDictionaryWithDefault"},
+                         Class{"ACDBPLACEHOLDER", "AcDbPlaceHolder"}, Class{"LAYOUT", "AcDbLayout"},
+                         Class{"WIPEOUTVARIABLES", "AcDbWipeoutVariables", "WipeOut"},
+                         Class{"WIPEOUT", "AcDbWipeout", "WipeOut", true}})
     groups.text(0, "CLASS")
         .text(1, c.name)
         .text(2, c.type)
-        .text(3, "ObjectDBX Classes")
-        .whole(90, 0)
-        .whole(91, 1)
+        .text(3, c.application)
+        .whole(90, c.is_entity ? 127 : 0)
+        .whole(91, 0)
         .whole(280, 0)
-        .whole(281, 0);
+        .whole(281, c.is_entity ? 1 : 0);
   groups.text(0, "ENDSEC");
 }
 
@@ -173,6 +175,7 @@ void append_objects(Groups& groups, const Document& document) {
   entry("ACAD_LAYOUT", kLayouts);
   entry("ACAD_MLINESTYLE", kLineStyles);
   entry("ACAD_PLOTSTYLENAME", kPlotStyles);
+  entry("ACAD_WIPEOUT_VARS", kWipeoutVariables);
   begin_dictionary(groups, kGroups, kRoot);
   begin_dictionary(groups, kLayouts, kRoot);
   entry("Model", kModelLayout);
@@ -187,6 +190,12 @@ void append_objects(Groups& groups, const Document& document) {
   entry("Normal", kNormalPlotStyle);
   groups.text(100, "AcDbDictionaryWithDefault").handle(340, kNormalPlotStyle);
   groups.text(0, "ACDBPLACEHOLDER").handle(5, kNormalPlotStyle).handle(330, kPlotStyles);
+  // Areas that cover what lies below are drawn without frames.
+  groups.text(0, "WIPEOUTVARIABLES")
+      .handle(5, kWipeoutVariables)
+      .handle(330, kRoot)
+      .text(100, "AcDbWipeoutVariables")
+      .whole(70, 0);
   groups.text(0, "MLINESTYLE")
       .handle(5, kLineStyle)
       .handle(330, kLineStyles)

@@ -7,18 +7,14 @@ namespace strake::drawing::dxf {
 
 namespace {
 
-enum class Color : std::uint8_t { of_layer, white };
-
 Groups begin(std::string& out, std::string_view type, const EntityHead& head,
-             std::string_view subclass, Color color = Color::of_layer) {
-  constexpr int kWhiteNumber = 255, kWhite = 0xFFFFFF;
+             std::string_view subclass) {
   Groups groups(out);
   groups.text(0, type).handle(5, head.handle);
   const bool on_paper = head.space == Space::paper;
   groups.handle(330, on_paper ? kPaperSpace : kModelSpace).text(100, "AcDbEntity");
   if (on_paper) groups.whole(67, 1);
   groups.text(8, head.layer);
-  if (color == Color::white) groups.whole(62, kWhiteNumber).whole(420, kWhite);
   return groups.text(100, subclass);
 }
 
@@ -99,11 +95,25 @@ void append_filled(std::string& out, const EntityHead& head, std::span<const Pap
 
 void append_cover(std::string& out, const EntityHead& head, const PaperPoint& low,
                   const PaperPoint& high) {
-  begin(out, "SOLID", head, "AcDbTrace", Color::white)
+  // An image of one dot, as large as the area and clipped by its own rim.
+  constexpr int kShownClippedWithAll = 7;
+  begin(out, "WIPEOUT", head, "AcDbWipeout")
+      .whole(90, 0)
       .point_in_space(10, low.x, low.y)
-      .point_in_space(11, high.x, low.y)
-      .point_in_space(12, low.x, high.y)
-      .point_in_space(13, high.x, high.y);
+      .point_in_space(11, high.x - low.x, 0)
+      .point_in_space(12, 0, high.y - low.y)
+      .point(13, 1, 1)
+      .handle(340, 0)
+      .whole(70, kShownClippedWithAll)
+      .whole(280, 1)
+      .whole(281, 50)
+      .whole(282, 50)
+      .whole(283, 0)
+      .handle(360, 0)
+      .whole(71, 1)
+      .whole(91, 2)
+      .point(14, -0.5, 0.5)
+      .point(14, 0.5, -0.5);
 }
 
 void append_viewport(std::string& out, const EntityHead& head, const Viewport& viewport,

@@ -51,7 +51,7 @@ void append_text(std::string& out, const EntityHead& head, const PaperPoint& at,
 /// Appends an area of one colour; the last point is not the first.
 void append_filled(std::string& out, const EntityHead& head, std::span<const PaperPoint> points);
 
-/// Appends a white area, which covers what was drawn before.
+/// Appends an area in which nothing is seen of what was drawn before.
 void append_cover(std::string& out, const EntityHead& head, const PaperPoint& low,
                   const PaperPoint& high);
 

@@ -19,7 +19,8 @@ inline constexpr Handle kModelSpace = 0x20, kModelBlock = 0x21, kModelBlockEnd =
                         kModelLayout = 0x23, kPaperSpace = 0x24, kPaperBlock = 0x25,
                         kPaperBlockEnd = 0x26, kPaperLayout = 0x27;
 inline constexpr Handle kRoot = 0x30, kGroups = 0x31, kLayouts = 0x32, kLineStyles = 0x33,
-                        kLineStyle = 0x34, kPlotStyles = 0x35, kNormalPlotStyle = 0x36;
+                        kLineStyle = 0x34, kPlotStyles = 0x35, kNormalPlotStyle = 0x36,
+                        kWipeoutVariables = 0x37;
 /// Where layers and types of lines begin, which there are fewer than a hundred of, …
 inline constexpr Handle kFirstLayer = 0x100, kFirstLineType = 0x200;
 /// … and entities, the paper itself first.
