@@ -53,7 +53,9 @@ class PdfDocument {
 
   /// Appends the operators that write a text on one line.
   void append_text(std::string& out, std::string_view text, const PdfTextPlace& place);
-  /// Appends the same in a place that the current matrix says: the base line begins at the origin,
+  /// Returns the width of a text in sizes of the font.
+  [[nodiscard]] double width_of(std::string_view text);
+  /// Appends the same in a place that the text matrix says: the base line begins at the origin,
   /// y up, and the font has the size 1. Returns the width.
   double append_text_at_origin(std::string& out, std::string_view text);
 
