@@ -88,11 +88,11 @@ std::string pdf_text(std::string_view text) {
     append_pdf_literal(out, text);
     return out;
   }
-  constexpr std::uint32_t kReplacementCode = 0xFFFD;
+  constexpr std::uint32_t kUnshown = 0xFFFD;
   std::string wide = "\xFE\xFF";
   while (!text.empty()) {
     const TakenCharacter c = take_character(text);
-    append_utf16(wide, is_printable(c) ? c.code : kReplacementCode);
+    append_utf16(wide, is_printable(c) ? c.code : kUnshown);
   }
   append_pdf_literal(out, wide);
   return out;

@@ -131,15 +131,15 @@ TEST(Lettering, FontHasTheWidthsThatTitleBlocksAssume) {
 
 TEST(Lettering, SubsetKeepsWhatItsGlyphsAreMadeOf) {
   const TrueTypeFont font(font_data());
-  const GlyphId ring = font.glyph_of(0xC5), a = font.glyph_of('A');  // A with a ring, of an A
-  const std::string small = font.subset({ring}), large = font.subset({ring, font.glyph_of('Q')});
+  const GlyphId umlaut = font.glyph_of(0xC4), a = font.glyph_of('A');  // A with two dots, of an A
+  const std::string small = font.subset({umlaut}), large = font.subset({umlaut, font.glyph_of('Q')});
   EXPECT_LT(small.size(), font_data().size() / 8);
   EXPECT_LT(small.size(), large.size());
-  EXPECT_EQ(small, font.subset({ring})) << "the same glyphs, other bytes";
+  EXPECT_TRUE(small == font.subset({umlaut})) << "the same glyphs, other bytes";
   const TrueTypeFont kept(small);
-  EXPECT_EQ(kept.advance(ring), font.advance(ring));
+  EXPECT_EQ(kept.advance(umlaut), font.advance(umlaut));
   EXPECT_EQ(kept.advance(a), font.advance(a)) << "a component is lost";
-  EXPECT_EQ(font.subset({ring, a}), small);
+  EXPECT_TRUE(font.subset({umlaut, a}) == small);
   EXPECT_NE(kept.advance(font.glyph_of('Q')), font.advance(font.glyph_of('Q')));
   // The sum of all words of the file is what its head says.
   std::uint32_t sum = 0;

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 12> kUnseen{
     "clipPath", "mask", "pattern", "marker", "linearGradient", "radialGradient"};
 
 /// Fits a viewBox into the paper, in its middle, as SVG does where nothing else is said.
-Affine fit(std::string_view view_box, const drawing::PaperSize& paper) {
+Affine fit_view_box(std::string_view view_box, const drawing::PaperSize& paper) {
   const auto box = svg_numbers(view_box);
   if (!box || box->size() != 4 || !((*box)[2] > 0) || !((*box)[3] > 0)) return {};
   const double scale = std::min(paper.width_mm / (*box)[2], paper.height_mm / (*box)[3]);
@@ -290,7 +290,7 @@ Status append_artwork(std::string& out, drawing::PdfDocument& document,
   const Result<SvgElements> elements = parse_elements(artwork.elements);
   if (!elements) return elements.error();
   ArtworkDrawer drawer(out, document, *elements);
-  drawer.draw(fit(artwork.view_box, paper));
+  drawer.draw(fit_view_box(artwork.view_box, paper));
   for (const std::string& what : drawer.left_out())
     diagnostics.add(Severity::warning, "template-part-left-out",
                     "the PDF has the template without this: " + what, "the template");

@@ -61,7 +61,7 @@ std::optional<model::Color> hex_color(std::string_view digits) {
   return model::Color{parts[0], parts[1], parts[2], 255};
 }
 
-std::optional<model::Color> color_of(std::string_view value) {
+std::optional<model::Color> paint_color(std::string_view value) {
   const std::string lower = lowered(value);
   const std::string_view text(lower);
   if (text.starts_with('#')) return hex_color(text.substr(1));
@@ -94,32 +94,36 @@ class StyleReader {
   void take(std::string_view property, std::string_view value) {
     value = trimmed(value, kSpace);
     if (value == "inherit") return;
-    if (!take_paint(property, value) && !take_line(property, value) && !take_rest(property, value))
+    std::optional<bool> taken = take_paint(property, value);
+    if (!taken) taken = take_line(property, value);
+    if (!taken) taken = take_rest(property, value);
+    if (!*taken)
       tell_(std::string(property) + ": " + std::string(value.substr(0, 40)));
   }
 
  private:
-  bool take_paint(std::string_view property, std::string_view value) {
+  // Each returns whether the value is understood, and nothing where the property is not its own.
+  std::optional<bool> take_paint(std::string_view property, std::string_view value) {
     const bool fill = property == "fill";
-    if (!fill && property != "stroke") return false;
+    if (!fill && property != "stroke") return std::nullopt;
     std::optional<model::Color>& paint = fill ? style_.fill : style_.stroke;
     if (value == "none" || value == "transparent") {
       paint.reset();
       return true;
     }
-    const auto color = color_of(value);
+    const auto color = paint_color(value);
     if (color) paint = *color;
     return color.has_value();
   }
 
-  bool take_line(std::string_view property, std::string_view value) {
+  std::optional<bool> take_line(std::string_view property, std::string_view value) {
     constexpr std::array<std::string_view, 3> kCaps{"butt", "round", "square"};
     constexpr std::array<std::string_view, 3> kJoins{"miter", "round", "bevel"};
     if (property == "stroke-width") return length(value, style_.stroke_width);
     if (property == "stroke-miterlimit") return length(value, style_.miter_limit);
     if (property == "stroke-linecap") return place(place_among(kCaps, value), style_.cap);
     if (property == "stroke-linejoin") return place(place_among(kJoins, value), style_.join);
-    if (property != "stroke-dasharray") return false;
+    if (property != "stroke-dasharray") return std::nullopt;
     style_.dashes.clear();
     if (value == "none") return true;
     bool good = true;
