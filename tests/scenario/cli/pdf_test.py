@@ -136,8 +136,8 @@ class Pdf(Scenario):
                             (['--view', 'bottom', '--paper', '900mmx420mm'], (900, 420))):
             with self.subTest(more=more):
                 self.both('ship.glb', *more, paper=paper)
-        self.both('ship.glb', '--view', 'top', '--paper', 'A0', '--title', 'Δ Ж ß É')
-        self.assertIn('Δ Ж ß É', self.text_of('d.pdf'))
+        self.both('ship.glb', '--view', 'top', '--paper', 'A0', '--title', 'ΔΛΩ Живот Größe Élan')
+        self.assertIn('ΔΛΩ Живот Größe Élan', self.text_of('d.pdf'))
 
     def test_sheets_are_the_pictures_that_svg_is(self):
         self.ship()
@@ -153,7 +153,7 @@ class Pdf(Scenario):
         sheets = {'plain': 'arrangement = "first-angle"\n',
                   'third': '[sheet]\nsize = "A1"\n[arrangement]\nprojection = "third-angle"\n',
                   'no frame': '[sheet]\nframe = false\nsize = ["500mm", "300mm"]\n' + views,
-                  'tags': views + '[[tag]]\nselect = "name = \'TNK*\'"\ntext = "{{name}}"\n[grid]\nx = { A = "1m", B = "5m" }\n',
+                  'tags': views + '[[tag]]\nselect = "name = \'TNK*\'"\ntext = "{{name}}"\n[grid]\nx = [["A", "1m"], ["B", "5m"]]\n',
                   'styles': views + '[styles]\noutline = { width = "1mm", color = "#a00000" }\n'
                                     'hidden = { dash = ["3mm", "1mm"], color = "#0000ff" }\n',
                   'template': '[sheet]\ntemplate = "frame.svg"\n[fields]\nnumber = "ÄÖ-1"\n' + views,
