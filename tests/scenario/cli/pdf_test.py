@@ -224,6 +224,37 @@ class Pdf(Scenario):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual([name for name in self.layers('h.pdf') if name in CAUSES], ['Hidden by the object itself'])
 
+    def ink_without(self, name, *off):
+        """How dark the page is with these layers switched off."""
+        done = tool('qpdf', '--json=2', '--json-key=qpdf', self.folder / name)
+        head, found = json.loads(done.stdout)['qpdf']
+        root = f"obj:{found['trailer']['value']['/Root']}"
+        layers = found[root]['value']['/OCProperties']
+        layers['/D']['/OFF'] = [item for item in layers['/OCGs'] if found[f'obj:{item}']['value']['/Name'][2:] in off]
+        self.assertGreaterEqual(len(layers['/D']['/OFF']), len(off))
+        self.write('off.json', json.dumps({'qpdf': [head, {root: found[root]}]}))
+        done = tool('qpdf', self.folder / name, '--update-from-json=' + str(self.folder / 'off.json'), self.folder / 'off.pdf')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        picture, _ = cells(tool('pdftoppm', '-gray', '-r', DPI, '-singlefile', self.folder / 'off.pdf').stdout)
+        return sum(picture)
+
+    def test_layers_that_are_off_are_not_seen(self):
+        self.write('m.obj', cube('near', 0, (0, 0, 0), 1000) + cube('far', 1, (300, 1500, 300), 400))
+        view = '[[view]]\nname = "{}"\nposition = ["{}", "150mm"]\ndirection = "{}"\nhidden = "all"\ntitle = ""\n'
+        self.write('s.toml', '[sheet]\nframe = false\nscale = "1:10"\n' + view.format('a', '100mm', 'front') +
+                   view.format('b', '300mm', '1,-2,1'))
+        done = self.run_strake('draw', 'm.obj', '--unit', 'mm', '--up-axis', 'z', '--sheet', 's.toml', '-o', 's.pdf')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        whole = self.ink_without('s.pdf')
+        a, b, visible = (self.ink_without('s.pdf', off) for off in ('a', 'b', 'Visible sharp'))
+        hidden = self.ink_without('s.pdf', *CAUSES)
+        for part in (a, b, visible, hidden):
+            self.assertLess(0.01 * whole, part)
+            self.assertLess(part, 0.99 * whole)
+        self.assertEqual(self.ink_without('s.pdf', 'a', 'b'), 0)
+        kinds = [name for name in self.layers('s.pdf')[1] if name.startswith('Hidden') and name not in CAUSES]
+        self.assertAlmostEqual(self.ink_without('s.pdf', *kinds), hidden)
+
     def contents(self, name):
         done = tool('qpdf', '--qdf', '--object-streams=disable', self.folder / name, '-')
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -263,6 +294,9 @@ class Pdf(Scenario):
         done = self.run_strake('draw', 'm.gltf', '--sheet', 's.toml', '-o', 's.pdf', encoding='utf-8')
         self.assertEqual(done.returncode, 0, done.stderr)
         self.check('s.pdf')
+        for name in ('d.pdf', 's.pdf'):  # QPDF looks into no contents
+            done_by_poppler = tool('pdftoppm', '-gray', '-r', 20, '-singlefile', self.folder / name)
+            self.assertEqual((done_by_poppler.returncode, done_by_poppler.stderr), (0, b''), name)
         self.assertIn('text-character-missing', done.stderr)
         self.assertIn('U+8239', done.stderr)
         words = self.text_of('s.pdf')
