@@ -97,8 +97,7 @@ class StyleReader {
     std::optional<bool> taken = take_paint(property, value);
     if (!taken) taken = take_line(property, value);
     if (!taken) taken = take_rest(property, value);
-    if (!*taken)
-      tell_(std::string(property) + ": " + std::string(value.substr(0, 40)));
+    if (!*taken) tell_(std::string(property) + ": " + std::string(value.substr(0, 40)));
   }
 
  private:
@@ -233,6 +232,12 @@ void StyleSheet::add_rule(std::string_view selector, std::string_view declaratio
   const std::string rest = rule.name + rule.class_name + rule.id;
   if (rest.find_first_of(" >+~:[.#*@") != std::string::npos) {
     tell("the style of " + in_quotes(selector.substr(0, 40)));
+    return;
+  }
+  // Each element asks each rule.
+  constexpr std::size_t kMostRules = 1000;
+  if (rules_.size() == kMostRules) {
+    tell("the styles beyond the first 1000");
     return;
   }
   rule.weight = !rule.id.empty() ? 100U : !rule.class_name.empty() ? 10U : 0U;
