@@ -29,7 +29,8 @@ struct PdfTextPlace {
 };
 
 /// Writes a document page by page. Contents are operators in millimetres of the sheet, x to the
-/// right, y down, with round caps and joins. What the sink throws comes out.
+/// right, y down, with round caps and joins. What the sink throws comes out; it must outlive the
+/// document.
 class PdfDocument {
  public:
   /// `facts` are what the metadata say of the views, one pdf_facts() after another.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <sstream>
 #include <stop_token>
@@ -55,7 +56,7 @@ TEST(PdfSyntax, TextsAreAsciiOrUtf16AndCommandNothing) {
 
 TEST(PdfSyntax, BytesComeBackFromDeflated) {
   std::string bytes;
-  for (int i = 0; i < 200000; ++i) bytes += static_cast<char>(i * i % 251);
+  for (std::uint32_t i = 0; i < 200000; ++i) bytes += static_cast<char>(i * i % 251);
   EXPECT_EQ(test::inflated(deflated(bytes)), bytes);
   EXPECT_EQ(test::inflated(deflated("")), "");
 }
@@ -285,7 +286,8 @@ TEST(Pdf, PaperLargerThanPagesMayBeHasLargerUnits) {
 
 TEST(Pdf, PagesHaveBookmarksAndLayersOfTheirOwn) {
   std::string text;
-  PdfDocument document([&](std::string_view part) { text += part; }, "set", "");
+  const auto sink = [&](std::string_view part) { text += part; };
+  PdfDocument document(sink, "set", "");
   for (const char* title : {"first", "second"}) {
     document.begin_page({210, 297}, title);
     const PdfLayerId view = document.add_layer("plan");

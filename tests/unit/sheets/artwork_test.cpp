@@ -79,7 +79,8 @@ struct Artwork {
   Diagnostics told;
 
   explicit Artwork(const std::string& elements, const std::string& view_box = "0 0 100 50") {
-    drawing::PdfDocument document([](auto) {}, "t", "");
+    const auto nowhere = [](std::string_view) {};
+    drawing::PdfDocument document(nowhere, "t", "");
     const Status status =
         append_artwork(operators, document, {view_box, elements}, {100, 50}, told);
     EXPECT_TRUE(status) << elements;
