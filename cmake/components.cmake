@@ -72,6 +72,7 @@ set(manual
   docs/formats/gltf.md
   docs/formats/ifc.md
   docs/formats/importers.md
+  docs/formats/pdf.md
   docs/formats/primitives.md
   docs/formats/step.md
   docs/hidden-line-algorithms.md

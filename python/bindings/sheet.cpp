@@ -55,13 +55,15 @@ nb::bytes svg(const SheetRun& run) {
   return nb::bytes(text.data(), text.size());
 }
 
-void save(const SheetRun& run, const std::filesystem::path& path) {
+/// Returns what could not be written as it is.
+nb::list save(const SheetRun& run, const std::filesystem::path& path) {
   const auto writer = value_or_raise(find_writer(sheets::sheet_writers(), path.string()));
   AtomicFile file = value_or_raise(AtomicFile::create(path));
-  const auto written = writer.write(std::span(&run.sheet, 1), run.model->model(),
-                                    [&](std::string_view text) { file.write(text); }, {});
-  if (!written) check(written.error());
+  const Diagnostics noticed =
+      value_or_raise(writer.write(std::span(&run.sheet, 1), run.model->model(),
+                                  [&](std::string_view text) { file.write(text); }, {}));
   check(file.commit());
+  return listed(noticed);
 }
 
 }  // namespace

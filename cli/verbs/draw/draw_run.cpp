@@ -139,7 +139,7 @@ Status write_drawing(Session& session, const DrawOptions& given,
       return {};
     });
     if (!status) return status;
-    print_diagnostics(session.console(), noticed);
+    print_diagnostics(session.console(), noticed, {"text-character-missing"});
   }
   if (!session.json()) return {};
   return session.write_stdout([&](Session::Sink sink) {

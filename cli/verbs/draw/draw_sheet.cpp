@@ -106,7 +106,8 @@ Status write_sheets(Session& session, const SheetRequest& request,
       return {};
     });
     if (!status) return status;
-    print_diagnostics(session.console(), noticed);
+    print_diagnostics(session.console(), noticed,
+                      {"text-character-missing", "template-part-left-out"});
   }
   return {};
 }

@@ -101,6 +101,8 @@ std::string PdfDocument::close(PdfLayerId layer) const {
   return "EMC\n" + above;
 }
 
+double PdfDocument::width_of(std::string_view text) { return letterer_.set(text).width; }
+
 double PdfDocument::append_text_at_origin(std::string& out, std::string_view text) {
   const LetteredText set = letterer_.set(text);
   // Who copies the text gets what it says, whatever is shown of it.

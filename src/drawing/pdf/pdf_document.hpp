@@ -29,7 +29,8 @@ struct PdfTextPlace {
 };
 
 /// Writes a document page by page. Contents are operators in millimetres of the sheet, x to the
-/// right, y down, with round caps and joins. What the sink throws comes out.
+/// right, y down, with round caps and joins. What the sink throws comes out; it must outlive the
+/// document.
 class PdfDocument {
  public:
   /// `facts` are what the metadata say of the views, one pdf_facts() after another.
@@ -53,7 +54,9 @@ class PdfDocument {
 
   /// Appends the operators that write a text on one line.
   void append_text(std::string& out, std::string_view text, const PdfTextPlace& place);
-  /// Appends the same in a place that the current matrix says: the base line begins at the origin,
+  /// Returns the width of a text in sizes of the font.
+  [[nodiscard]] double width_of(std::string_view text);
+  /// Appends the same in a place that the text matrix says: the base line begins at the origin,
   /// y up, and the font has the size 1. Returns the width.
   double append_text_at_origin(std::string& out, std::string_view text);
 

@@ -3,6 +3,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -50,16 +51,20 @@ void append_utf16(std::string& out, std::uint32_t code) {
 }  // namespace
 
 void append_pdf_number(std::string& out, double value, int decimals) {
-  double scale = 1;
-  for (int i = 0; i < decimals; ++i) scale *= 10;
-  append_scaled(out, std::llround(value * scale), decimals);
+  constexpr std::array<double, 13> kScales{1,   1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
+                                           1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
+  const double scale = kScales.at(static_cast<std::size_t>(decimals));
+  // What is no number, or lies off any paper, is written as a number all the same.
+  constexpr double kMost = 9e18;
+  const double units = std::isnan(value) ? 0 : std::clamp(value * scale, -kMost, kMost);
+  append_scaled(out, std::llround(units), decimals);
 }
 
 void append_pdf_point(std::string& out, const PaperPoint& point) {
-  append_scaled(out, std::llround(point.x * 1000), 3);
-  out += ' ';
-  append_scaled(out, std::llround(point.y * 1000), 3);
-  out += ' ';
+  for (const double value : {point.x, point.y}) {
+    append_pdf_number(out, value, 3);
+    out += ' ';
+  }
 }
 
 void append_pdf_literal(std::string& out, std::string_view bytes) {
@@ -83,11 +88,11 @@ std::string pdf_text(std::string_view text) {
     append_pdf_literal(out, text);
     return out;
   }
-  constexpr std::uint32_t kReplacementCode = 0xFFFD;
+  constexpr std::uint32_t kUnshown = 0xFFFD;
   std::string wide = "\xFE\xFF";
   while (!text.empty()) {
     const TakenCharacter c = take_character(text);
-    append_utf16(wide, is_printable(c) ? c.code : kReplacementCode);
+    append_utf16(wide, is_printable(c) ? c.code : kUnshown);
   }
   append_pdf_literal(out, wide);
   return out;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/number.hpp"
+#include "core/text_encoding.hpp"
 #include "drawing/buffered_writer.hpp"
 #include "drawing/pdf/pdf_path.hpp"
 #include "drawing/pdf/pdf_syntax.hpp"
@@ -34,13 +35,27 @@ struct Stream {
   std::span<const Line* const> lines;
 };
 
+/// Returns a name as what an object is marked with: older programs take strings of 32,767 bytes in
+/// contents, so that longer names end in an ellipsis.
+std::string mark_text(std::string_view name) {
+  constexpr std::size_t kMostBytes = 10000;
+  if (name.size() <= kMostBytes) return pdf_text(name);
+  std::string_view rest = name.substr(0, kMostBytes);
+  std::string cut;
+  while (!rest.empty()) {
+    const TakenCharacter c = take_character(rest);
+    if (c.length > 0 || !rest.empty()) cut += c.bytes;  // not half a character
+  }
+  return pdf_text(cut + "\xE2\x80\xA6");
+}
+
 void append_object(std::string& out, std::span<const Line* const> lines, const PaperCurves& curves,
                    const model::Model& model) {
   const std::vector<JoinedLines> chains = join_lines(lines);
   if (chains.empty()) return;
   const model::Object& object = model.object(lines.front()->object);
-  out += "/Strake<</Id" + pdf_text(object.id) + "/Name" + pdf_text(object.name) + "/File" +
-         pdf_text(model.files[object.file].label) + ">>BDC\n";
+  out += "/Strake<</Id" + mark_text(object.id) + "/Name" + mark_text(object.name) + "/File" +
+         mark_text(model.files[object.file].label) + ">>BDC\n";
   for (const JoinedLines& chain : chains) append_pdf_stroke(out, stroke_of(chain, curves));
   out += "S\nEMC\n";
 }

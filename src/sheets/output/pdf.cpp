@@ -8,6 +8,7 @@
 #include "drawing/pdf/pdf_path.hpp"
 #include "drawing/pdf/pdf_syntax.hpp"
 #include "drawing/pdf/pdf_view.hpp"
+#include "sheets/output/artwork/artwork.hpp"
 #include "sheets/output/line_styles.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/sheets/write.hpp"
@@ -36,13 +37,27 @@ class PageWriter {
   Status write(const Sheet& sheet) {
     sheet_ = &sheet;
     document_.begin_page({sheet.width_mm, sheet.height_mm}, sheet.title);
+    if (const Status status = write_artwork(); !status) return status;
     write_layer(sheet.frame, "Frame", std::nullopt);
     for (const PlacedView& view : sheet.views)
       if (const Status status = write_view(view); !status) return status;
     return {};
   }
 
+  /// Of templates, what is not drawn.
+  [[nodiscard]] const Diagnostics& diagnostics() const { return diagnostics_; }
+
  private:
+  Status write_artwork() {
+    if (!sheet_->artwork) return {};
+    const PdfLayerId layer = document_.add_layer("Frame");
+    std::string out = document_.open(layer);
+    const Status status = append_artwork(out, document_, *sheet_->artwork,
+                                         {sheet_->width_mm, sheet_->height_mm}, diagnostics_);
+    if (status) document_.add(out + document_.close(layer));
+    return status;
+  }
+
   Status write_view(const PlacedView& view) {
     const PdfLayerId layer = document_.add_layer(view.name);
     document_.add_bookmark(view.title.empty() ? view.name : view.title,
@@ -104,6 +119,7 @@ class PageWriter {
   const model::Model& model_;
   const parallel::Context& context_;
   const Sheet* sheet_ = nullptr;
+  Diagnostics diagnostics_;
 };
 
 }  // namespace
@@ -119,7 +135,9 @@ Result<Diagnostics> write_pdf(std::span<const Sheet> sheets, const model::Model&
   PageWriter pages(document, model, context);
   for (const Sheet& sheet : sheets)
     if (const Status status = pages.write(sheet); !status) return status.error();
-  return document.finish();
+  Diagnostics noticed = pages.diagnostics();
+  noticed.append(document.finish());
+  return noticed;
 }
 
 }  // namespace strake::sheets

@@ -38,8 +38,10 @@ class Files(Scenario):
     # Every kind of file that the program writes: the command line up to its name, and its ending.
     OUTPUTS = [(['clash', 'a.obj', '-o'], '.json'), (['clash', 'a.obj', '-o'], '.csv'),
                (['clash', 'a.obj', '--log-pairs'], '.csv'), (['clash', 'diff', 'old.json', 'old.json', '-o'], '.json'),
-               (['draw', 'a.obj', '-o'], '.svg'), (['draw', 'a.obj', '-o'], '.dxf'), (['draw', 'a.obj', '-o'], '.json'), (['draw', 'a.obj', '-o'], '.view'),
+               (['draw', 'a.obj', '-o'], '.svg'), (['draw', 'a.obj', '-o'], '.pdf'),
+               (['draw', 'a.obj', '-o'], '.dxf'), (['draw', 'a.obj', '-o'], '.json'), (['draw', 'a.obj', '-o'], '.view'),
                (['draw', 'a.obj', '--sheet', 'sheet.toml', '-o'], '.svg'),
+               (['draw', 'a.obj', '--sheet', 'sheet.toml', '-o'], '.pdf'),
                (['draw', 'a.obj', '--sheet', 'sheet.toml', '-o'], '.dxf'),
                (['draw', 'diff', 'old.view', 'old.view', '-o'], '.json'),
                (['draw', 'diff', 'old.view', 'old.view', '-o'], '.svg'),
