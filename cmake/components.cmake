@@ -74,6 +74,7 @@ set(manual
   docs/formats/ifc.md
   docs/formats/importers.md
   docs/formats/page.md
+  docs/formats/pdf.md
   docs/formats/primitives.md
   docs/formats/step.md
   docs/hidden-line-algorithms.md
@@ -124,6 +125,7 @@ strake_component(clash
 strake_component(drawing
   MODULES hlr drawing sheets
   DEPENDS parallel geometry model
+  PACKAGES zlib
   HEADERS
     drawing/drawing.hpp
     drawing/hatching.hpp
@@ -182,6 +184,7 @@ strake_component(all
 # What finds the packages that the libraries need, and pkg-config's description of all of them.
 install(FILES cmake/meshoptimizer.cmake cmake/re2.cmake DESTINATION ${strake_package_dir}
   COMPONENT model)
+install(FILES cmake/zlib.cmake DESTINATION ${strake_package_dir} COMPONENT drawing)
 install(FILES cmake/sqlite3.cmake cmake/zstd.cmake DESTINATION ${strake_package_dir}
   COMPONENT project)
 install(FILES ${PROJECT_BINARY_DIR}/strake.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig

@@ -101,16 +101,21 @@ nb::bytes svg(const RunPointer& run) {
   return nb::bytes(text.data(), text.size());
 }
 
-void save(const RunPointer& run, const std::filesystem::path& path, const RunOptions& options) {
+/// Returns what could not be written as it is.
+nb::list save(const RunPointer& run, const std::filesystem::path& path, const RunOptions& options) {
   const auto writer = value_or_raise(publish::find_drawing_writer(path.string()));
+  Diagnostics noticed;
   run_status(options, "write", [&](const parallel::Context& context) -> Status {
     Result<AtomicFile> file = AtomicFile::create(path);
     if (!file) return file.error();
-    const Status written = writer.write(
+    Result<Diagnostics> written = writer.write(
         {run->drawing, run->ink, run->model->model()},
         [&](std::string_view text) { file->write(text); }, context);
-    return written ? file->commit() : written;
+    if (!written) return written.error();
+    noticed = std::move(*written);
+    return file->commit();
   });
+  return listed(noticed);
 }
 
 void bind_request(nb::module_& module) {

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -54,12 +55,15 @@ nb::bytes svg(const SheetRun& run) {
   return nb::bytes(text.data(), text.size());
 }
 
-void save(const SheetRun& run, const std::filesystem::path& path) {
+/// Returns what could not be written as it is.
+nb::list save(const SheetRun& run, const std::filesystem::path& path) {
   const auto writer = value_or_raise(find_writer(sheets::sheet_writers(), path.string()));
   AtomicFile file = value_or_raise(AtomicFile::create(path));
-  check(writer.write(run.sheet, run.model->model(),
-                     [&](std::string_view text) { file.write(text); }));
+  const Diagnostics noticed =
+      value_or_raise(writer.write(std::span(&run.sheet, 1), run.model->model(),
+                                  [&](std::string_view text) { file.write(text); }, {}));
   check(file.commit());
+  return listed(noticed);
 }
 
 }  // namespace

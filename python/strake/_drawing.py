@@ -118,15 +118,17 @@ class Drawing:
         """What drawing noticed, as objects far from all others."""
         return [Diagnostic(*one) for one in self._core.diagnostics]
 
-    def save(self, path_to: PathLike, threads: int | None = None, progress: Progress | None = None) -> None:
-        """Writes .svg, .html (a page, docs/report-page.md), or .json or .view (docs/drawing.md), whole or not at all.
+    def save(self, path_to: PathLike, threads: int | None = None, progress: Progress | None = None) -> list[Diagnostic]:
+        """Writes .svg, .pdf, .dxf, .html (a page, docs/report-page.md), or .json or .view (docs/drawing.md), whole or not at all.
 
         The last two have all of `segments`.
 
-        Raises: UsageError, OutputError.
+        Returns what of the drawing could not be written as it is, as characters that the font of a PDF lacks
+        (docs/formats/pdf.md). Raises: UsageError, OutputError.
         """
         into, options = path(path_to, "path_to"), run_options(threads, progress)
-        _core.save_drawing(self._core if _core.shows_ink(into) else self._whole, into, options)
+        noticed = _core.save_drawing(self._core if _core.shows_ink(into) else self._whole, into, options)
+        return [Diagnostic(*one) for one in noticed]
 
     def __repr__(self) -> str:
         width, height = self.size

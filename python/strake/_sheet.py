@@ -35,9 +35,11 @@ class SheetDrawing:
         """What composing noticed, as views that are empty."""
         return [Diagnostic(*one) for one in self._core.diagnostics]
 
-    def save(self, path_to: PathLike) -> None:
-        """Writes .svg, whole or not at all. Raises: UsageError, OutputError."""
-        _core.save_sheet(self._core, path(path_to, "path_to"))
+    def save(self, path_to: PathLike) -> list[Diagnostic]:
+        """Writes .svg or .pdf, whole or not at all; returns what of the sheet could not be written as it is, as characters that
+        the font of a PDF lacks (docs/formats/pdf.md). Raises: UsageError, OutputError.
+        """
+        return [Diagnostic(*one) for one in _core.save_sheet(self._core, path(path_to, "path_to"))]
 
     def __repr__(self) -> str:
         width, height = self.size

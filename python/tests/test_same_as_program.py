@@ -81,7 +81,7 @@ DRAWINGS: list[tuple[list[str], dict[str, Any]]] = [
 
 
 @pytest.mark.parametrize(("words", "arguments"), DRAWINGS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
-@pytest.mark.parametrize("name", ["view.svg", "view.json"])
+@pytest.mark.parametrize("name", ["view.svg", "view.pdf", "view.json"])
 def test_drawings(tmp_path: Path, ship: strake.Model, ship_file: Path, name: str, words: list[str], arguments: dict[str, Any]) -> None:
     expected = written_by_program(tmp_path, name, "draw", ship_file, *words)
     drawing = strake.draw(ship, **arguments)

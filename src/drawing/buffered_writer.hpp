@@ -9,7 +9,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "strake/core/result.hpp"
 #include "strake/drawing/write.hpp"
@@ -56,43 +55,59 @@ class BufferedWriter {
   int exceptions_ = std::uncaught_exceptions();
 };
 
+/// Makes the pieces of n items in parallel and hands them on in order: make(i) returns the i-th,
+/// take(piece, i) takes it, by one worker at a time. 64 pieces are held at a time. What `take`
+/// throws comes out. Errors: cancelled, out of memory.
+template <class Make, class Take>
+[[nodiscard]] Status make_in_order(std::string_view name, std::size_t n, Make&& make, Take&& take,
+                                   const parallel::Context& context) {
+  struct Piece {
+    std::size_t i = 0;
+    std::string text;
+  };
+  std::size_t next = 0;
+  std::exception_ptr thrown;
+  const Status status = parallel::pipeline(
+      context, {.name = name, .in_flight = 64},
+      [&]() -> std::optional<std::size_t> {
+        if (next >= n) return std::nullopt;
+        return next++;
+      },
+      [&](std::size_t i) { return Piece{i, make(i)}; },
+      [&](const Piece& piece) -> Status {
+        try {
+          take(piece.text, piece.i);
+        } catch (...) {
+          thrown = std::current_exception();
+          return Error{ErrorCode::internal, "the sink threw", {}, {}};
+        }
+        return {};
+      });
+  if (thrown) std::rethrow_exception(thrown);
+  return status;
+}
+
 /// Writes n items in order and makes their bytes in parallel: encode(begin, end, out) appends those
 /// of a run. The bytes of 65,536 items are held at a time. What the sink throws comes out. Errors:
 /// cancelled, out of memory.
 template <class Encode>
 [[nodiscard]] Status write_in_batches(std::string_view name, std::size_t n, Encode&& encode,
                                       Sink sink, const parallel::Context& context) {
-  struct Run {
-    std::size_t items = 0;
-    std::string text;
-  };
-  constexpr std::size_t kRun = 1024, kRuns = 64;
+  constexpr std::size_t kRun = 1024;
   const parallel::ProgressPhase phase(context.progress, name, n);
-  std::size_t next = 0;
-  std::exception_ptr thrown;
-  const Status status = parallel::pipeline(
-      context, {.name = name, .in_flight = kRuns},
-      [&]() -> std::optional<std::size_t> {
-        if (next >= n) return std::nullopt;
-        return std::exchange(next, next + kRun);
+  const auto items = [&](std::size_t run) { return std::min(kRun, n - run * kRun); };
+  return make_in_order(
+      name, (n + kRun - 1) / kRun,
+      [&](std::size_t run) {
+        std::string text;
+        encode(run * kRun, run * kRun + items(run), text);
+        return text;
       },
-      [&](std::size_t begin) {
-        Run run{.items = std::min(kRun, n - begin), .text = {}};
-        encode(begin, begin + run.items, run.text);
-        return run;
+      [&](const std::string& text, std::size_t run) {
+        sink(text);
+        phase.add(items(run));
       },
-      [&](const Run& run) -> Status {
-        try {
-          sink(run.text);
-        } catch (...) {
-          thrown = std::current_exception();
-          return Error{ErrorCode::internal, "the sink threw", {}, {}};
-        }
-        phase.add(run.items);
-        return {};
-      });
-  if (thrown) std::rethrow_exception(thrown);
-  return status;
+      context);
 }
 
 }  // namespace strake::drawing

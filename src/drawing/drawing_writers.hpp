@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/output_format.hpp"
+#include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/drawing/write.hpp"
 #include "strake/model/scene.hpp"
@@ -22,8 +23,9 @@ struct DrawingContents {
 struct DrawingWriter {
   OutputFormat format;
   bool needs_ink = false;  ///< whether it shows what choose_ink() chose, not the whole drawing
-  /// Errors: cancelled, out of memory.
-  Status (*write)(const DrawingContents& contents, Sink sink, const parallel::Context& context);
+  /// Returns what of the drawing could not be written as it is. Errors: cancelled, out of memory.
+  Result<Diagnostics> (*write)(const DrawingContents& contents, Sink sink,
+                               const parallel::Context& context);
 };
 
 /// All of them, in the order of help and errors.

@@ -14,7 +14,7 @@ FUNCTIONS = {
     'clash/clash.hpp': ['detect', 'scene_options', 'one_set'],
     'clash/group.hpp': ['group_results'],
     'drawing/drawing.hpp': ['lay_out'],
-    'drawing/write.hpp': ['write_svg'],
+    'drawing/write.hpp': ['write_svg', 'write_pdf'],
     'generate/ship.hpp': ['generate_ship'],
     'geometry/closest.hpp': ['closest_points'],
     'hlr/hlr.hpp': ['draw'],

@@ -20,7 +20,7 @@ file(REMOVE_RECURSE ${PACKAGE}/staging ${PACKAGE}/moved ${PACKAGE}/consumer ${PA
 if(SOURCE)
   set(BUILD ${PACKAGE}/build)
   # As on a machine that has none of what the rest of Strake needs.
-  foreach(other CLI11 GTest fmt nlohmann_json re2 SQLite3 zstd)
+  foreach(other CLI11 GTest fmt nlohmann_json re2 SQLite3 ZLIB zstd)
     list(APPEND OPTIONS -D CMAKE_DISABLE_FIND_PACKAGE_${other}=ON)
   endforeach()
   run(${CMAKE_COMMAND} -S ${SOURCE} -B ${BUILD} ${OPTIONS} -D STRAKE_ONLY_PARALLEL=ON

@@ -95,16 +95,16 @@ Result<ExitCode> run_draw(Session& session, const DrawOptions& given) {
     return Error{ErrorCode::usage, "no model file is given", {}, "'strake draw --help' tells more"};
   if (const Status status = session.files().add_inputs(given.input.files); !status)
     return status.error();
-  if (given.sheet.empty())
+  if (given.sheets.empty())
     if (const Status status = check_drawing_outputs(session, given); !status) return status.error();
   if (!given.save.empty() || !given.stored.empty()) return draw_stored(session, given);
   if (holds_drawing(given.input)) return draw_again(session, given);
   const Result<DrawRequest> request = request_of(given, session, session.json());
   if (!request) return request.error();
-  if (!given.sheet.empty())
+  if (!given.sheets.empty())
     return draw_sheet(
         session,
-        {given.sheet,
+        {given.sheets,
          given.outputs,
          {.solver = request->options.solver, .sag_for_paper = request->sag_for_paper}},
         given.input, request->scene);
@@ -260,9 +260,13 @@ void add_stored(CLI::App& command, DrawOptions& options) {
 void add_sheet(CLI::App& command, DrawOptions& options) {
   CLI::Option* const sheet =
       command
-          .add_option("--sheet", options.sheet,
-                      "Several views with frame and title block, as a sheet file (TOML) says")
+          .add_option("--sheet", options.sheets,
+                      "Several views with frame and title block, as a sheet file (TOML) says; may "
+                      "be repeated where one file holds several sheets, as .pdf does")
           ->type_name("FILE")
+          ->expected(1)
+          ->allow_extra_args(false)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
           ->group("Output");
   for (const char* const other :
        {"--view",          "--direction",        "--eye",          "--up",
@@ -338,6 +342,7 @@ Examples:
   strake draw ship.glb --view top --paper A1 -o plan.svg
   strake draw ship.glb --eye 2000,-9000,6000 --target 9000,0,3000 -o seen.svg
   strake draw ship.glb --sheet deck.toml -o deck.svg
+  strake draw ship.glb --sheet deck.toml --sheet frames.toml -o ship.pdf
   strake draw -p ship.strake --save deck4 --view top --limits 0,0,9m,80m,20m,12m -o deck4.svg
   strake draw -p ship.strake --stored deck4 --hidden dashed -o deck4.svg -o deck4.json
   strake draw deck4.json --scale 1:50 --paper A1 -o deck4_A1.svg)");

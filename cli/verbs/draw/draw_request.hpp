@@ -27,7 +27,7 @@ struct DrawOptions {
   InputOptions input;
   SceneInput scene;
   PerspectiveOptions perspective;
-  std::string sheet;
+  std::vector<std::string> sheets;
   std::string view, direction, up, limits, scale, paper, title;
   std::string stage, solver, global, culling, bucketing, hidden, intersections, own_polylines,
       smooth, flush_seams, sharp_angle, contact_distance;

@@ -132,10 +132,16 @@ Status write_drawing(Session& session, const DrawOptions& given,
     ink = std::move(*chosen);
   }
   for (std::size_t i = 0; i < writers.size(); ++i) {
-    const Status status = session.write(given.outputs[i], [&](Session::Sink sink) {
-      return writers[i].write({drawing, ink, model, scene}, sink, session.context());
+    Diagnostics noticed;
+    const Status status = session.write(given.outputs[i], [&](Session::Sink sink) -> Status {
+      Result<Diagnostics> written =
+          writers[i].write({drawing, ink, model, scene}, sink, session.context());
+      if (!written) return written.error();
+      noticed = std::move(*written);
+      return {};
     });
     if (!status) return status;
+    print_diagnostics(session.console(), noticed, {"text-character-missing"});
   }
   if (!session.json()) return {};
   return session.write_stdout([&](Session::Sink sink) {

@@ -3,9 +3,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,23 +21,25 @@ namespace strake::cli {
 
 namespace {
 
-void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const model::Model& model) {
+/// Prints what became of a sheet; `of` is what its lines begin with where there are several.
+void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const model::Model& model,
+                         const std::string& of) {
   Console& console = session.console();
   for (const sheets::PlacedView& view : sheet.views) {
     std::uint64_t lines = 0;
     for (const std::uint64_t count : view.drawing.count) lines += count;
-    const auto of = [&](drawing::LineState state) {
+    const auto count_of = [&](drawing::LineState state) {
       return view.drawing.count[static_cast<std::size_t>(state)];
     };
-    console.note(fmt::format("view '{}': {} visible of {} lines at {}", view.name,
-                             of(drawing::LineState::visible), lines, scale_words(view.drawing)));
-    console.note(
-        fmt::format("view '{}': {}", view.name, object_summary_line(view.drawing.account, model)));
-    for (const std::string& line : left_alone_lines(view.drawing))
-      console.note(fmt::format("view '{}': {}", view.name, line));
-    count_objects(session.stats(), view.drawing.account, view.name + ": ");
+    const std::string name = fmt::format("{}view '{}': ", of, view.name);
+    console.note(fmt::format("{}{} visible of {} lines at {}", name,
+                             count_of(drawing::LineState::visible), lines,
+                             scale_words(view.drawing)));
+    console.note(name + object_summary_line(view.drawing.account, model));
+    for (const std::string& line : left_alone_lines(view.drawing)) console.note(name + line);
+    count_objects(session.stats(), view.drawing.account, of + view.name + ": ");
     for (std::size_t s = 0; s < drawing::kLineStates; ++s)
-      session.stats().count(fmt::format("{}: lines {}", view.name,
+      session.stats().count(fmt::format("{}{}: lines {}", of, view.name,
                                         drawing::state_name(static_cast<drawing::LineState>(s))),
                             view.drawing.count[s]);
   }
@@ -56,6 +60,63 @@ std::string format_names() {
   return names;
 }
 
+/// Finds the writers of the outputs. Errors: usage for one that cannot hold all sheets.
+Result<std::vector<sheets::SheetWriter>> writers_of(const SheetRequest& request) {
+  std::vector<sheets::SheetWriter> writers;
+  for (const std::string& output : request.outputs) {
+    const Result<sheets::SheetWriter> writer = find_writer(sheets::sheet_writers(), output);
+    if (!writer) return writer.error();
+    if (request.files.size() > 1 && !writer->takes_several)
+      return Error{
+          ErrorCode::usage,
+          fmt::format("'{}' holds one sheet, and {} are given", output, request.files.size()), "-o",
+          "write them to a .pdf, or each to a file of its own"};
+    writers.push_back(*writer);
+  }
+  return writers;
+}
+
+/// Reads the files, and tells the run of them and of their templates.
+Result<std::vector<sheets::SheetFile>> read_sheet_files(Session& session,
+                                                        const SheetRequest& request) {
+  std::vector<sheets::SheetFile> files;
+  for (const std::string& path : request.files) {
+    const Result<sheets::SheetFile> file = sheets::SheetFile::read(path);
+    if (!file) return file.error();
+    if (!file->template_name().empty()) {
+      const auto beside = std::filesystem::path(path).parent_path() / file->template_name();
+      if (const Status status = session.files().add_input(beside); !status) return status.error();
+    }
+    files.push_back(*file);
+  }
+  return files;
+}
+
+/// Writes the sheets to all outputs.
+Status write_sheets(Session& session, const SheetRequest& request,
+                    std::span<const sheets::Sheet> sheets, const model::Model& model) {
+  const Result<std::vector<sheets::SheetWriter>> writers = writers_of(request);
+  if (!writers) return writers.error();
+  for (std::size_t i = 0; i < writers->size(); ++i) {
+    Diagnostics noticed;
+    const Status status = session.write(request.outputs[i], [&](Session::Sink sink) -> Status {
+      Result<Diagnostics> written = (*writers)[i].write(sheets, model, sink, session.context());
+      if (!written) return written.error();
+      noticed = std::move(*written);
+      return {};
+    });
+    if (!status) return status;
+    print_diagnostics(session.console(), noticed,
+                      {"text-character-missing", "template-part-left-out"});
+  }
+  return {};
+}
+
+bool is_lacking(const sheets::Sheet& sheet) {
+  const Diagnostics& noticed = sheet.diagnostics;
+  return noticed.count("view-empty") + noticed.count("selection-matches-nothing") > 0;
+}
+
 }  // namespace
 
 Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
@@ -66,36 +127,33 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
     return Error{ErrorCode::usage, fmt::format("a sheet is written as {} only", format_names()),
                  "--json", "leave --json out, and " + mend};
   if (request.outputs.empty()) return Error{ErrorCode::usage, "nowhere to draw to", "-o", mend};
-  if (const Status status = session.files().add_input(request.file); !status) return status.error();
+  if (const Status status = session.files().add_inputs(request.files); !status)
+    return status.error();
   if (const Status status = session.files().add_outputs(request.outputs, formats); !status)
     return status.error();
-  const Result<sheets::SheetFile> file = sheets::SheetFile::read(request.file);
-  if (!file) return file.error();
-  if (!file->template_name().empty()) {
-    const auto beside = std::filesystem::path(request.file).parent_path() / file->template_name();
-    if (const Status status = session.files().add_input(beside); !status) return status.error();
-  }
+  if (const auto writers = writers_of(request); !writers) return writers.error();
+  const Result<std::vector<sheets::SheetFile>> files = read_sheet_files(session, request);
+  if (!files) return files.error();
   const Result<Loaded> loaded = load(session, input, scene);
   if (!loaded) return loaded.error();
   if (request.options.solver == hlr::Solver::brute_force)
     session.console().note(
         "--solver brute-force: every view tries every edge with every triangle; it is an oracle "
         "for small scenes (without it the lines are the same, in much less time)");
-  const Result<sheets::Sheet> sheet = [&] {
-    const auto timer = session.step("views");
-    return file->compose(loaded->scene, request.options, session.context());
-  }();
-  if (!sheet) return sheet.error();
-  print_sheet_summary(session, *sheet, *loaded->model);
-  for (const std::string& output : request.outputs) {
-    const Result<sheets::SheetWriter> writer = find_writer(sheets::sheet_writers(), output);
-    if (!writer) return writer.error();
-    const Status written = session.write(
-        output, [&](Session::Sink sink) { return writer->write(*sheet, *loaded->model, sink); });
-    if (!written) return written.error();
+  std::vector<sheets::Sheet> sheets;
+  for (std::size_t i = 0; i < files->size(); ++i) {
+    Result<sheets::Sheet> sheet = [&] {
+      const auto timer = session.step("views");
+      return (*files)[i].compose(loaded->scene, request.options, session.context());
+    }();
+    if (!sheet) return sheet.error();
+    const std::string file = std::filesystem::path(request.files[i]).filename().string();
+    print_sheet_summary(session, *sheet, *loaded->model, files->size() > 1 ? file + ", " : "");
+    sheets.push_back(std::move(*sheet));
   }
-  const Diagnostics& noticed = sheet->diagnostics;
-  const bool lacking = noticed.count("view-empty") + noticed.count("selection-matches-nothing") > 0;
+  if (const Status status = write_sheets(session, request, sheets, *loaded->model); !status)
+    return status.error();
+  const bool lacking = std::ranges::any_of(sheets, is_lacking);
   return input.strict && lacking ? ExitCode::partial : strict_exit_code(input, *loaded);
 }
 

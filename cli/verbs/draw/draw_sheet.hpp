@@ -14,13 +14,13 @@ namespace strake::cli {
 
 /// The options of `draw --sheet`, as written.
 struct SheetRequest {
-  std::string file;
+  std::vector<std::string> files;
   std::vector<std::string> outputs;
   sheets::ComposeOptions options;
 };
 
-/// Draws the sheet that a file describes and writes it as SVG. With --strict a view that shows
-/// nothing, or a selection that picks nothing, makes it `partial`.
+/// Draws the sheets that files describe and writes them. With --strict a view that shows nothing,
+/// or a selection that picks nothing, makes it `partial`.
 [[nodiscard]] Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
                                           const InputOptions& input,
                                           const model::SceneOptions& scene);

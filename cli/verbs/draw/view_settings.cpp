@@ -56,7 +56,6 @@ constexpr std::array kTextsOfWork{
     Text{"global", [](DrawOptions& o) -> std::string& { return o.global; }},
     Text{"culling", [](DrawOptions& o) -> std::string& { return o.culling; }},
     Text{"bucketing", [](DrawOptions& o) -> std::string& { return o.bucketing; }},
-    Text{"sheet", [](DrawOptions& o) -> std::string& { return o.sheet; }},
 };
 
 using List = Setting<std::vector<std::string>>;
@@ -65,6 +64,11 @@ constexpr std::array kLists{
     List{"section", [](DrawOptions& o) -> std::vector<std::string>& { return o.sections; }},
     List{"uncut", [](DrawOptions& o) -> std::vector<std::string>& { return o.uncut; }},
     List{"hatch", [](DrawOptions& o) -> std::vector<std::string>& { return o.hatches; }},
+};
+
+/// Those that say themselves which lines there are.
+constexpr std::array kListsOfWork{
+    List{"sheet", [](DrawOptions& o) -> std::vector<std::string>& { return o.sheets; }},
 };
 
 using Flag = Setting<bool>;
@@ -147,6 +151,7 @@ std::string first_option_of_lines(const DrawOptions& given) {
   look(kLists);
   look(kFlags);
   look(kTextsOfWork);
+  look(kListsOfWork);
   return first;
 }
 

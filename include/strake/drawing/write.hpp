@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writers of drawings: SVG, JSON and binary rows.
+// Writers of drawings: SVG, PDF, DXF, JSON and binary rows.
 #pragma once
 
 #include <string_view>
 
+#include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/ink.hpp"
@@ -22,6 +23,24 @@ using Sink = parallel::FunctionRef<void(std::string_view)>;
 /// group per object (data-id, data-name) with one path; styles are written once. Neither time nor
 /// path of this run is written.
 void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model, Sink sink);
+
+/// Writes PDF 1.7 of one page of exactly the size of the sheet: the layers, pens and texts of
+/// write_svg(), curves within 0.002 mm of paper, the font of the texts embedded. The path of each
+/// object is marked with its id, name and file. Neither time nor path of this run is written, and
+/// the same drawing gives the same bytes. Returns what the font cannot show
+/// ("text-character-missing"). Errors: cancelled, out of memory.
+[[nodiscard]] Result<Diagnostics> write_pdf(const NeutralDrawing& drawing, const Ink& ink,
+                                            const model::Model& model, Sink sink,
+                                            const parallel::Context& context);
+
+/// Writes DXF of AutoCAD 2007 (AC1021, UTF-8), documented in docs/formats/dxf.md: the view in model
+/// space at true size in mm, joined lines, arcs, circles and ellipses on a layer per class of line;
+/// the sheet as a layout of its size with a viewport at the drawing's scale. Each entity carries
+/// id, name and file of its object. Neither time nor path of this run is written. Errors:
+/// cancelled, out of memory.
+[[nodiscard]] Status write_dxf(const NeutralDrawing& drawing, const Ink& ink,
+                               const model::Model& model, Sink sink,
+                               const parallel::Context& context);
 
 /// Writes the neutral drawing as JSON, documented in schemas/view.schema.json. Errors: cancelled,
 /// out of memory.

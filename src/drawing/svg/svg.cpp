@@ -12,6 +12,8 @@
 #include "core/number.hpp"
 #include "drawing/buffered_writer.hpp"
 #include "drawing/ink/hidden_ink.hpp"
+#include "drawing/strokes/layers.hpp"
+#include "drawing/strokes/strokes.hpp"
 #include "drawing/svg/svg_layers.hpp"
 #include "drawing/svg/svg_path.hpp"
 #include "strake/drawing/write.hpp"
@@ -28,7 +30,7 @@ void write_object(BufferedWriter& out, const PaperCurves& curves, const model::M
   out << "<g data-id=\"" << xml_escaped(object.id) << "\" data-name=\"" << xml_escaped(object.name)
       << "\" data-file=\"" << xml_escaped(model.files[object.file].label) << "\"><path d=\"";
   for (const JoinedLines& chain : chains) {
-    append_svg_path(out.text(), chain, curves);
+    append_svg_path(out.text(), stroke_of(chain, curves));
     out.done();
   }
   out << "\"/></g>\n";
@@ -36,21 +38,16 @@ void write_object(BufferedWriter& out, const PaperCurves& curves, const model::M
 
 void write_layer(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
                  const model::Model& model, const Layer& layer, std::string_view prefix) {
-  std::vector<const Line*> lines;
-  for (const Line& line : ink.lines)
-    if (belongs(line, layer)) lines.push_back(&line);
+  const std::vector<const Line*> lines = lines_of(layer, ink);
   if (lines.empty()) return;
   const std::string_view state = layer.hidden ? "hidden" : "visible";
   const std::string_view kind = kind_name(layer.kind);
   out << fmt::format(
       "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" id=\"{}{}-{}\" class=\"{} {}\">\n",
       layer.label, prefix, state, kind, state, kind);
-  for (std::size_t i = 0; i < lines.size();) {
-    std::size_t end = i + 1;
-    while (end < lines.size() && lines[end]->object == lines[i]->object) ++end;
-    write_object(out, curves, model, std::span(lines).subspan(i, end - i));
-    i = end;
-  }
+  for_each_object(lines, [&](std::span<const Line* const> of_object) {
+    write_object(out, curves, model, of_object);
+  });
   out << "</g>\n";
 }
 

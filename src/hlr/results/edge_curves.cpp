@@ -92,8 +92,9 @@ std::vector<std::uint32_t> first_bodies(const ViewJob& job) {
 
 Result<Curves> find_curves(const ViewJob& job, const parallel::Context& context) {
   Curves curves;
-  // Where the view has no meshes of its own, as in perspective, there are no curves.
-  if (!job.own) return curves;
+  // Where the view has no meshes of its own there are no curves, nor in perspective, where a circle
+  // is not seen as what the plane of the view makes of it.
+  if (!job.own || job.view.perspective) return curves;
   const model::Scene& scene = *job.scene;
   const std::vector<std::uint32_t> first = first_bodies(job);
   const auto shapes = parallel::transform(

@@ -6,12 +6,22 @@
 namespace strake::sheets {
 namespace {
 
-Status as_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink) {
-  write_svg(sheet, model, sink);
-  return {};
+Result<Diagnostics> as_svg(std::span<const Sheet> sheets, const model::Model& model,
+                           drawing::Sink sink, const parallel::Context& /*context*/) {
+  write_svg(sheets.front(), model, sink);
+  return Diagnostics();
 }
 
-constexpr std::array kWriters{SheetWriter{{".svg"}, "SVG", as_svg}};
+Result<Diagnostics> as_dxf(std::span<const Sheet> sheets, const model::Model& model,
+                           drawing::Sink sink, const parallel::Context& context) {
+  return write_dxf(sheets.front(), model, sink, context);
+}
+
+constexpr std::array kWriters{
+    SheetWriter{{".svg"}, "SVG", false, as_svg},
+    SheetWriter{{".pdf"}, "PDF", true, write_pdf},
+    SheetWriter{{".dxf"}, "DXF", false, as_dxf},
+};
 
 }  // namespace
 

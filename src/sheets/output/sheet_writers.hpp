@@ -5,7 +5,9 @@
 #include <string_view>
 
 #include "core/output_format.hpp"
+#include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
 #include "strake/sheets/write.hpp"
 
 namespace strake::sheets {
@@ -13,9 +15,12 @@ namespace strake::sheets {
 /// One format that sheets are written in.
 struct SheetWriter {
   OutputFormat format;
-  std::string_view name;  ///< what a person calls it: "SVG"
-  /// Errors: cancelled, out of memory.
-  Status (*write)(const Sheet& sheet, const model::Model& model, drawing::Sink sink);
+  std::string_view name;       ///< what a person calls it: "SVG"
+  bool takes_several = false;  ///< one file holds any number of sheets
+  /// Writes sheets, at least one, and one only unless it takes several. Returns what of them could
+  /// not be written as it is. Errors: cancelled, out of memory.
+  Result<Diagnostics> (*write)(std::span<const Sheet> sheets, const model::Model& model,
+                               drawing::Sink sink, const parallel::Context& context);
 };
 
 /// All of them, in the order of errors.

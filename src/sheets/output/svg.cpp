@@ -11,6 +11,7 @@
 #include "core/number.hpp"
 #include "drawing/buffered_writer.hpp"
 #include "drawing/layout/view_plane.hpp"
+#include "drawing/strokes/layers.hpp"
 #include "drawing/svg/svg_layers.hpp"
 #include "drawing/svg/svg_path.hpp"
 #include "model/attributes.hpp"

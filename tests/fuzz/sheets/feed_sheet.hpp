@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "support/pdf_reader.hpp"
 #include "support/sheet_models.hpp"
 #include "support/sheet_seeds.hpp"
 
@@ -38,6 +39,12 @@ inline void feed_sheet(std::string_view bytes) {
   sheets::write_svg(*sheet, model.model, [&](std::string_view part) { svg += part; });
   for (const char* const never : {"<script", "<!", "<?xml-", "javascript:", "http://x"})
     if (svg.find(never) != std::string::npos) stop("more than a drawing");
+  if (!markup) return;
+  std::string pdf;
+  if (!sheets::write_pdf({&*sheet, 1}, model.model, [&](std::string_view part) { pdf += part; },
+                         {}))
+    stop("a sheet that is no PDF");
+  if (const std::string fault = read_pdf(pdf).fault; !fault.empty()) stop(fault.c_str());
 }
 
 }  // namespace strake::test

@@ -39,9 +39,12 @@ class Files(Scenario):
     OUTPUTS = [*((['clash', 'a.obj', '-o'], ending)
                  for ending in ('.json', '.csv', '.xlsx', '.xml', '.ifcclash.json', '.joints.csv', '.svg', '.glb', '.bcf')),
                (['clash', 'a.obj', '--log-pairs'], '.csv'), (['clash', 'diff', 'old.json', 'old.json', '-o'], '.json'),
-               (['draw', 'a.obj', '-o'], '.svg'), (['draw', 'a.obj', '-o'], '.json'), (['draw', 'a.obj', '-o'], '.view'),
+               (['draw', 'a.obj', '-o'], '.svg'), (['draw', 'a.obj', '-o'], '.pdf'),
+               (['draw', 'a.obj', '-o'], '.dxf'), (['draw', 'a.obj', '-o'], '.json'), (['draw', 'a.obj', '-o'], '.view'),
                (['clash', 'a.obj', '-o'], '.html'), (['draw', 'a.obj', '-o'], '.html'),
                (['draw', 'a.obj', '--sheet', 'sheet.toml', '-o'], '.svg'),
+               (['draw', 'a.obj', '--sheet', 'sheet.toml', '-o'], '.pdf'),
+               (['draw', 'a.obj', '--sheet', 'sheet.toml', '-o'], '.dxf'),
                (['draw', 'diff', 'old.view', 'old.view', '-o'], '.json'),
                (['draw', 'diff', 'old.view', 'old.view', '-o'], '.svg'),
                (['generate', 'ship', '--objects', '100', '-o'], '.glb'),

@@ -66,6 +66,9 @@ class HostileNames(Scenario):
             names = {row['a_name'] for row in Workbook(self.folder / name).table('Clashes')}
             self.assertLessEqual({'=1+1', '-n', '{}%s$(x)`x`', '<!-- ]]> &lt; & " \' -->'}, names)
             self.assertEqual(max(len(name or '') for name in names), 32_767)
+        elif name.endswith('.dxf'):
+            lines = content.decode().split('\n')
+            self.assertEqual([line for line in lines[:-1:2] if not line.isdecimal()], [], name)
 
     def check_json(self, *command):
         done = self.run_strake(*command, '--json', encoding='utf-8')
@@ -92,12 +95,13 @@ class HostileNames(Scenario):
         self.told('clash', *self.models, '--a', f'name = "{PLANTED}*"', code=(0, 2))
 
     def test_drawings(self):
-        self.told('draw', *self.models, '--title', 'plain', '-o', 'd.svg', '-o', 'd.json', '-o', 'd.view', '--stats')
+        self.told('draw', *self.models, '--title', 'plain', '-o', 'd.svg', '-o', 'd.dxf', '-o', 'd.json', '-o', 'd.view',
+                  '--stats')
         self.told('draw', *self.models[:2], '-o', 'e.view')
         self.told('draw', 'diff', 'd.view', 'e.view', '-o', 'diff.svg', '-o', 'diff.json')
         self.write('s.toml', '[[view]]\ndirection = "top"\n[[tag]]\nselect = "name = \'*\'"\ntext = "{name}"\n')
         self.told('draw', *self.models[:2], '--sheet', 's.toml', '-o', 's.svg', code=(0, 3))
-        for name in ('d.svg', 'd.json', 'diff.svg', 'diff.json'):
+        for name in ('d.svg', 'd.dxf', 'd.json', 'diff.svg', 'diff.json'):
             self.check_file(name)
 
     def test_projects(self):

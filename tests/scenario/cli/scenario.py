@@ -51,7 +51,8 @@ def bar_between_walls():
 
 def rvm(boxes, whole=True):
     """The bytes of an RVM file: for each (name, place in mm) a group with a cube of 100 mm, for (name, place, 'OBST') one
-    that is an obstruction volume or, with 'INSU', insulation; without an END, not whole."""
+    that is an obstruction volume or, with 'INSU', insulation, for (name, place, (8, radius, height)) the primitive of that
+    number with these measures; without an END, not whole."""
     content = b''
 
     def words(*numbers):
@@ -72,14 +73,23 @@ def rvm(boxes, whole=True):
     chunk('HEAD', words(2) + b''.join(map(text, ('test', '', '', '', 'Unicode UTF-8'))))
     chunk('MODL', words(1) + text('P') + text('/M'))
     for name, place, *kind in boxes:
+        number, *measures = kind.pop() if kind and isinstance(kind[0], tuple) else (2, 100, 100, 100)
         chunk('CNTB', words(2) + text(name) + floats(0, 0, 0) + words(1))
-        chunk(*(kind or ['PRIM']), words(1, 2)
+        chunk(*(kind or ['PRIM']), words(1, number)
               + floats(.001, 0, 0, 0, .001, 0, 0, 0, .001, *(x / 1000 for x in place))
-              + floats(-50, -50, -50, 50, 50, 50) + (bytes([50, 0, 0, 0]) if kind else b'') + floats(100, 100, 100))
+              + floats(-50, -50, -50, 50, 50, 50) + (bytes([50, 0, 0, 0]) if kind else b'') + floats(*measures))
         chunk('CNTE', words(2))
     if whole:
         chunk('END:', words(1))
     return content
+
+
+def rvm_of_round_things():
+    """What rvm() takes: upright cylinders, a ball, a quarter of a torus, a dish, and a box among them."""
+    return [('/TANK', (0, 0, 0), (8, 250, 600)), ('/PIPE', (400, 50, 0), (8, 50.5, 800)),
+            ('/PIN', (400, 50, 500), (8, 5, 300)), ('/BALL', (800, 0, 100), (9, 240)),
+            ('/BEND', (0, 500, 0), (4, 300, 100, 1.5707964)), ('/CAP', (0, 0, 300), (5, 500, 90)),
+            ('/BOX', (300, -200, 0))]
 
 
 def gltf(tree):

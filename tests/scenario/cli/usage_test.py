@@ -76,7 +76,7 @@ class Usage(Scenario):
                 (['clash', 'a.obj', '--b', 'x', '--self'], '--b excludes --self'),
                 (['clash', 'a.obj', '--most-pairs', 'all'], '--most-pairs'),
                 (['draw', 'a.obj'], '-o FILE.svg'),
-                (['draw', 'a.obj', '-o', 'a.dwg'], '.svg or .json'),
+                (['draw', 'a.obj', '-o', 'a.dwg'], '.svg or .pdf or .dxf or .json'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--view', 'askew'], 'top|bottom'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--view', 'top', '--direction', '1,1,1'], 'exclude'),
                 (['draw', 'a.obj', '-o', 'a.svg', '--direction', '0,0,0'], '--direction'),

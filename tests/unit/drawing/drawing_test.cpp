@@ -16,6 +16,7 @@
 
 #include "drawing/layout/paper_size.hpp"
 #include "drawing/layout/view_plane.hpp"
+#include "drawing/strokes/strokes.hpp"
 #include "drawing/svg/svg_path.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/drawing/write.hpp"
@@ -434,7 +435,7 @@ std::string polygon_path(std::uint32_t corners, std::uint32_t first, const Paper
     all.push_back(&lines[k]);
   }
   std::string path;
-  for (const JoinedLines& chain : join_lines(all)) append_svg_path(path, chain, curves);
+  for (const JoinedLines& chain : join_lines(all)) append_svg_path(path, stroke_of(chain, curves));
   return path;
 }
 

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// A DXF file round its entities: header, tables and blocks before them, layouts behind.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drawing/dxf/groups.hpp"
+#include "drawing/dxf/handles.hpp"
+#include "drawing/dxf/layer_style.hpp"
+#include "strake/drawing/drawing.hpp"
+
+namespace strake::drawing::dxf {
+
+/// A box with y upwards; empty where left is greater than right.
+struct Extent {
+  double left = 1e20, bottom = 1e20, right = -1e20, top = -1e20;
+  [[nodiscard]] bool empty() const { return left > right; }
+  [[nodiscard]] double width() const { return right - left; }
+  [[nodiscard]] double height() const { return top - bottom; }
+  [[nodiscard]] PaperPoint middle() const { return {(left + right) / 2, (bottom + top) / 2}; }
+  void include(const PaperPoint& point);
+};
+
+/// What a file says of itself before its first entity.
+struct Document {
+  std::vector<LayerStyle> layers;
+  double width_mm = 420, height_mm = 297;  ///< of the sheet
+  bool opens_on_paper = false;             ///< shows the sheet first, not model space
+  Extent model;                            ///< of all that lies in model space
+  Handle next = kFirstEntity;              ///< greater than every handle of an entity
+};
+
+/// Appends what stands before the entities, and the beginning of their section.
+void append_front(std::string& out, const Document& document);
+
+/// Appends the end of their section, and what stands behind.
+void append_back(std::string& out, const Document& document);
+
+}  // namespace strake::drawing::dxf

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Entities of a DXF file: what is seen of a drawing, and the viewports that show it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "drawing/dxf/groups.hpp"
+#include "strake/drawing/drawing.hpp"
+
+namespace strake::drawing::dxf {
+
+/// The space that an entity lies in. Here y points up.
+enum class Space : std::uint8_t { model, paper };
+
+/// What every entity says first.
+struct EntityHead {
+  Space space = Space::model;
+  Handle handle = 0;
+  std::string_view layer;
+};
+
+void append_line(std::string& out, const EntityHead& head, const PaperPoint& a,
+                 const PaperPoint& b);
+
+/// Appends straight lines through points; closed where the last is the first. `dashed` lets the
+/// dashes go on round corners.
+void append_polyline(std::string& out, const EntityHead& head, std::span<const PaperPoint> points,
+                     bool dashed);
+
+void append_circle(std::string& out, const EntityHead& head, const PaperPoint& centre,
+                   double radius);
+
+/// Appends an arc against the clock, degrees from the x axis.
+void append_arc(std::string& out, const EntityHead& head, const PaperPoint& centre, double radius,
+                double from_deg, double to_deg);
+
+/// Appends an elliptical arc against the clock. The parameters count from the major axis; 0 to 2π
+/// is a whole ellipse.
+void append_ellipse(std::string& out, const EntityHead& head, const PaperPoint& centre,
+                    const PaperPoint& major, double ratio, double from_rad, double to_rad);
+
+enum class TextAlign : std::uint8_t { start, middle, end };
+
+/// Appends a text; `at` lies on its base line, `height` is that of a capital.
+void append_text(std::string& out, const EntityHead& head, const PaperPoint& at, double height,
+                 TextAlign align, std::string_view text);
+
+/// Appends an area of one colour; the last point is not the first.
+void append_filled(std::string& out, const EntityHead& head, std::span<const PaperPoint> points);
+
+/// Appends an area in which nothing is seen of what was drawn before.
+void append_cover(std::string& out, const EntityHead& head, const PaperPoint& low,
+                  const PaperPoint& high);
+
+/// A window of the paper into model space.
+struct Viewport {
+  PaperPoint centre;             ///< on paper
+  double width = 0, height = 0;  ///< on paper, mm
+  PaperPoint looks_at;           ///< the point of model space in its middle
+  double height_in_model = 0;
+};
+
+/// Appends a viewport. Number 1 is the paper itself; those that show views begin with 2.
+void append_viewport(std::string& out, const EntityHead& head, const Viewport& viewport,
+                     int number);
+
+}  // namespace strake::drawing::dxf

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "drawing/dxf/document.hpp"
+#include "drawing/layout/view_plane.hpp"
+#include "strake/drawing/drawing.hpp"
+#include "strake/geometry/vec.hpp"
+
+namespace strake::drawing::dxf {
+
+/// Where a view lies in model space: at true size, in mm of the model along the axes of its plane
+/// from the model's origin, y upwards; a view in perspective, which has no true size, in mm of
+/// paper from the lower left corner of its sheet.
+class ModelPlane {
+ public:
+  /// `lines` are those that are drawn; from their places it finds where curves lie.
+  ModelPlane(const NeutralDrawing& drawing, std::span<const Line> lines);
+
+  /// How many mm a mm of paper is.
+  [[nodiscard]] double scale() const { return scale_; }
+  /// What the lines fill, in model space and on paper.
+  [[nodiscard]] const Extent& extent() const { return extent_; }
+  [[nodiscard]] const PaperFrame& on_paper() const { return on_paper_; }
+
+  [[nodiscard]] PaperPoint from_paper(const PaperPoint& paper) const;
+  /// Returns an end of a line, to a whole micrometre.
+  [[nodiscard]] PaperPoint place(const geometry::Vec3d& mm, const PaperPoint& paper) const;
+  [[nodiscard]] PaperCurves curves(const PaperCurves& on_paper) const;
+
+  void move(double x, double y);
+
+ private:
+  [[nodiscard]] PaperPoint true_place(const geometry::Vec3d& mm) const;
+
+  std::optional<PaperAxes> axes_;  ///< nothing: mm of paper
+  double scale_ = 1;
+  PaperPoint paper_, there_;  ///< a point on paper, and where it lies in model space before a move
+  PaperPoint moved_;
+  Extent extent_;
+  PaperFrame on_paper_;
+};
+
+}  // namespace strake::drawing::dxf

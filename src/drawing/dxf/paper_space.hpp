@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drawing/dxf/entities.hpp"
+#include "drawing/dxf/groups.hpp"
+#include "drawing/dxf/layer_style.hpp"
+#include "strake/drawing/drawing.hpp"
+
+namespace strake::drawing::dxf {
+
+/// The entities of a sheet: viewports, and what is drawn beside them. Points are given as they lie
+/// on a drawing's sheet, with y downwards; layers by their numbers.
+class PaperSpace {
+ public:
+  PaperSpace(double width_mm, double height_mm, std::span<const LayerStyle> layers,
+             std::size_t viewport_layer);
+
+  void add_viewport(const PaperFrame& window, const PaperPoint& looks_at, double scale);
+  /// Points joined by straight lines; closed when the last is the first.
+  void add_lines(std::size_t layer, std::span<const PaperPoint> points);
+  void add_filled(std::size_t layer, std::span<const PaperPoint> points);
+  void add_circle(std::size_t layer, const PaperPoint& centre, double radius_mm);
+  /// A text of a height of capitals, from a point of its base line.
+  void add_text(std::size_t layer, const PaperPoint& at, double height_mm, TextAlign align,
+                std::string_view text);
+  /// Covers what was added before.
+  void add_cover(std::size_t layer, const PaperFrame& area);
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+  /// The first handle that is free.
+  [[nodiscard]] Handle next() const { return next_; }
+
+ private:
+  [[nodiscard]] EntityHead head(std::size_t layer);
+  [[nodiscard]] PaperPoint up(const PaperPoint& p) const;
+  [[nodiscard]] std::vector<PaperPoint> all_up(std::span<const PaperPoint> points) const;
+
+  double height_mm_;
+  std::span<const LayerStyle> layers_;
+  std::size_t viewport_layer_;
+  std::string text_;
+  Handle next_;
+  int viewports_ = 1;
+};
+
+}  // namespace strake::drawing::dxf

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drawing/pdf/pdf_view.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "core/number.hpp"
+#include "core/text_encoding.hpp"
+#include "drawing/buffered_writer.hpp"
+#include "drawing/pdf/pdf_path.hpp"
+#include "drawing/pdf/pdf_syntax.hpp"
+#include "drawing/strokes/strokes.hpp"
+
+namespace strake::drawing {
+
+namespace {
+
+/// Lines of whole objects that make one stream: enough to compress well, few enough to share out.
+constexpr std::size_t kLinesOfStream = 4096;
+
+/// The contents of a layer: lines, and what stands before and after them in each stream.
+struct LayerContents {
+  std::string begin, end;
+  std::vector<const Line*> lines;
+};
+
+struct Stream {
+  const LayerContents* layer = nullptr;
+  std::span<const Line* const> lines;
+};
+
+/// Returns a name as what an object is marked with: older programs take strings of 32,767 bytes in
+/// contents, so that longer names end in an ellipsis.
+std::string mark_text(std::string_view name) {
+  constexpr std::size_t kMostBytes = 10000;
+  if (name.size() <= kMostBytes) return pdf_text(name);
+  std::string_view rest = name.substr(0, kMostBytes);
+  std::string cut;
+  while (!rest.empty()) {
+    const TakenCharacter c = take_character(rest);
+    if (c.length > 0 || !rest.empty()) cut += c.bytes;  // not half a character
+  }
+  return pdf_text(cut + "\xE2\x80\xA6");
+}
+
+void append_object(std::string& out, std::span<const Line* const> lines, const PaperCurves& curves,
+                   const model::Model& model) {
+  const std::vector<JoinedLines> chains = join_lines(lines);
+  if (chains.empty()) return;
+  const model::Object& object = model.object(lines.front()->object);
+  out += "/Strake<</Id" + mark_text(object.id) + "/Name" + mark_text(object.name) + "/File" +
+         mark_text(model.files[object.file].label) + ">>BDC\n";
+  for (const JoinedLines& chain : chains) append_pdf_stroke(out, stroke_of(chain, curves));
+  out += "S\nEMC\n";
+}
+
+std::vector<Stream> streams_of(const std::vector<LayerContents>& layers) {
+  std::vector<Stream> streams;
+  for (const LayerContents& layer : layers) {
+    const std::span<const Line* const> lines(layer.lines);
+    std::size_t begin = 0, end = 0;
+    for_each_object(lines, [&](std::span<const Line* const> object) {
+      end += object.size();
+      if (end - begin < kLinesOfStream) return;
+      streams.push_back({&layer, lines.subspan(begin, end - begin)});
+      begin = end;
+    });
+    if (begin < end) streams.push_back({&layer, lines.subspan(begin, end - begin)});
+  }
+  return streams;
+}
+
+/// What hides a line: the other objects, or its own.
+struct Cause {
+  LineState state;
+  std::string_view label;
+};
+constexpr std::array<Cause, 2> kCauses = {{
+    {LineState::hidden_by_other, "Hidden by other objects"},
+    {LineState::hidden_by_self, "Hidden by the object itself"},
+}};
+
+/// Adds the layers of a view that have lines, and finds the lines of each.
+class LayerMaker {
+ public:
+  LayerMaker(PdfDocument& document, std::optional<PdfLayerId> parent, const Ink& ink)
+      : document_(document), parent_(parent), ink_(ink) {}
+
+  std::vector<LayerContents> make(parallel::FunctionRef<PdfPen(const Layer&)> pen) {
+    for (std::size_t c = 0; c < kCauses.size(); ++c)
+      if (std::ranges::any_of(ink_.lines,
+                              [&](const Line& line) { return line.state == kCauses.at(c).state; }))
+        causes_.at(c) = document_.add_layer(kCauses.at(c).label, parent_);
+    for (const Layer& layer : kLayers) {
+      const std::vector<const Line*> lines = lines_of(layer, ink_);
+      if (lines.empty()) continue;
+      const PdfLayerId id = document_.add_layer(layer.label, parent_);
+      const std::string style = "q\n" + pdf_pen(pen(layer));
+      if (!layer.hidden) {
+        layers_.push_back({document_.open(id) + style, "Q\n" + document_.close(id), lines});
+        continue;
+      }
+      for (std::size_t c = 0; c < kCauses.size(); ++c) add_hidden(id, style, lines, c);
+    }
+    return std::move(layers_);
+  }
+
+ private:
+  /// Adds the lines of a layer that are hidden by one cause: they lie in its layer too.
+  void add_hidden(PdfLayerId id, const std::string& style, const std::vector<const Line*>& lines,
+                  std::size_t cause) {
+    std::vector<const Line*> chosen;
+    std::ranges::copy_if(lines, std::back_inserter(chosen),
+                         [&](const Line* line) { return line->state == kCauses.at(cause).state; });
+    if (chosen.empty()) return;
+    const PdfLayerId by = *causes_.at(cause);
+    layers_.push_back({document_.open(id) + PdfDocument::open_alone(by) + style,
+                       "Q\nEMC\n" + document_.close(id), std::move(chosen)});
+  }
+
+  PdfDocument& document_;
+  std::optional<PdfLayerId> parent_;
+  const Ink& ink_;
+  std::array<std::optional<PdfLayerId>, kCauses.size()> causes_;
+  std::vector<LayerContents> layers_;
+};
+
+std::string with_commas(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+
+}  // namespace
+
+std::string pdf_pen(const PdfPen& pen) {
+  std::string out = pdf_color(pen.color) + "RG\n";
+  append_pdf_number(out, pen.width_mm, 4);
+  out += " w\n";
+  if (pen.dash_mm.empty()) return out;
+  out += "0 J [";
+  for (const double dash : pen.dash_mm) {
+    append_pdf_number(out, dash, 4);
+    out += ' ';
+  }
+  return out + "] 0 d\n";
+}
+
+Status add_pdf_view(PdfDocument& document, std::optional<PdfLayerId> parent,
+                    const PaperCurves& curves, const Ink& ink, const model::Model& model,
+                    parallel::FunctionRef<PdfPen(const Layer&)> pen,
+                    const parallel::Context& context) {
+  const std::vector<LayerContents> layers = LayerMaker(document, parent, ink).make(pen);
+  const std::vector<Stream> streams = streams_of(layers);
+  const parallel::ProgressPhase phase(context.progress, "PDF", ink.lines.size());
+  return make_in_order(
+      "PDF", streams.size(),
+      [&](std::size_t i) {
+        std::string out = streams[i].layer->begin;
+        for_each_object(streams[i].lines, [&](std::span<const Line* const> object) {
+          append_object(out, object, curves, model);
+        });
+        return deflated(out + streams[i].layer->end);
+      },
+      [&](const std::string& bytes, std::size_t i) {
+        document.add_deflated(bytes);
+        phase.add(streams[i].lines.size());
+      },
+      context);
+}
+
+std::string pdf_facts(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model) {
+  std::string out = "<rdf:li rdf:parseType=\"Resource\">\n";
+  const auto fact = [&](std::string_view name, std::string_view value) {
+    out += fmt::format("<strake:{0}>{1}</strake:{0}>\n", name, xml_escaped(value));
+  };
+  fact("name", drawing.view_name);
+  fact("direction", with_commas(drawing.view.direction));
+  fact("up", with_commas(drawing.view.up));
+  // A view in perspective has no scale to measure by.
+  if (drawing.view.perspective)
+    fact("projection", "perspective");
+  else
+    fact("scale", drawing.sheet.scale_text);
+  fact("stage", stage_name(drawing.stage));
+  fact("contactDistanceMm", shortest(drawing.contact_distance_mm));
+  fact("hash", drawing.hash.text());
+  fact("objects", std::to_string(drawing.account.objects()));
+  fact("objectsDrawn", std::to_string(drawing.account.of(hlr::Fate::drawn)));
+  fact("hiddenLeftOut", std::to_string(ink.left_out));
+  for (const model::ObjectId id : drawing.far_left_out) fact("farObject", model.object(id).id);
+  return out + "</rdf:li>\n";
+}
+
+}  // namespace strake::drawing

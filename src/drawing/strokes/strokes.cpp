@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drawing/strokes/strokes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "geometry/numeric/trig.hpp"
+
+namespace strake::drawing {
+
+namespace {
+
+using geometry::kPi;
+
+/// An ellipse narrower than this, mm, is drawn as the straight lines that it is on paper.
+constexpr double kNarrowest = 0.01;
+
+class StrokeFinder {
+ public:
+  StrokeFinder(const JoinedLines& chain, const PaperCurves& curves) {
+    stroke_.points = chain.points;
+    for (const Line* line : chain.lines) {
+      const PaperCurve* curve = curves.of(*line);
+      of_.push_back(curve != nullptr && axes_of(*curve).minor >= kNarrowest ? curve : nullptr);
+    }
+  }
+
+  Stroke find() {
+    turn_to_a_change();
+    for (std::size_t i = 0; i < of_.size(); i = stroke_.runs.back().last)
+      stroke_.runs.push_back(of_[i] == nullptr ? straight(i) : arc(i));
+    return std::move(stroke_);
+  }
+
+ private:
+  /// Rotates a closed chain to begin where one curve ends and another begins.
+  void turn_to_a_change() {
+    Chain& points = stroke_.points;
+    if (points.size() < 3 || !(points.front() == points.back())) return;
+    std::size_t at = 0;
+    while (at < of_.size() && of_[at] == of_.back()) ++at;
+    if (at == 0 || at == of_.size()) return;
+    points.pop_back();
+    std::ranges::rotate(points, points.begin() + static_cast<std::ptrdiff_t>(at));
+    std::ranges::rotate(of_, of_.begin() + static_cast<std::ptrdiff_t>(at));
+    points.push_back(points.front());
+  }
+
+  [[nodiscard]] StrokeRun straight(std::size_t first) const {
+    std::size_t end = first;
+    while (end < of_.size() && of_[end] == nullptr) ++end;
+    return {nullptr, true, first, end};
+  }
+
+  [[nodiscard]] StrokeRun arc(std::size_t first) const {
+    const PaperCurve& curve = *of_[first];
+    const Chain& points = stroke_.points;
+    const bool forward = turn_between(curve, points[first], points[first + 1]) > 0;
+    std::size_t end = first + 1;
+    while (end < of_.size() && of_[end] == &curve &&
+           (turn_between(curve, points[end], points[end + 1]) > 0) == forward)
+      ++end;
+    return {&curve, forward, first, end};
+  }
+
+  Stroke stroke_;
+  std::vector<const PaperCurve*> of_;
+};
+
+}  // namespace
+
+Stroke stroke_of(const JoinedLines& chain, const PaperCurves& curves) {
+  return StrokeFinder(chain, curves).find();
+}
+
+EllipseAxes axes_of(const PaperCurve& c) {
+  // The matrix u·uᵀ + v·vᵀ has the squares of the half axes as eigenvalues.
+  const double a = c.u.x * c.u.x + c.v.x * c.v.x, b = c.u.x * c.u.y + c.v.x * c.v.y,
+               d = c.u.y * c.u.y + c.v.y * c.v.y;
+  const double middle = (a + d) / 2, half = (a - d) / 2, off = std::sqrt(half * half + b * b);
+  const double major = std::sqrt(middle + off);
+  const double area = std::fabs(c.u.x * c.v.y - c.u.y * c.v.x);
+  const bool round = off <= 1e-9 * middle;
+  return {major, major > 0 ? area / major : 0, round ? 0 : geometry::arc_tan2(b, half) / 2};
+}
+
+bool is_left_handed(const PaperCurve& c) { return c.u.x * c.v.y < c.u.y * c.v.x; }
+
+double curve_parameter(const PaperCurve& c, const PaperPoint& p) {
+  const double x = p.x - c.centre.x, y = p.y - c.centre.y;
+  const double area = c.u.x * c.v.y - c.u.y * c.v.x;
+  return geometry::arc_tan2((c.u.x * y - c.u.y * x) / area, (x * c.v.y - y * c.v.x) / area);
+}
+
+double turn_between(const PaperCurve& c, const PaperPoint& from, const PaperPoint& to) {
+  const double turn = curve_parameter(c, to) - curve_parameter(c, from);
+  return turn > kPi ? turn - 2 * kPi : turn <= -kPi ? turn + 2 * kPi : turn;
+}
+
+double turn_of(const Stroke& stroke, const StrokeRun& arc) {
+  double turn = 0;
+  for (std::size_t i = arc.first; i < arc.last; ++i)
+    turn += turn_between(*arc.curve, stroke.points[i], stroke.points[i + 1]);
+  return turn;
+}
+
+}  // namespace strake::drawing
