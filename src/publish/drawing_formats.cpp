@@ -20,9 +20,8 @@ Result<Diagnostics> as_page(const drawing::DrawingContents& contents, drawing::S
 std::vector<drawing::DrawingWriter> drawing_writers() {
   const std::span<const drawing::DrawingWriter> lines = drawing::drawing_writers();
   std::vector<drawing::DrawingWriter> all{lines.begin(), lines.end()};
-  all.push_back({{".html", ", or with its model as {}, a page that opens in a browser"},
-                 true,
-                 as_page});
+  all.push_back(
+      {{".html", ", or with its model as {}, a page that opens in a browser"}, true, as_page});
   return all;
 }
 

@@ -12,11 +12,11 @@
 #include "bcf/output/extensions.hpp"
 #include "bcf/output/markup.hpp"
 #include "bcf/output/viewpoint_file.hpp"
-#include "bcf/output/zip_writer.hpp"
 #include "bcf/topics/reference.hpp"
 #include "bcf/topics/topic_facts.hpp"
 #include "bcf/topics/topic_plan.hpp"
 #include "pictures/clash_picture.hpp"
+#include "report/zip/zip_writer.hpp"
 #include "strake/parallel/pipeline.hpp"
 #include "strake/parallel/progress.hpp"
 
@@ -28,7 +28,7 @@ constexpr std::uint32_t kPictureWidth = 800, kPictureHeight = 600;
 /// What of a topic goes into the archive.
 struct TopicFiles {
   std::string guid;
-  std::vector<std::pair<const char*, PackedFile>> files;
+  std::vector<std::pair<const char*, report::PackedFile>> files;
 };
 
 /// A viewpoint with what it looks like.
@@ -59,7 +59,7 @@ Result<SeenTopic> look_at(const pictures::Scenery& scenery, const PlannedTopic& 
 }
 
 Status add_packed(TopicFiles& topic, const char* name, const std::string& bytes) {
-  Result<PackedFile> packed = pack(bytes);
+  Result<report::PackedFile> packed = report::pack(bytes);
   if (!packed) return packed.error();
   topic.files.emplace_back(name, std::move(*packed));
   return {};
@@ -87,22 +87,16 @@ Result<TopicFiles> make_topic(const report::ClashContents& contents,
   return made;
 }
 
-Status add_file(ZipWriter& zip, const char* name, const std::string& bytes) {
-  const Result<PackedFile> packed = pack(bytes);
-  if (!packed) return packed.error();
-  return zip.add(name, *packed);
-}
-
-Status add_topic(ZipWriter& zip, const TopicFiles& topic) {
+Status add_topic(report::ZipWriter& zip, const TopicFiles& topic) {
   if (const Status status = zip.add_folder(topic.guid + "/"); !status) return status;
   for (const auto& [name, file] : topic.files)
-    if (const Status status = zip.add(topic.guid + "/" + name, file); !status) return status;
+    if (const Status status = zip.add_file(topic.guid + "/" + name, file); !status) return status;
   return {};
 }
 
 /// Writes all topics in their order, made by the team. What the sink throws comes out.
-Status add_topics(ZipWriter& zip, const report::ClashContents& contents, const TopicPlan& plan,
-                  const parallel::Context& context) {
+Status add_topics(report::ZipWriter& zip, const report::ClashContents& contents,
+                  const TopicPlan& plan, const parallel::Context& context) {
   std::optional<pictures::Scenery> scenery;
   if (contents.scene != nullptr) {
     Result<pictures::Scenery> made = pictures::Scenery::of(contents, context);
@@ -144,12 +138,12 @@ std::string counted(std::uint64_t count, const char* what) {
 Status write_bcf(const report::ClashContents& contents, report::Sink sink,
                  const parallel::Context& context) {
   const TopicPlan plan = plan_topics(contents);
-  ZipWriter zip(sink);
-  if (const Status status = add_file(zip, "bcf.version", version_file(contents.bcf.version_3));
+  report::ZipWriter zip(sink, "write fewer topics with --bcf-most");
+  if (const Status status = zip.add_file("bcf.version", version_file(contents.bcf.version_3));
       !status)
     return status;
   if (contents.bcf.version_3)
-    if (const Status status = add_file(zip, "extensions.xml", extensions_file(contents, plan));
+    if (const Status status = zip.add_file("extensions.xml", extensions_file(contents, plan));
         !status)
       return status;
   if (const Status status = add_topics(zip, contents, plan, context); !status) return status;

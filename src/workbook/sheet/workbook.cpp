@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "drawing/buffered_writer.hpp"
+#include "report/zip/zip_writer.hpp"
 #include "workbook/sheet/sheet_parts.hpp"
-#include "workbook/zip/zip_writer.hpp"
 
 namespace strake::workbook {
 namespace {
 
 /// Appends the rows of a sheet to the file that is begun. A piece has a fixed number of rows, so
 /// that its bytes are the same for any team.
-Status add_rows(ZipWriter& zip, const Sheet& sheet, const parallel::Context& context) {
+Status add_rows(report::ZipWriter& zip, const Sheet& sheet, const parallel::Context& context) {
   const std::size_t heads = sheet.has_heads() ? 1 : 0;
   bool packed = true;
   const Status status = drawing::write_in_batches(
@@ -27,25 +27,26 @@ Status add_rows(ZipWriter& zip, const Sheet& sheet, const parallel::Context& con
           sheet.cells(i, row);
           row.end();
         }
-        if (const Result<DeflatedPiece> piece = deflate_piece(text)) append_piece(out, *piece);
+        if (const Result<report::DeflatedPiece> piece = report::deflate_piece(text))
+          report::append_piece(out, *piece);
       },
       [&](std::string_view piece) {
         packed = packed && !piece.empty();
-        if (packed) zip.add(parse_piece(piece));
+        if (packed) zip.add(report::parse_piece(piece));
       },
       context);
   if (!status || packed) return status;
   return Error{ErrorCode::memory, "no memory to pack a workbook with", {}, {}};
 }
 
-Status add_sheet(ZipWriter& zip, const Sheet& sheet, std::size_t number,
+Status add_sheet(report::ZipWriter& zip, const Sheet& sheet, std::size_t number,
                  const parallel::Context& context) {
-  const Result<DeflatedPiece> head = deflate_piece(sheet_head(sheet, number == 0));
+  const Result<report::DeflatedPiece> head = report::deflate_piece(sheet_head(sheet, number == 0));
   if (!head) return head.error();
   zip.begin(sheet_part(number));
   zip.add(*head);
   if (const Status rows = add_rows(zip, sheet, context); !rows) return rows;
-  const Result<DeflatedPiece> tail = deflate_piece(sheet_tail(sheet));
+  const Result<report::DeflatedPiece> tail = report::deflate_piece(sheet_tail(sheet));
   if (!tail) return tail.error();
   zip.add(*tail);
   return zip.end();
@@ -85,7 +86,7 @@ void append_split(std::vector<Sheet>& sheets, const Sheet& whole, std::size_t mo
 
 Status write_workbook(std::span<const Sheet> sheets, report::Sink sink,
                       const parallel::Context& context) {
-  ZipWriter zip(sink);
+  report::ZipWriter zip(sink, "write .csv, or leave results out with --class");
   for (const Part& part : workbook_parts(sheets))
     if (const Status added = zip.add_file(part.name, part.text); !added) return added;
   for (std::size_t s = 0; s < sheets.size(); ++s)

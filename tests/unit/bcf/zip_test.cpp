@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "bcf/input/zip_reader.hpp"
-#include "bcf/output/zip_writer.hpp"
+#include "report/zip/zip_writer.hpp"
 
 namespace strake::bcf {
 namespace {
@@ -15,10 +15,10 @@ namespace {
 std::string archive_of_two() {
   std::string bytes;
   const auto sink = [&](std::string_view piece) { bytes += piece; };
-  ZipWriter zip(sink);
+  report::ZipWriter zip(sink, "write less");
   EXPECT_TRUE(zip.add_folder("topic/"));
-  EXPECT_TRUE(zip.add("topic/long", pack(std::string(100'000, 'x')).value()));
-  EXPECT_TRUE(zip.add("topic/empty", pack({}).value()));
+  EXPECT_TRUE(zip.add_file("topic/long", std::string(100'000, 'x')));
+  EXPECT_TRUE(zip.add_file("topic/empty", std::string_view()));
   EXPECT_TRUE(zip.finish());
   return bytes;
 }

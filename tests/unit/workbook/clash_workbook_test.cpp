@@ -11,7 +11,7 @@
 #include "strake/parallel/team.hpp"
 #include "strake/report/clash.hpp"
 #include "support/clash_model.hpp"
-#include "unit/workbook/zip_reader.hpp"
+#include "support/zip_reader.hpp"
 #include "workbook/clash/clash_sheets.hpp"
 #include "workbook/clash/picture_sheet.hpp"
 #include "workbook/workbook_writers.hpp"
