@@ -468,11 +468,13 @@ export class View {
       // A first picture is as well made of new buffers, which take longer than drawing them.
       if (performance.now() - started > 25) break;
     }
-    this.pieces.children = meshes;
-    this.renderer.render(this.pieces, this.camera);
-    this.pieces.children = [];
-    // No ghost stands before the two: those that were drawn over them are drawn over in turn.
-    if (this.ghostly) this.renderer.render(this.pair, this.camera);
+    if (meshes.length > 0) {
+      this.pieces.children = meshes;
+      this.renderer.render(this.pieces, this.camera);
+      this.pieces.children = [];
+      // No ghost stands before the two: those that were drawn over them are drawn over in turn.
+      if (this.ghostly) this.renderer.render(this.pair, this.camera);
+    }
     // One that lies within the other is seen through it. It blends, and so it is drawn once, over all others.
     if (this.queue.length === 0 || this.ghostly) this.renderer.render(this.hiddenPair, this.camera);
     this.sizeMarks();
