@@ -6,6 +6,7 @@ option(STRAKE_FUZZERS "Build the libFuzzer targets (Clang only)" OFF)
 option(STRAKE_ONLY_PARALLEL "Build strake::parallel and nothing else: needs no other package" OFF)
 option(STRAKE_PYTHON "Build the Python package (nanobind)" OFF)
 option(STRAKE_STEP "Build the importer of STEP and IGES (Open CASCADE 7.6)" OFF)
+option(STRAKE_VIEWER "Build and test the page that HTML reports are made of, where Node is found" OFF)
 option(BUILD_SHARED_LIBS "Make shared libraries" OFF)
 # For who works on the sources: another compiler than ours warns of more, which must not keep anyone
 # from a build.

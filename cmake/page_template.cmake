@@ -20,7 +20,10 @@ function(strake_page_template file header)
     string(LENGTH "${${part}_text}" length)
     while(at LESS length)
       string(SUBSTRING "${${part}_text}" ${at} 15000 piece)
-      string(APPEND ${part} "    std::string_view(R\"strakepage(${piece})strakepage\"),\n")
+      # With its length, which a compiler need not count then.
+      string(LENGTH "${piece}" piece_length)
+      string(APPEND ${part}
+        "    std::string_view(R\"strakepage(${piece})strakepage\", ${piece_length}),\n")
       math(EXPR at "${at} + 15000")
     endwhile()
   endforeach()

@@ -57,8 +57,8 @@ class Columns {
 
   /// Adds a column of type nm: value(row) is the number of millionths.
   template <class Value>
-  void millionths(std::string_view name, std::size_t rows, Value value) {
-    static_assert(std::same_as<std::invoke_result_t<Value&, std::size_t>, std::int64_t>);
+  void millionths(std::string_view name, std::size_t rows, const Value& value) {
+    static_assert(std::same_as<std::invoke_result_t<const Value&, std::size_t>, std::int64_t>);
     std::vector<Section> planes;
     for (unsigned plane = 0; plane < 8; ++plane)
       planes.push_back(

@@ -193,7 +193,7 @@ std::string scene_member(const model::Scene& scene, const ShownObjects& shown,
 }  // namespace
 
 Result<ModelBlocks> model_blocks(const model::Scene& scene, const ShownObjects& shown,
-                                 std::shared_ptr<const std::vector<std::uint32_t>> numbers,
+                                 const std::shared_ptr<const std::vector<std::uint32_t>>& numbers,
                                  const parallel::Context& context) {
   SceneBoxes boxes = boxes_of(scene, shown);
   const Vec3d origin = origin_of(boxes.all);

@@ -25,6 +25,7 @@ struct ModelBlocks {
 /// page. Errors: cancelled, out of memory.
 [[nodiscard]] Result<ModelBlocks> model_blocks(
     const model::Scene& scene, const ShownObjects& shown,
-    std::shared_ptr<const std::vector<std::uint32_t>> numbers, const parallel::Context& context);
+    const std::shared_ptr<const std::vector<std::uint32_t>>& numbers,
+    const parallel::Context& context);
 
 }  // namespace strake::page

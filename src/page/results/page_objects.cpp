@@ -62,7 +62,7 @@ PageObjects page_objects(const std::vector<bool>& wanted) {
   return objects;
 }
 
-Block objects_block(const model::Model& model, std::shared_ptr<const PageObjects> objects,
+Block objects_block(const model::Model& model, const std::shared_ptr<const PageObjects>& objects,
                     const report::ClashContents* clash, const PageNames& names) {
   const std::size_t n = objects->objects.size();
   const auto object = [&model, objects](std::size_t i) -> const model::Object& {

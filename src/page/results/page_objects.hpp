@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kNotInPage = 0xffffffffU;
 /// Returns the block strake-objects. `clash` is null in a page without results, and then `names` is
 /// empty. `columns` are the names of attributes.
 [[nodiscard]] Block objects_block(const model::Model& model,
-                                  std::shared_ptr<const PageObjects> objects,
+                                  const std::shared_ptr<const PageObjects>& objects,
                                   const report::ClashContents* clash, const PageNames& names);
 
 }  // namespace strake::page

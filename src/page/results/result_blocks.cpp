@@ -51,15 +51,16 @@ std::array<geometry::Vec3d, 2> witness_vectors(const Pair& pair) {
 template <class At>
 class ColumnsOf {
  public:
-  ColumnsOf(Columns& columns, std::size_t rows, At at) : columns_(columns), rows_(rows), at_(at) {}
+  ColumnsOf(Columns& columns, std::size_t rows, At at)
+      : columns_(columns), rows_(rows), at_(std::move(at)) {}
 
   template <class T, class Value>
-  void numbers(std::string_view name, Value value) {
+  void numbers(std::string_view name, const Value& value) {
     columns_.numbers<T>(name, rows_,
                         [at = at_, value](std::size_t row) -> T { return value(at(row)); });
   }
   template <class Value>
-  void millionths(std::string_view name, Value value) {
+  void millionths(std::string_view name, const Value& value) {
     columns_.millionths(
         name, rows_, [at = at_, value](std::size_t row) -> std::int64_t { return value(at(row)); });
   }

@@ -68,7 +68,7 @@ export class DrawingPanel {
   /** Marks objects in the drawing. */
   mark(objects: number[]): void {
     this.wanted = objects;
-    for (const element of this.marked) element.classList.remove('marked', 'marked-b');
+    for (const element of this.marked) element.classList.remove('marked', 'marked-b', 'marked-one');
     this.marked = [];
     const drawing = this.opened.get(this.current);
     if (!drawing || typeof drawing === 'string') return;
@@ -77,7 +77,8 @@ export class DrawingPanel {
       const at = number === undefined ? -1 : objects.indexOf(number);
       if (at < 0) continue;
       element.classList.add('marked');
-      if (at === 1) element.classList.add('marked-b');
+      if (objects.length === 1) element.classList.add('marked-one');
+      else if (at === 1) element.classList.add('marked-b');
       this.marked.push(element);
     }
   }
@@ -118,6 +119,18 @@ export class DrawingPanel {
     return Math.max(this.box.width / Math.max(1, this.paper.clientWidth), this.box.height / Math.max(1, this.paper.clientHeight));
   }
 
+  /** What has a line near a place of the screen, the nearest first: a line is thinner than a finger. */
+  private near(x: number, y: number): SVGElement | undefined {
+    for (let radius = 2; radius <= 8; radius += 2) {
+      for (let i = 0; i < 12; ++i) {
+        const found = document.elementFromPoint(x + radius * Math.cos((i * Math.PI) / 6), y + radius * Math.sin((i * Math.PI) / 6));
+        const object = found?.closest<SVGElement>('.paper [data-id]');
+        if (object) return object;
+      }
+    }
+    return undefined;
+  }
+
   private listen(): void {
     const fingers = new Map<number, { x: number; y: number }>();
     let moved = 0;
@@ -144,7 +157,7 @@ export class DrawingPanel {
     const up = (e: PointerEvent): void => {
       const was = fingers.delete(e.pointerId);
       if (!was || moved > 4 || e.type === 'pointercancel') return;
-      const object = (e.target as Element).closest<SVGElement>('[data-id]');
+      const object = (e.target as Element).closest<SVGElement>('[data-id]') ?? this.near(e.clientX, e.clientY);
       this.events.picked(object ? this.numberOf(object.dataset.id!, object.dataset.file ?? '') : undefined);
     };
     this.paper.addEventListener('pointerup', up);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Color, DataTexture, DoubleSide, GLSL3, NearestFilter, RGBAFormat, ShaderMaterial, UnsignedByteType, Vector3 } from 'three';
+import { Color, DataTexture, DoubleSide, GLSL3, GreaterDepth, LessEqualDepth, NearestFilter, RGBAFormat, ShaderMaterial, UnsignedByteType, Vector3 } from 'three';
 
 /** What the program of the graphics card is told; one for all batches. */
 export interface SharedUniforms {
@@ -95,7 +95,7 @@ void main() {
 #endif
   vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
   float facing = abs(dot(normal, normalize(seen)));
-  float light = 0.55 + 0.37 * facing + 0.12 * normal.y;
+  float light = 0.66 + 0.28 * facing + 0.1 * normal.y;
 #ifdef ONE_COLOUR
   vec3 base = tint;
 #else
@@ -116,6 +116,8 @@ export interface MaterialOptions {
   ghost?: boolean;
   colour?: number;
   lines?: boolean;
+  /** only what something hides, and that faintly */
+  behind?: boolean;
 }
 
 /** A material of batches, or of one colour. Flat faces: the normal is that of the triangle on the screen. */
@@ -131,15 +133,16 @@ export function makeMaterial(shared: SharedUniforms, options: MaterialOptions): 
     fragmentShader: FRAGMENT,
     defines,
     side: DoubleSide,
-    transparent: options.ghost ?? false,
-    depthWrite: !options.ghost,
+    transparent: options.ghost || options.behind || false,
+    depthWrite: !options.ghost && !options.behind,
+    depthFunc: options.behind ? GreaterDepth : LessEqualDepth,
     uniforms: {
       states: shared.states,
       sectionMin: shared.sectionMin,
       sectionMax: shared.sectionMax,
       focus: shared.focus,
       fade: shared.fade,
-      opacity: { value: options.ghost ? 0.08 : 1 },
+      opacity: { value: options.ghost ? 0.08 : options.behind ? 0.4 : 1 },
       tint: { value: new Color(options.colour ?? 0x888888) },
       tinted: { value: options.ghost ? 1 : 0 },
     },

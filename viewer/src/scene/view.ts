@@ -17,6 +17,13 @@ import { type Hit, type Limits, pick, type Ray } from './ray.ts';
 
 export type Others = 'ghost' | 'solid' | 'hide';
 
+/** How an object of the clash is drawn: itself, its edges, and what of it something hides. */
+interface Paint {
+  body: ShaderMaterial;
+  rim: ShaderMaterial;
+  behind: ShaderMaterial;
+}
+
 /** A clash, in millimetres of the model. */
 export interface Shown {
   a: number;
@@ -54,10 +61,11 @@ export class View {
   private readonly gpu: GpuBatches;
   private readonly pieces = new Scene();
   private readonly pair = new Scene();
+  private readonly hiddenPair = new Scene();
   private readonly marks = new Scene();
   private readonly origin: Vec;
   private readonly reach: number;
-  private readonly paints = new Map<number, { body: ShaderMaterial; rim: ShaderMaterial }>();
+  private readonly paints = new Map<number, Paint>();
   private queue: Batch[] = [];
   private dirty = false;
   private scheduled = false;
@@ -109,7 +117,7 @@ export class View {
     });
     this.ghosts = both(true);
     this.solids = both(false);
-    for (const scene of [this.pieces, this.pair, this.marks]) scene.matrixWorldAutoUpdate = false;
+    for (const scene of [this.pieces, this.pair, this.hiddenPair, this.marks]) scene.matrixWorldAutoUpdate = false;
     const { bounds } = this.items;
     this.reach = Math.max(1000, 2 * Math.hypot(bounds[3]! - bounds[0]!, bounds[4]! - bounds[1]!, bounds[5]! - bounds[2]!));
     this.controls = new OrbitControls(this.camera, canvas);
@@ -191,12 +199,12 @@ export class View {
   fit(): void {
     const { bounds } = this.items;
     if (!Number.isFinite(bounds[0]!)) return;
-    this.goTo([0, 1, 2].map((k) => (bounds[k]! + bounds[3 + k]!) / 2) as Vec, this.reach / 4);
+    this.goTo([0, 1, 2].map((k) => (bounds[k]! + bounds[3 + k]!) / 2) as Vec, this.reach / 5);
   }
 
   look(side: Side): void {
     const direction = new Vector3(...LOOKS[side]).normalize();
-    const away = this.camera.position.distanceTo(this.controls.target) || distanceFor(this.camera, this.reach / 4);
+    const away = this.camera.position.distanceTo(this.controls.target) || distanceFor(this.camera, this.reach / 5);
     this.camera.position.copy(this.controls.target).addScaledVector(direction, -away);
     this.camera.lookAt(this.controls.target);
     this.controls.update();
@@ -282,6 +290,7 @@ export class View {
       child.geometry.dispose();
       this.pair.remove(child);
     }
+    this.hiddenPair.clear();
     for (const [object, colour] of chosen) {
       const list = itemsOf(this.items, object);
       if (list.length === 0) continue;
@@ -295,6 +304,9 @@ export class View {
       const body = new Mesh(geometry, paint.body);
       body.frustumCulled = false;
       this.pair.add(body);
+      const behind = new Mesh(geometry, paint.behind);
+      behind.frustumCulled = false;
+      this.hiddenPair.add(behind);
       if (mesh.index.length < 60000) {
         const rim = new LineSegments(new EdgesGeometry(geometry, 30), paint.rim);
         rim.frustumCulled = false;
@@ -304,11 +316,12 @@ export class View {
   }
 
   /** A colour's materials are made once: a new one costs more than drawing with it. */
-  private paintOf(colour: number): { body: ShaderMaterial; rim: ShaderMaterial } {
+  private paintOf(colour: number): Paint {
     let paint = this.paints.get(colour);
     if (!paint) {
       paint = {
         body: makeMaterial(this.shared, { colour }),
+        behind: makeMaterial(this.shared, { colour, behind: true }),
         rim: makeMaterial(this.shared, { colour: new Color(colour).multiplyScalar(0.45).getHex(), lines: true }),
       };
       this.paints.set(colour, paint);
@@ -455,11 +468,15 @@ export class View {
       // A first picture is as well made of new buffers, which take longer than drawing them.
       if (performance.now() - started > 25) break;
     }
-    this.pieces.children = meshes;
-    this.renderer.render(this.pieces, this.camera);
-    this.pieces.children = [];
-    // No ghost stands before the two: those that were drawn over them are drawn over in turn.
-    if (this.ghostly) this.renderer.render(this.pair, this.camera);
+    if (meshes.length > 0) {
+      this.pieces.children = meshes;
+      this.renderer.render(this.pieces, this.camera);
+      this.pieces.children = [];
+      // No ghost stands before the two: those that were drawn over them are drawn over in turn.
+      if (this.ghostly) this.renderer.render(this.pair, this.camera);
+    }
+    // One that lies within the other is seen through it. It blends, and so it is drawn once, over all others.
+    if (this.queue.length === 0 || this.ghostly) this.renderer.render(this.hiddenPair, this.camera);
     this.sizeMarks();
     this.renderer.render(this.marks, this.camera);
   }

@@ -25,7 +25,6 @@ export const ROW_HEIGHT = 38;
 /** A table of rows, which are numbers in the payload. */
 export class ResultTable {
   readonly element: HTMLElement;
-  private readonly scroller = h('div', { class: 'scroller', tabindex: -1, onfocus: () => this.element.focus({ preventScroll: true }) });
   private readonly body = h('div', { role: 'rowgroup', class: 'rows' });
   private readonly header = h('div', { role: 'row', class: 'row header', 'aria-rowindex': 1 });
   private readonly virtual: VirtualRows;
@@ -45,9 +44,8 @@ export class ResultTable {
       role: 'grid', class: `table table-${prefix}`, tabindex: 0, 'aria-label': label, 'aria-colcount': columns.length,
       onkeydown: (event) => this.key(event),
     });
-    this.scroller.append(this.body);
-    add(this.element, h('div', { role: 'rowgroup' }, this.header), this.scroller);
-    this.virtual = new VirtualRows(this.scroller, this.body, ROW_HEIGHT, (index) => this.row(index, template));
+    add(this.element, h('div', { role: 'rowgroup', class: 'head' }, this.header), this.body);
+    this.virtual = new VirtualRows(this.element, this.body, ROW_HEIGHT, ROW_HEIGHT, (index) => this.row(index, template));
     this.makeHeader();
   }
 

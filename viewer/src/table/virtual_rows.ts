@@ -30,6 +30,8 @@ export class VirtualRows {
     private readonly scroller: HTMLElement,
     private readonly host: HTMLElement,
     readonly height: number,
+    /** what of the scroller a header covers that stays in view */
+    private readonly covered: number,
     private readonly make: (index: number) => HTMLElement,
   ) {
     this.spacer.className = 'spacer';
@@ -97,7 +99,7 @@ export class VirtualRows {
   }
 
   private get view(): number {
-    return this.scroller.clientHeight;
+    return this.scroller.clientHeight - this.covered;
   }
 
   private scrollTo(offset: number): void {

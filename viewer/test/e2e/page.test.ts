@@ -210,6 +210,15 @@ test('drawings: layers, and objects that are picked in both', async () => {
   await target.dispatchEvent('pointerdown', { pointerId: 1, clientX: 5, clientY: 5 });
   await target.dispatchEvent('pointerup', { pointerId: 1, clientX: 5, clientY: 5 });
   assert.equal(await page.textContent('.details h2 .object-name'), id);
+  assert.equal(await page.locator('.paper .marked-one').count(), 2, 'it is marked in both layers');
+  // A click a few pixels beside a line means the line; one on empty paper means nothing.
+  const line = (await page.locator('.paper .visible .marked-one path').boundingBox())!;
+  await page.mouse.click(3 + (await page.locator('.paper').boundingBox())!.x, 3 + (await page.locator('.paper').boundingBox())!.y);
+  assert.equal(await page.locator('.paper .marked').count(), 0);
+  await page.mouse.click(line.x + line.width / 2, line.y - 3);
+  assert.ok((await page.locator('.paper .marked-one').count()) > 0);
+  const picked = await page.textContent('.details h2 .object-name');
+  assert.ok(names.length === 2 && picked!.length > 0);
   await page.click('.details >> text=Show');
   await settle(page);
   assert.ok((await places(page, 0x009e73)).count > 100, 'it is coloured in the model');
