@@ -41,7 +41,7 @@ export class ResultTable {
     const template = columns.map((c) => c.width).join(' ');
     this.header.style.gridTemplateColumns = template;
     this.element = h('div', {
-      role: 'grid', class: `table table-${prefix}`, tabindex: 0, 'aria-label': label, 'aria-colcount': columns.length,
+      role: 'grid', class: `table table-${prefix} columns-${columns.length}`, tabindex: 0, 'aria-label': label, 'aria-colcount': columns.length,
       onkeydown: (event) => this.key(event),
     });
     add(this.element, h('div', { role: 'rowgroup', class: 'head' }, this.header), this.body);
