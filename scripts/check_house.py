@@ -25,7 +25,8 @@ MAY_USE = {
     'tiles': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'settings', 'rules', 'project'],
     'generate': ['core', 'parallel', 'geometry', 'model', 'clash'],
     'workbook': ['core', 'parallel', 'geometry', 'model', 'clash', 'drawing', 'report'],
-    'publish': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing', 'sheets', 'report', 'workbook'],
+    'pictures': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'hlr', 'drawing', 'report'],
+    'publish': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'hlr', 'drawing', 'sheets', 'report', 'pictures', 'workbook'],
 }
 # A room is a folder of a module, for one stage of an algorithm (decision 0060).
 MOST_IN_ROOM = 22

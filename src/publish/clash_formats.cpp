@@ -3,7 +3,8 @@
 
 #include <span>
 
-#include "workbook/workbook_writers.hpp"
+#include "pictures/whole_run.hpp"
+#include "publish/pictured_workbook.hpp"
 
 namespace strake::publish {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 std::vector<report::ClashWriter> clash_writers() {
   std::vector<report::ClashWriter> all;
   for (const std::span<const report::ClashWriter> table :
-       {report::clash_writers(), workbook::clash_writers()})
+       {report::clash_writers(), workbook_writers(), pictures::picture_writers()})
     all.insert(all.end(), table.begin(), table.end());
   return all;
 }

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "clash/rules/tolerance_lengths.hpp"
+#include "cli/output/picture_folder.hpp"
 #include "cli/run/file_settings.hpp"
 #include "cli/run/load.hpp"
 #include "cli/verbs/clash/clash_decisions.hpp"
@@ -50,6 +51,7 @@ struct ClashOptions {
   ClashOutputInput output;
   DecisionInput decisions;
   ClashProjectInput project;
+  PictureInput pictures;
   std::vector<std::string> outputs;
 };
 
@@ -114,36 +116,6 @@ Result<OnlyTest> only_test(const ClashOptions& given) {
   if (!engine) return engine.error();
   options.engine = *engine;
   return test;
-}
-
-void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
-  clash::Counters sum;
-  std::uint64_t allowed_other_regions = 0;
-  for (const clash::Report& test : tests) {
-    sum.candidate_pairs += test.counters.candidate_pairs;
-    sum.allowed_pairs += test.counters.allowed_pairs;
-    sum.part_pairs += test.counters.part_pairs;
-    sum.triangle_pairs += test.counters.triangle_pairs;
-    sum.exact_fallbacks += test.counters.exact_fallbacks;
-    sum.depth_cells += test.counters.depth_cells;
-    sum.volume_triangle_pairs += test.counters.volume_triangle_pairs;
-    sum.volumes_given_up += test.counters.volumes_given_up;
-    sum.regions_given_up += test.counters.regions_given_up;
-    allowed_other_regions += test.count_allowed_regions;
-  }
-  const clash::NotComparedCounts lacks = clash::counts_of(tests);
-  stats.count("candidate pairs", sum.candidate_pairs);
-  stats.count("pairs that may be allowed", sum.allowed_pairs);
-  stats.count("part pairs", sum.part_pairs);
-  stats.count("triangle pairs", sum.triangle_pairs);
-  stats.count("exact fall-backs", sum.exact_fallbacks);
-  stats.count("depth cells", sum.depth_cells);
-  stats.count("volume triangle pairs", sum.volume_triangle_pairs);
-  stats.count("volumes given up", sum.volumes_given_up);
-  stats.count("regions given up", sum.regions_given_up);
-  stats.count("allowed places of others", allowed_other_regions);
-  stats.count("pairs not compared", lacks.pairs);
-  stats.count("objects not compared whole", lacks.objects);
 }
 
 Status write_files(Session& session, const ClashOptions& given,
@@ -308,6 +280,7 @@ Status name_files(Session& session, const ClashOptions& given) {
   if (given.input.files.empty() && !given.project.is_given())
     return Error{
         ErrorCode::usage, "no model file is given", {}, "'strake clash --help' tells more"};
+  if (const Status status = check_pictures(given.pictures); !status) return status;
   RunFiles& files = session.files();
   if (Status status = files.add_inputs(given.input.files); !status) return status;
   if (!given.rules.empty())
@@ -377,6 +350,8 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
                                        decided,
                                        &loaded.scene};
   if (const Status status = write_files(session, given, contents); !status) return status;
+  if (const Status status = write_pictures(session, given.pictures, contents); !status)
+    return status;
   // A run whose files cannot be written is found again by the next one. Whoever reads standard
   // output may take long, for which no other program is to wait.
   if (project != nullptr)
@@ -543,6 +518,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
   add_result_options(*command, options->result);
   add_clash_output_options(*command, options->output);
   add_decision_options(*command, options->decisions);
+  add_picture_options(*command, options->pictures);
   add_clash_project_options(*command, options->project);
   command->get_option("--project")->excludes(command->get_option("--decisions"));
   add_choice(*command, "--broad-phase", options->broad_phase, {"tree", "all-pairs"},
@@ -584,6 +560,7 @@ Examples:
   strake clash hvac.rvm steel.rvm --columns @Tag,@Area --csv excel-comma -o clashes.csv
   strake clash hvac.rvm steel.rvm --profile plant --group-by assembly
   strake clash ship.glb --class hit --decisions decided.csv --write-decisions --fail-on hit
+  strake clash ship.glb --group-by proximity --pictures pictures --top-pictures 20
   strake clash ship.glb --log-pairs pairs.csv --stats
   strake clash -p ship.strake --rules project.toml --fail-on hit -o today.json
   strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --status approved --comment 'as agreed'

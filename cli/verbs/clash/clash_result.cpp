@@ -115,6 +115,36 @@ std::string where(const clash::Findings& findings, const clash::Report& test,
 
 }  // namespace
 
+void count_work(Stats& stats, const std::vector<clash::Report>& tests) {
+  clash::Counters sum;
+  std::uint64_t allowed_other_regions = 0;
+  for (const clash::Report& test : tests) {
+    sum.candidate_pairs += test.counters.candidate_pairs;
+    sum.allowed_pairs += test.counters.allowed_pairs;
+    sum.part_pairs += test.counters.part_pairs;
+    sum.triangle_pairs += test.counters.triangle_pairs;
+    sum.exact_fallbacks += test.counters.exact_fallbacks;
+    sum.depth_cells += test.counters.depth_cells;
+    sum.volume_triangle_pairs += test.counters.volume_triangle_pairs;
+    sum.volumes_given_up += test.counters.volumes_given_up;
+    sum.regions_given_up += test.counters.regions_given_up;
+    allowed_other_regions += test.count_allowed_regions;
+  }
+  const clash::NotComparedCounts lacks = clash::counts_of(tests);
+  stats.count("candidate pairs", sum.candidate_pairs);
+  stats.count("pairs that may be allowed", sum.allowed_pairs);
+  stats.count("part pairs", sum.part_pairs);
+  stats.count("triangle pairs", sum.triangle_pairs);
+  stats.count("exact fall-backs", sum.exact_fallbacks);
+  stats.count("depth cells", sum.depth_cells);
+  stats.count("volume triangle pairs", sum.volume_triangle_pairs);
+  stats.count("volumes given up", sum.volumes_given_up);
+  stats.count("regions given up", sum.regions_given_up);
+  stats.count("allowed places of others", allowed_other_regions);
+  stats.count("pairs not compared", lacks.pairs);
+  stats.count("objects not compared whole", lacks.objects);
+}
+
 void count_costs(Stats& stats, const clash::Findings& findings, const model::Model& model) {
   constexpr std::size_t kShown = 5;
   struct Costly {

@@ -35,6 +35,9 @@ void add_result_options(CLI::App& command, ClashResultInput& options);
 [[nodiscard]] std::size_t terminal_width();
 [[nodiscard]] clash::SortBy sort_by(const std::string& word);
 
+/// Counts what the tests took, for --stats.
+void count_work(Stats& stats, const std::vector<clash::Report>& tests);
+
 /// Adds the pairs that cost most to --stats.
 void count_costs(Stats& stats, const clash::Findings& findings, const model::Model& model);
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
+#include "strake/parallel/detail/function_ref.hpp"
 
 namespace strake::io {
 
@@ -42,6 +44,14 @@ struct WriteOptions {
 /// Errors: output (cannot write, more than 4 GiB, a coordinate that is not finite), cancelled.
 [[nodiscard]] Status write_glb(const model::Model& model, const std::filesystem::path& path,
                                const WriteOptions& options, const parallel::Context& context);
+
+/// Takes bytes piece by piece; pieces end anywhere.
+using ByteSink = parallel::FunctionRef<void(std::string_view)>;
+
+/// Hands the same bytes to a sink. Errors: those of write_glb(); then what went to the sink is no
+/// GLB.
+[[nodiscard]] Status put_glb(const model::Model& model, ByteSink sink, const WriteOptions& options,
+                             const parallel::Context& context);
 
 /// Writes a model as Wavefront OBJ in world millimetres with z up: one `o` per object, named by its
 /// id, triangles as `f`, polylines as `l`; numbers are written so that they read back exactly.

@@ -129,4 +129,16 @@ Status write_glb(const model::Model& model, const std::filesystem::path& path,
   return gltf::write_glb_file(path, gltf::JsonChunk(model, *plan).text(), *plan, context.stop);
 }
 
+Status put_glb(const model::Model& model, ByteSink sink, const WriteOptions& options,
+               const parallel::Context& context) {
+  if (options.keep_all) {
+    const Result<gltf::NeutralPlan> plan = gltf::plan_neutral(model, options);
+    if (!plan) return plan.error();
+    return gltf::put_glb(sink, gltf::neutral_json(model, *plan), plan->glb, context.stop);
+  }
+  const Result<gltf::GlbPlan> plan = gltf::plan_glb(model, options);
+  if (!plan) return plan.error();
+  return gltf::put_glb(sink, gltf::JsonChunk(model, *plan).text(), *plan, context.stop);
+}
+
 }  // namespace strake::io
