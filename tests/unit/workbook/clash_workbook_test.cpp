@@ -99,7 +99,11 @@ TEST(ClashWorkbook, GroupsAndPicturesHaveSheets) {
   const std::string& drawing = files["xl/drawings/drawing3.xml"];
   EXPECT_TRUE(has(drawing, "<xdr:row>1</xdr:row>")) << drawing;
   EXPECT_TRUE(has(drawing, "cx=\"3048000\" cy=\"2286000\"")) << drawing;
-  EXPECT_TRUE(has(files["xl/worksheets/sheet3.xml"], "<drawing r:id=\"rId1\"/>"));
+  const std::string& sheet = files["xl/worksheets/sheet3.xml"];
+  EXPECT_TRUE(has(sheet, "<drawing r:id=\"rId1\"/>"));
+  EXPECT_TRUE(has(sheet, "defaultRowHeight=\"190\" customHeight=\"1\"")) << sheet;
+  EXPECT_TRUE(has(sheet, "<row r=\"1\" ht=\"15\" customHeight=\"1\">")) << sheet;
+  EXPECT_TRUE(has(sheet, "<row r=\"2\">")) << sheet;
 }
 
 TEST(ClashWorkbook, WhatAPictureFailsByIsTheErrorOfTheWriter) {
