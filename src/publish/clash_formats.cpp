@@ -7,7 +7,7 @@
 #include "bcf/bcf_writers.hpp"
 #include "page/page.hpp"
 #include "pictures/whole_run.hpp"
-#include "workbook/workbook_writers.hpp"
+#include "publish/pictured_workbook.hpp"
 
 namespace strake::publish {
 namespace {
@@ -21,7 +21,7 @@ constexpr std::array kPages{
 std::vector<report::ClashWriter> clash_writers() {
   std::vector<report::ClashWriter> all;
   for (const std::span<const report::ClashWriter> table :
-       {report::clash_writers(), workbook::clash_writers(), bcf::clash_writers(),
+       {report::clash_writers(), workbook_writers(), bcf::clash_writers(),
         pictures::picture_writers(), std::span<const report::ClashWriter>(kPages)})
     all.insert(all.end(), table.begin(), table.end());
   return all;

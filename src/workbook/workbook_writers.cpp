@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "workbook/workbook_writers.hpp"
 
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -12,14 +11,6 @@
 #include "workbook/sheet/workbook.hpp"
 
 namespace strake::workbook {
-namespace {
-
-constexpr std::array kWriters{
-    report::ClashWriter{{".xlsx", ", for Excel and LibreOffice as {}"}, write_clash_workbook, true},
-};
-
-}  // namespace
-
 Status write_clash_workbook(const report::ClashContents& contents, report::Sink sink,
                             const parallel::Context& context) {
   const report::GroupNumbers numbers(contents);
@@ -35,7 +26,5 @@ Status write_clash_workbook(const report::ClashContents& contents, report::Sink 
   sheets.insert(sheets.begin(), summary_sheet(contents, sheets));
   return write_workbook(sheets, sink, context);
 }
-
-std::span<const report::ClashWriter> clash_writers() { return kWriters; }
 
 }  // namespace strake::workbook

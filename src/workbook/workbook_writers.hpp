@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
-
-#include "report/report_writers.hpp"
+#include "core/output_format.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 #include "strake/report/clash.hpp"
@@ -17,7 +15,7 @@ namespace strake::workbook {
 [[nodiscard]] Status write_clash_workbook(const report::ClashContents& contents, report::Sink sink,
                                           const parallel::Context& context = {});
 
-/// The formats of this module, in the order of help and errors.
-[[nodiscard]] std::span<const report::ClashWriter> clash_writers();
+/// The format, as tables of writers have it.
+inline constexpr OutputFormat kClashWorkbook{".xlsx", ", for Excel and LibreOffice as {}"};
 
 }  // namespace strake::workbook

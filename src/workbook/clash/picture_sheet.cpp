@@ -27,7 +27,7 @@ std::vector<ResultRef> worst_results(const ClashContents& contents) {
   for (std::uint32_t t = 0; t < contents.findings.tests.size(); ++t) {
     const std::vector<clash::Pair>& pairs = contents.findings.tests[t].pairs;
     for (std::uint32_t p = 0; p < pairs.size(); ++p)
-      if (pairs[p].allowed < 0 &&
+      if (pairs[p].allowed < 0 && pairs[p].cls != clash::Class::contact &&
           (contents.decided == nullptr || !contents.decided->is_settled(t, pairs[p])))
         all.push_back({t, p});
   }

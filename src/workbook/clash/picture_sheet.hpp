@@ -11,11 +11,12 @@
 namespace strake::workbook {
 
 /// The most pictures of a workbook.
-inline constexpr std::size_t kMostPictures = 50;
+inline constexpr std::size_t kMostPictures = 10;
 
-/// Returns the sheet of the worst results that no rule allows and that are not settled, each with
-/// its picture: by class, then by d, then as in the findings. It has no rows where nobody makes
-/// pictures (ClashContents::picture_of). Errors: those of who makes them; cancelled.
+/// Returns the sheet of the worst hits and clearance violations that no rule allows and that are
+/// not settled, each with its picture: by class, then by d, then as in the findings. It has no rows
+/// where nobody makes pictures (ClashContents::picture_of). Errors: those of who makes them;
+/// cancelled.
 [[nodiscard]] Result<Sheet> picture_sheet(const report::ClashContents& contents,
                                           const parallel::Context& context);
 

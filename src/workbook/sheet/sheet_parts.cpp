@@ -240,7 +240,9 @@ std::string sheet_head(const Sheet& sheet, bool is_first) {
   if (!sheet.columns.empty()) out += "</cols>";
   out += "<sheetData>";
   if (!sheet.has_heads()) return out;
-  SheetRow row(out, 0);
+  // Rows may be as high as pictures are, which heads are not to be.
+  constexpr int kHeadHeight = 15;
+  SheetRow row(out, 0, kHeadHeight);
   for (const SheetColumn& column : sheet.columns) row.word(column.name, CellStyle::head);
   row.end();
   return out;

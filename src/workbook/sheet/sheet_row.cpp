@@ -68,9 +68,12 @@ void append_cell_text(std::string& out, std::string_view raw) {
   if (!raw.empty()) out += "\xE2\x80\xA6";
 }
 
-SheetRow::SheetRow(std::string& out, std::size_t number)
+SheetRow::SheetRow(std::string& out, std::size_t number, int height)
     : out_(out), number_(std::to_string(number + 1)) {
-  out_.append("<row r=\"").append(number_).append("\">");
+  out_.append("<row r=\"").append(number_).append("\"");
+  if (height > 0)
+    out_.append(" ht=\"").append(std::to_string(height)).append("\" customHeight=\"1\"");
+  out_ += '>';
 }
 
 void SheetRow::begin_cell(CellStyle style) {

@@ -36,8 +36,8 @@ class SheetRow {
   /// Appends a number to a text, with a decimal point.
   using AppendNumber = void (*)(std::string& out, double value);
 
-  /// `number` counts rows from 0 on.
-  SheetRow(std::string& out, std::size_t number);
+  /// `number` counts rows from 0 on; `height` is in points, 0: that of the sheet.
+  SheetRow(std::string& out, std::size_t number, int height = 0);
 
   /// Appends a name from a file, whatever it is as text.
   SheetRow& text(std::string_view raw) { return string(raw, CellStyle::text); }

@@ -4,6 +4,7 @@
 import csv
 import io
 import json
+import struct
 import uuid
 import xml.etree.ElementTree as ElementTree
 
@@ -66,6 +67,22 @@ class Exchange(RowProject):
             [row for row in summary if row[0] == '(the only one)'][1])])
         self.assertIn(['Clashes', float(len(results))], summary)
         self.assertIn(['Hash of the results', document['hash']], summary)
+
+    def test_the_worst_have_pictures(self):
+        document = self.ship(files=('x.xlsx',))
+        worst = sorted((result for result in document['results'] if result['class'] != 'CONTACT'),
+                       key=lambda result: (result['class'] != 'HIT', result['d_mm']))[:10]
+        book = Workbook(self.folder / 'x.xlsx')
+        rows = book.table('Pictures')
+        self.assertGreater(len(rows), 2)
+        self.assertEqual([(row['class'], row['d_mm']) for row in rows],
+                         [(result['class'], result['d_mm']) for result in worst])
+        images = [content for name, content in book.parts.items() if name.startswith('xl/media/')]
+        self.assertEqual(len(images), len(rows))
+        self.assertEqual(len(set(images)), len(rows))
+        for image in images:
+            self.assertTrue(image.startswith(b'\x89PNG\r\n'))
+            self.assertEqual(struct.unpack('>II', image[16:24]), (640, 480))
 
     def test_xml_has_the_results_with_guids_of_their_keys(self):
         document = self.ship('--group-by', 'element', files=('x.xml',))
