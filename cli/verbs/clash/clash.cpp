@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "clash/rules/tolerance_lengths.hpp"
-#include "cli/output/picture_folder.hpp"
 #include "cli/run/file_settings.hpp"
 #include "cli/run/load.hpp"
 #include "cli/verbs/clash/clash_decisions.hpp"
@@ -27,6 +26,7 @@
 #include "cli/verbs/clash/clash_project.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/clash/clash_sets.hpp"
+#include "cli/verbs/clash/pictures/picture_folder.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
 #include "publish/clash_formats.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/output/picture_folder.hpp"
+#include "cli/verbs/clash/pictures/picture_folder.hpp"
 
 #include <fmt/format.h>
 
