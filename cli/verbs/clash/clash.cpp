@@ -468,9 +468,9 @@ void add_rules_file(CLI::App& command, ClashOptions& options) {
   for (const char* const name : {"--thickness-cap", "--contact-distance", "--a", "--b", "--self"})
     rules->excludes(command.get_option(name));
   command
-      .add_flag(
-          "--list-exempted", options.list_exempted,
-          "List the pairs that rules exempt, in " + list_suffixes(publish::clash_formats(), "and"))
+      .add_flag("--list-exempted", options.list_exempted,
+                "List the pairs that rules exempt, in " +
+                    list_suffixes(formats_of(report::clash_writers()), "and"))
       ->group("Rules");
   add_profile_option(command, options.profile);
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pictures/folder/new_folder.hpp"
 
-#include <cerrno>
-#include <cstdlib>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -25,18 +23,16 @@ Result<NewFolder> NewFolder::beside(const fs::path& target) {
   folder.target_ = fs::absolute(target, fault).lexically_normal();
   if (fault) return cannot_write(target, fault);
   if (!folder.target_.has_filename()) folder.target_ = folder.target_.parent_path();
-  std::string name =
-      (folder.target_.parent_path() / ("." + folder.target_.filename().string() + ".XXXXXX"))
-          .string();
-  if (::mkdtemp(name.data()) == nullptr)
-    return cannot_write(target, std::error_code(errno, std::generic_category()));
-  folder.temporary_ = name;
-  // Other folders may be read by all whom the mask of the process lets read.
-  fs::permissions(folder.temporary_,
-                  fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
-                      fs::perms::others_read | fs::perms::others_exec,
-                  fault);
-  return folder;
+  // What the mask of the process allows holds for this folder as for any other.
+  constexpr int kTries = 1000;
+  for (int i = 0; i < kTries && !fault; ++i) {
+    const fs::path name = folder.target_.parent_path() /
+                          ("." + folder.target_.filename().string() + ".new" + std::to_string(i));
+    if (!fs::create_directory(name, fault)) continue;
+    folder.temporary_ = name;
+    return folder;
+  }
+  return cannot_write(target, fault ? fault : std::make_error_code(std::errc::file_exists));
 }
 
 NewFolder::NewFolder(NewFolder&& other) noexcept

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "pictures/viewpoint/item_buffer.hpp"
 #include "strake/parallel/transform.hpp"
@@ -121,6 +124,39 @@ Result<std::vector<Candidate>> judge(std::span<const NearTriangle> triangles,
         const double share = visible_share(triangles, directions[i], sight);
         return Candidate{directions[i], share, worth(share) * liking(directions[i])};
       });
+}
+
+Result<Candidate> find_best(std::span<const NearTriangle> triangles,
+                            std::span<const Vec3d> directions, const Sight& sight,
+                            const parallel::Context& context) {
+  std::vector<NearTriangle> two;
+  std::ranges::copy_if(triangles, std::back_inserter(two),
+                       [](const NearTriangle& t) { return t.role != Role::other; });
+  const Result<std::vector<Candidate>> bounds = judge(two, directions, sight, context);
+  if (!bounds) return bounds.error();
+  if (!sight.others) return best_of(*bounds);
+  std::vector<std::size_t> order(directions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(-(*bounds)[i].rank, i); });
+  // Others only take from what is seen, so that no rank is above its bound.
+  constexpr std::size_t kAtOnce = 4;
+  std::optional<std::pair<Candidate, std::size_t>> best;
+  for (std::size_t first = 0; first < order.size(); first += kAtOnce) {
+    if (best && (*bounds)[order[first]].rank < best->first.rank) break;
+    std::vector<Vec3d> some;
+    for (std::size_t k = first; k < std::min(order.size(), first + kAtOnce); ++k)
+      some.push_back(directions[order[k]]);
+    const Result<std::vector<Candidate>> judged = judge(triangles, some, sight, context);
+    if (!judged) return judged.error();
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      const Candidate& one = (*judged)[k];
+      const std::size_t number = order[first + k];
+      if (!best || one.rank > best->first.rank ||
+          (one.rank == best->first.rank && number < best->second))
+        best.emplace(one, number);
+    }
+  }
+  return best->first;
 }
 
 const Candidate& best_of(std::span<const Candidate> candidates) {

@@ -10,6 +10,8 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/parallel/context.hpp"
 
+// Decision 0106 says why these directions, and this measure.
+
 namespace strake::pictures {
 
 /// Returns the directions to viewers that are tried: those along the axes, of edges and corners a
@@ -48,6 +50,12 @@ struct Candidate {
                                                    std::span<const geometry::Vec3d> directions,
                                                    const Sight& sight,
                                                    const parallel::Context& context);
+
+/// Returns what best_of(judge()) returns, without a look at directions that cannot be the best even
+/// if nothing else stood in the way. Errors: cancelled.
+[[nodiscard]] Result<Candidate> find_best(std::span<const NearTriangle> triangles,
+                                          std::span<const geometry::Vec3d> directions,
+                                          const Sight& sight, const parallel::Context& context);
 
 /// Returns the candidate of the highest rank, of equals the first; there must be one.
 [[nodiscard]] const Candidate& best_of(std::span<const Candidate> candidates);

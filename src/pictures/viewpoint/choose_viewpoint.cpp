@@ -67,9 +67,7 @@ class ViewpointSearch {
   }
 
   Result<Candidate> best(const Sight& sight) const {
-    const Result<std::vector<Candidate>> all = judge(triangles_, directions_, sight, context_);
-    if (!all) return all.error();
-    return best_of(*all);
+    return find_best(triangles_, directions_, sight, context_);
   }
 
   std::vector<NearTriangle> triangles_;

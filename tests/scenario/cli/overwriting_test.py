@@ -154,11 +154,20 @@ class Overwriting(Scenario):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertEqual(state.read_bytes(), before)
 
+    def test_a_folder_of_pictures_spares_what_is_read(self):
+        os.mkdir(self.folder / 'drawn')
+        self.write('drawn/box.obj', cube('box', 0, (0, 0, 0), 100))
+        done = self.run_strake('clash', 'drawn/box.obj', '--pictures', 'drawn')
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn('drawn: holds something else than pictures', done.stderr)
+        self.assertEqual([f.name for f in (self.folder / 'drawn').iterdir()], ['box.obj'])
+
     def test_every_option_that_names_an_output_is_tried(self):
         """An option whose help says that a file is written stands above."""
         tried = {(' '.join(word for word in command[:2] if word in ('clash', 'draw', 'diff', 'list', 'history', 'project', 'report',
                                                                     'update', 'export')), command[-1])
-                 for command, _, _ in OUTPUTS} | {('generate ship', '-o'), ('generate ship', '--truth'), ('evaluate', '-o')}
+                 for command, _, _ in OUTPUTS} | {('generate ship', '-o'), ('generate ship', '--truth'), ('evaluate', '-o'),
+                                          ('clash', '--pictures')}
         for verb in VERBS:
             text = self.text(*verb, '--help')
             for short, long in re.findall(r'^  (?:(-\w),)?(--[a-z-]+) F(?:ILE|OLDER)\b', text, re.MULTILINE):

@@ -24,12 +24,13 @@ LENGTHS = ['clash a.obj --clearance', 'clash a.obj --touch-gap', 'clash a.obj --
            'draw a.obj -o x.svg --eye 1m,1m,1m --target 0,0,0 --near', 'draw diff v.view v.view --tolerance']
 SECONDS = [('long', 'no number of seconds'), ('-1', 'no number of seconds'), ('1e9', 'from 0 to 3600'), ('nan', 'no number of seconds'),
            ("''", 'the value is empty')]
-COUNTS = ['info a.obj --objects', 'project list p.strake --rows', 'clash a.obj --most-pairs', 'clash a.obj --most-spheres', 'clash a.obj --regions',
+COUNTS = ['info a.obj --objects', 'project list p.strake --rows', 'clash a.obj --most-pairs', 'clash a.obj --most-spheres', 'clash a.obj --regions', 'clash a.obj --pictures p --top-pictures',
           'generate ship -o x.glb --objects', 'generate ship -o x.glb --seed',
           'generate ship -o x.glb --imported-detail',
           'generate ship -o x.glb --imported-detail 1 --imported-triangles']
 CHOICES = ['clash a.obj --fail-on', 'clash a.obj --thickness-cap', 'clash a.obj --contacts', 'clash a.obj --group-by',
-           'clash a.obj --sort', 'clash a.obj --csv', 'clash a.obj --page-geometry', 'clash a.obj --profile', 'clash a.obj --broad-phase',
+           'clash a.obj --sort', 'clash a.obj --csv', 'clash a.obj --page-geometry', 'clash a.obj --pictures p --picture-format',
+           'clash a.obj --profile', 'clash a.obj --broad-phase',
            'clash a.obj --narrow-phase', 'clash a.obj --distribution',
            'clash diff c.json c.json --fail-on', 'draw diff v.view v.view --fail-on', 'draw a.obj -o x.svg --view',
            'draw a.obj -o x.svg --hidden', 'draw a.obj -o x.svg --stage', 'draw a.obj -o x.svg --intersections',
@@ -165,6 +166,7 @@ USAGE = [
     ('clash a.obj -o a.obj', '-o', '.json or .csv or .html'),
     ('clash a.obj -o x.json -o ./x.json', '-o', 'twice'),
     ('clash a.obj --log-pairs x.json', '--log-pairs', '.csv'),
+    ('clash a.obj --top-pictures 3', '--top-pictures', '--pictures'),
     ('clash a.obj -o x.csv --log-pairs x.csv', '--log-pairs', 'its own name'),
     *behind(['clash diff c.json c.json --match-files', 'draw diff v.view v.view --match-files'], [
         ('a.obj', 'names no two files'), ('b.obj=a.obj', 'it has a.obj'), ("''", 'the value is empty')]),

@@ -159,6 +159,14 @@ TEST(Viewpoint, TheBestOfAllCandidatesIsChosen) {
     const Sight sight{150, 1000};
     const auto all = judge(triangles, candidate_directions(pair.away), sight, {}).value();
     const Candidate& best = best_of(all);
+    for (const double cut : {1e300, 60.0, 0.0}) {
+      const Sight cut_open{150, 1000, cut};
+      const auto directions = candidate_directions(pair.away);
+      const Candidate found = find_best(triangles, directions, cut_open, {}).value();
+      const auto judged = judge(triangles, directions, cut_open, {}).value();
+      EXPECT_EQ(found.viewer, best_of(judged).viewer) << cut;
+      EXPECT_EQ(found.rank, best_of(judged).rank) << cut;
+    }
     for (const Candidate& one : all) {
       EXPECT_GE(best.rank, one.rank);
       EXPECT_NEAR(one.rank, worth(one.share) * liking(one.viewer), 1e-12);
