@@ -67,10 +67,10 @@ void leave_out_others(clash::Findings& findings, const WrittenClasses& classes);
 
 /// How BCF is written: a topic for each group, or for each result where there are no groups.
 struct BcfForm {
-  bool version_3 = false;   ///< 3.0; otherwise 2.1, which most programs read
-  std::size_t most = 1000;  ///< topics: the first of the groups, or the worst of the results
-  bool contacts = false;    ///< also results that are contacts; groups have those that they have
-  std::string date = {};    ///< when topics were made, as 2026-01-31T23:59:59Z; empty: 1970-01-01
+  bool version_3 = false;  ///< 3.0; otherwise 2.1, which most programs read
+  std::size_t most = 200;  ///< topics: the first of the groups, or the worst of the results
+  bool contacts = false;   ///< also results that are contacts; groups have those that they have
+  std::string date = {};   ///< when topics were made, as 2026-01-31T23:59:59Z; empty: 1970-01-01
   std::string author = "strake";  ///< who made them
 };
 
