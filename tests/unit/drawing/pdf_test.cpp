@@ -133,7 +133,8 @@ TEST(Lettering, FontHasTheWidthsThatTitleBlocksAssume) {
 TEST(Lettering, SubsetKeepsWhatItsGlyphsAreMadeOf) {
   const TrueTypeFont font(font_data());
   const GlyphId umlaut = font.glyph_of(0xC4), a = font.glyph_of('A');  // A with two dots, of an A
-  const std::string small = font.subset({umlaut}), large = font.subset({umlaut, font.glyph_of('Q')});
+  const std::string small = font.subset({umlaut}),
+                    large = font.subset({umlaut, font.glyph_of('Q')});
   EXPECT_LT(small.size(), font_data().size() / 8);
   EXPECT_LT(small.size(), large.size());
   EXPECT_TRUE(small == font.subset({umlaut})) << "the same glyphs, other bytes";
