@@ -162,7 +162,7 @@ USAGE = [
     ('clash a.obj --page-geometry all', '--page-geometry', 'add -o FILE.html'),
     ('report -o x.html', '-p', 'no project'), ('report -p p.strake', '-o', 'nowhere'),
     ('report -p p.strake -o x.pdf', '-o', '.html'), ('report -p p.strake -o x.html --page-geometry half', '--page-geometry', 'auto'),
-    ('clash a.obj -o x.bcf', '-o', '.json or .csv or .html'), ('clash a.obj -o x', '-o', '.json or .csv or .html'),
+    ('clash a.obj -o x', '-o', '.json or .csv or .html'),
     ('clash a.obj -o a.obj', '-o', '.json or .csv or .html'),
     ('clash a.obj -o x.json -o ./x.json', '-o', 'twice'),
     ('clash a.obj --log-pairs x.json', '--log-pairs', '.csv'),
