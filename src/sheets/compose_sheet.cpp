@@ -277,6 +277,7 @@ class Composer {
       auto chosen = drawing::choose_ink(sheet_.views[v].drawing,
                                         {.hidden = hidden != HiddenLines::off,
                                          .clean_up = hidden != HiddenLines::all,
+                                         .split_hidden = what_.split_hidden,
                                          .pens = pens_of(sheet_.styles)},
                                         context_);
       if (!chosen) return chosen.error();

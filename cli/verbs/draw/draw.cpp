@@ -183,6 +183,11 @@ void add_lines(CLI::App& command, DrawOptions& options) {
                          "(default off)",
                          suffixes_by_ink(true)))
       ->group("Lines");
+  add_choice(
+      command, "--hidden-layers", options.hidden_layers, {"one", "two"},
+      "Hidden lines as one layer, or what an object hides itself and what others hide as two "
+      "(default one)")
+      ->group("Lines");
   command
       .add_flag("--visible-only", options.visible_only,
                 fmt::format("Leave hidden lines out of everything, of {} too: less time and memory",
@@ -261,13 +266,31 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
                       "Several views with frame and title block, as a sheet file (TOML) says")
           ->type_name("FILE")
           ->group("Output");
-  for (const char* const other :
-       {"--view",          "--direction",        "--eye",          "--up",
-        "--limits",        "--section",          "--uncut",        "--hatch",
-        "--select",        "--hidden",           "--visible-only", "--stage",
-        "--intersections", "--own-polylines",    "--smooth",       "--flush-seams",
-        "--sharp-angle",   "--contact-distance", "--scale",        "--paper",
-        "--title",         "--project",          "--save",         "--stored"})
+  for (const char* const other : {"--view",
+                                  "--direction",
+                                  "--eye",
+                                  "--up",
+                                  "--limits",
+                                  "--section",
+                                  "--uncut",
+                                  "--hatch",
+                                  "--select",
+                                  "--hidden",
+                                  "--hidden-layers",
+                                  "--visible-only",
+                                  "--stage",
+                                  "--intersections",
+                                  "--own-polylines",
+                                  "--smooth",
+                                  "--flush-seams",
+                                  "--sharp-angle",
+                                  "--contact-distance",
+                                  "--scale",
+                                  "--paper",
+                                  "--title",
+                                  "--project",
+                                  "--save",
+                                  "--stored"})
     sheet->excludes(other);
 }
 

@@ -187,7 +187,8 @@ Result<drawing::LayoutOptions> layout_options(const DrawOptions& given) {
 
 drawing::InkOptions ink_options(const DrawOptions& given) {
   return {.hidden = given.hidden != "off" && !given.hidden.empty(),
-          .clean_up = given.hidden != "all"};
+          .clean_up = given.hidden != "all",
+          .split_hidden = given.hidden_layers == "two"};
 }
 
 Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool keep_hidden) {

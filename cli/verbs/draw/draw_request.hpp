@@ -29,8 +29,8 @@ struct DrawOptions {
   PerspectiveOptions perspective;
   std::string sheet;
   std::string view, direction, up, limits, scale, paper, title;
-  std::string stage, solver, global, culling, bucketing, hidden, intersections, own_polylines,
-      smooth, flush_seams, sharp_angle, contact_distance;
+  std::string stage, solver, global, culling, bucketing, hidden, hidden_layers, intersections,
+      own_polylines, smooth, flush_seams, sharp_angle, contact_distance;
   std::vector<std::string> select, outputs, sections, uncut, hatches;
   bool visible_only = false;
   ProjectOptions project;

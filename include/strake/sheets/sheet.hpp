@@ -40,8 +40,10 @@ enum class LineClass : std::uint8_t {
   title,
   frame,
   frame_thin,
+  hidden_self,   ///< what its own object hides, where the ink keeps that apart; else `hidden`
+  hidden_other,  ///< what others hide, likewise
 };
-inline constexpr std::size_t kLineClasses = 15;
+inline constexpr std::size_t kLineClasses = 17;
 
 /// Returns the name of a class as files spell it: "frame_thin".
 [[nodiscard]] std::string_view class_name(LineClass line);

@@ -41,6 +41,8 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
     case LineClass::polyline:
     case LineClass::smooth:
     case LineClass::hidden:
+    case LineClass::hidden_self:
+    case LineClass::hidden_other:
       return pens.thin;
     case LineClass::grid:
     case LineClass::grid_label:
@@ -61,8 +63,9 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
 
 std::string_view class_name(LineClass line) {
   constexpr std::array<std::string_view, kLineClasses> kNames{
-      "outline", "edge", "boundary",   "intersection", "section", "hatch", "polyline",  "smooth",
-      "hidden",  "grid", "grid_label", "leader",       "title",   "frame", "frame_thin"};
+      "outline",  "edge",   "boundary",   "intersection", "section",     "hatch",
+      "polyline", "smooth", "hidden",     "grid",         "grid_label",  "leader",
+      "title",    "frame",  "frame_thin", "hidden_self",  "hidden_other"};
   return kNames.at(static_cast<std::size_t>(line));
 }
 
@@ -90,14 +93,38 @@ LineClass class_of(hlr::EdgeKind kind, bool hidden) {
   return LineClass::edge;
 }
 
+namespace {
+
+std::size_t index_of(LineClass line) { return static_cast<std::size_t>(line); }
+
+/// Returns a style as the file has it, with what is usual in the place of what it does not say.
+template <class UsualDashes>
+LineStyle styled(const StyleSpec& spec, const model::Color& color, double width_mm,
+                 const UsualDashes& usual) {
+  LineStyle style;
+  style.width_mm = spec.width_mm.value_or(width_mm);
+  style.dash_mm = spec.dash_mm ? *spec.dash_mm : usual(style.width_mm);
+  style.color = spec.color.value_or(color);
+  return style;
+}
+
+}  // namespace
+
 LineStyles styles_of(const std::array<StyleSpec, kLineClasses>& specs, const drawing::Pens& pens) {
   LineStyles styles;
   for (std::size_t c = 0; c < kLineClasses; ++c) {
     const auto line = static_cast<LineClass>(c);
-    styles[c].width_mm = specs[c].width_mm.value_or(usual_width(line, pens));
-    styles[c].dash_mm = specs[c].dash_mm.value_or(usual_dashes(line, styles[c].width_mm));
-    if (specs[c].color) styles[c].color = *specs[c].color;
+    styles[c] = styled(specs[c], styles[c].color, usual_width(line, pens),
+                       [&](double width) { return usual_dashes(line, width); });
   }
+  // What is hidden in either way is drawn as all hidden lines unless the file says otherwise.
+  const StyleSpec& hidden = specs[index_of(LineClass::hidden)];
+  const LineStyle& base = styles[index_of(LineClass::hidden)];
+  for (const LineClass line : {LineClass::hidden_self, LineClass::hidden_other})
+    styles[index_of(line)] =
+        styled(specs[index_of(line)], base.color, base.width_mm, [&](double width) {
+          return hidden.dash_mm ? *hidden.dash_mm : usual_dashes(LineClass::hidden, width);
+        });
   return styles;
 }
 

@@ -49,7 +49,17 @@ std::string selector(LineClass line) {
     if (class_of(layer.kind, layer.hidden) == line)
       list += fmt::format(".strake .{}.{} path, ", layer.hidden ? "hidden" : "visible",
                           drawing::kind_name(layer.kind));
+  if (line == LineClass::hidden_self) list = ".strake .hidden .by-self path, ";
+  if (line == LineClass::hidden_other) list = ".strake .hidden .by-other path, ";
   return list + ".strake ." + std::string(class_name(line));
+}
+
+/// Returns whether a class has a rule: those that came later have none where nothing is of them, so
+/// that sheets without stay as they were.
+bool is_used(const Sheet& sheet, LineClass line) {
+  if (line != LineClass::hidden_self && line != LineClass::hidden_other) return true;
+  return std::ranges::any_of(sheet.views,
+                             [](const PlacedView& view) { return view.ink.split_hidden; });
 }
 
 void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>& heights) {
@@ -57,6 +67,7 @@ void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>
          ".strake path, .strake circle { fill: none; stroke-linecap: round; stroke-linejoin: "
          "round; }\n";
   for (std::size_t c = 0; c < kLineClasses; ++c) {
+    if (!is_used(sheet, static_cast<LineClass>(c))) continue;
     const LineStyle& style = sheet.styles.at(c);
     out << selector(static_cast<LineClass>(c))
         << fmt::format(" {{ stroke: {}; stroke-width: {}; stroke-dasharray: {};{} }}\n",
@@ -65,6 +76,7 @@ void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>
   }
   out << ".strake text { font-family: sans-serif; stroke: none; }\n";
   for (std::size_t c = 0; c < kLineClasses; ++c) {
+    if (!is_used(sheet, static_cast<LineClass>(c))) continue;
     const std::string color = model::color_text(sheet.styles.at(c).color);
     const std::string_view name = class_name(static_cast<LineClass>(c));
     out << fmt::format(".strake text.{0}, .strake path.{0}.filled {{ fill: {1}; stroke: none; }}\n",
@@ -152,13 +164,16 @@ void write_layer(BufferedWriter& out, const Marks& marks, const std::string& id,
   out << "</g>\n";
 }
 
-void write_view(BufferedWriter& out, const PlacedView& view, const model::Model& model,
-                std::size_t number) {
+void write_view(BufferedWriter& out, const PlacedView& view, const LineStyles& styles,
+                const model::Model& model, std::size_t number) {
   const std::string id = fmt::format("view-{}", number);
   out << "<g class=\"view\" id=\"" << id << "\" inkscape:groupmode=\"layer\" inkscape:label=\""
       << xml_escaped(view.name) << "\" data-view=\"" << xml_escaped(view.name) << "\" data-scale=\""
       << view.drawing.sheet.scale_text << "\">\n";
-  drawing::write_layers(out, view.drawing.curves, view.ink, model, id + "-");
+  const LineClass self = view.ink.split_hidden ? LineClass::hidden_self : LineClass::hidden;
+  drawing::write_layers(
+      out, view.drawing.curves, view.ink, model, id + "-",
+      {style_of(styles, self).dash_mm, style_of(styles, LineClass::hidden_other).dash_mm});
   write_layer(out, view.frame, id + "-frame", "Frame");
   write_layer(out, view.grid, id + "-grid", "Grid");
   write_layer(out, view.tags, id + "-tags", "Tags");
@@ -199,7 +214,7 @@ void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink
   out << "<g class=\"strake\" id=\"sheet-drawing\">\n";
   write_layer(out, sheet.frame, "sheet-frame", "Frame");
   for (std::size_t v = 0; v < sheet.views.size(); ++v)
-    write_view(out, sheet.views[v], model, v + 1);
+    write_view(out, sheet.views[v], sheet.styles, model, v + 1);
   out << "</g>\n</svg>\n";
 }
 

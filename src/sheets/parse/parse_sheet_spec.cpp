@@ -90,6 +90,8 @@ class Parser {
     size(table);
     found_.frame = table.flag("frame").value_or(true);
     found_.scale = ViewReader::scale(table);
+    constexpr std::array<std::string_view, 2> kHiddenLayers{"one", "two"};
+    found_.split_hidden = table.word("hidden_layers", kHiddenLayers).value_or("one") == "two";
     constexpr std::string_view kBox = "[\"20mm\", \"10mm\", \"410mm\", \"230mm\"]";
     if (const auto box = table.lengths_mm("area", 4, kBox))
       found_.area = paper_box(table, "area", *box);

@@ -453,6 +453,8 @@ void MarkReader::style(const KeyValue& entry) {
   }
   TableReader table(reading_, entry.value, "[styles." + entry.key + "]");
   StyleSpec& spec = found_.styles.at(line);
+  const auto name = static_cast<LineClass>(line);
+  if (name == LineClass::hidden_self || name == LineClass::hidden_other) found_.split_hidden = true;
   spec.width_mm = table.tolerance_mm("width");
   if (spec.width_mm && !(*spec.width_mm >= 0.01 && *spec.width_mm <= 20))
     reading_.fault(table.value("width")->at, "no pen is so wide", "write \"0.01mm\" to \"20mm\"");

@@ -104,6 +104,7 @@ struct SheetSpec {
   std::vector<TagSpec> tags;
   GridSpec grid;
   std::array<StyleSpec, kLineClasses> styles;
+  bool split_hidden = false;  ///< what an object hides itself has a layer of its own
 };
 
 [[nodiscard]] Result<SheetSpec> parse_sheet_spec(std::string_view text, std::string_view file,

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Patterns of dashes, fitted to the lengths of the lines that have them.
+#pragma once
+
+#include <span>
+
+namespace strake::drawing {
+
+/// A pattern may be pressed together to this share of its lengths, so that a short line has a gap.
+inline constexpr double kLeastStretch = 0.4;
+
+/// Returns by what factor a pattern (lengths of ink and gap by turns, mm) is stretched for one
+/// stroke, so that the stroke begins and ends with the whole first dash, or, where it is closed,
+/// has a whole number of periods. 0: the stroke is continuous, as it is too short for a gap, or the
+/// pattern has none.
+///
+/// Factors are multiples of a power of two, coarse for short strokes, so that most strokes of a
+/// drawing share few patterns; the last dash is longer or shorter by a tenth at most for that.
+[[nodiscard]] double fitted_stretch(double length_mm, bool closed, std::span<const double> dash_mm);
+
+/// Returns the length of the shortest open stroke that gets a gap, mm.
+[[nodiscard]] double shortest_dashed(std::span<const double> dash_mm);
+
+}  // namespace strake::drawing
