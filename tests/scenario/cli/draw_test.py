@@ -478,6 +478,30 @@ class Draw(Scenario):
         self.assertEqual(seen, {0.5})
         self.assertEqual(widths['.hidden path'], 0.25)
 
+    def test_hidden_lines_are_dashed_to_fit_and_may_be_two_layers(self):
+        # From above: the box hides its own lower rim but for where that lies under the upper one, and all of the block.
+        self.write('m.obj', cube('box', 0, (0, 0, 0), 1000) + prism('pin', 8, 24, (500, 500), 200, -800, -200)
+                   + prism('cone', 56, 24, (500, 500), 120, -100, -50))
+        run = ['draw', 'm.obj', '--unit', 'mm', '--up-axis', 'z', '--view', 'top', '--hidden', 'all', '-o', 'x.svg']
+        self.assertEqual(self.run_strake(*run).returncode, 0)
+        one = (self.folder / 'x.svg').read_text(encoding='utf-8')
+        self.assertNotIn('-by-other"', one.replace('hidden-by-other="', ''))
+        dashes = [[float(length) for length in found.split()]
+                  for found in re.findall(r'style="stroke-dasharray:([\d. ]+)"', one)]
+        self.assertTrue(dashes)
+        for ink, gap in dashes:
+            self.assertAlmostEqual(ink / gap, 4, delta=0.02)
+        expected = None
+        for threads in (1, 2, 8):
+            done = self.run_strake(*run, '--hidden-layers', 'two', '--threads', threads)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            two = (self.folder / 'x.svg').read_text(encoding='utf-8')
+            expected = expected or two
+            self.assertEqual(two, expected)
+        self.assertIn('id="hidden-sharp-by-other" class="by-other"', two)
+        self.assertIn('id="hidden-sharp" class="hidden sharp"', two)
+        self.assertEqual(self.run_strake(*run, '--hidden-layers', 'three').returncode, 2)
+
     def test_an_empty_sheet_is_not_silent(self):
         self.two_files()
         done = self.run_strake('draw', 'a.obj', '-o', 'x.svg', '--limits', '1e6,1e6,1e6,2e6,2e6,2e6')
