@@ -122,6 +122,7 @@ strake_component(drawing
   MODULES hlr drawing sheets
   DEPENDS parallel geometry model
   HEADERS
+    drawing/centre_lines.hpp
     drawing/drawing.hpp
     drawing/hatching.hpp
     drawing/ink.hpp

@@ -282,7 +282,18 @@ class Composer {
                                         context_);
       if (!chosen) return chosen.error();
       sheet_.views[v].ink = std::move(*chosen);
+      if (const Status status = centre_lines(v); !status) return status;
     }
+    return {};
+  }
+
+  Status centre_lines(std::size_t v) {
+    PlacedView& view = sheet_.views[v];
+    if (!what_.views[v].centre_lines) return {};
+    auto lines = drawing::find_centre_lines(view.drawing, view.ink, *scene_.model,
+                                            *what_.views[v].centre_lines, context_);
+    if (!lines) return lines.error();
+    view.ink.centre_lines = std::move(*lines);
     return {};
   }
 

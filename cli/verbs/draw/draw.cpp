@@ -189,6 +189,14 @@ void add_lines(CLI::App& command, DrawOptions& options) {
       "(default one)")
       ->group("Lines");
   command
+      .add_option(
+          "--centre-lines", options.centre_lines,
+          fmt::format("Centre lines of round parts in {}: on, off, or the diameter on paper "
+                      "from which parts have them (default off; on is 2mm)",
+                      suffixes_by_ink(true)))
+      ->type_name("on|off|LENGTH")
+      ->group("Lines");
+  command
       .add_flag("--visible-only", options.visible_only,
                 fmt::format("Leave hidden lines out of everything, of {} too: less time and memory",
                             suffixes_by_ink(false)))
@@ -266,31 +274,14 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
                       "Several views with frame and title block, as a sheet file (TOML) says")
           ->type_name("FILE")
           ->group("Output");
-  for (const char* const other : {"--view",
-                                  "--direction",
-                                  "--eye",
-                                  "--up",
-                                  "--limits",
-                                  "--section",
-                                  "--uncut",
-                                  "--hatch",
-                                  "--select",
-                                  "--hidden",
-                                  "--hidden-layers",
-                                  "--visible-only",
-                                  "--stage",
-                                  "--intersections",
-                                  "--own-polylines",
-                                  "--smooth",
-                                  "--flush-seams",
-                                  "--sharp-angle",
-                                  "--contact-distance",
-                                  "--scale",
-                                  "--paper",
-                                  "--title",
-                                  "--project",
-                                  "--save",
-                                  "--stored"})
+  for (const char* const other :
+       {"--view",         "--direction",   "--eye",           "--up",
+        "--limits",       "--section",     "--uncut",         "--hatch",
+        "--select",       "--hidden",      "--hidden-layers", "--centre-lines",
+        "--visible-only", "--stage",       "--intersections", "--own-polylines",
+        "--smooth",       "--flush-seams", "--sharp-angle",   "--contact-distance",
+        "--scale",        "--paper",       "--title",         "--project",
+        "--save",         "--stored"})
     sheet->excludes(other);
 }
 

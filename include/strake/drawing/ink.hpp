@@ -32,11 +32,19 @@ struct InkOptions {
   std::optional<Pens> pens = std::nullopt;  ///< none: chosen by the density of the drawing
 };
 
+/// A centre line on paper: straight from point to point.
+struct CentreLine {
+  model::ObjectId object{};  ///< whose axis it is; of several in line the first
+  std::vector<PaperPoint> points;
+  bool cross = false;  ///< an arm of a cross, which has a dash in its middle
+};
+
 /// The lines of a drawing that get ink on paper, and the pens.
 struct Ink {
   Pens pens;
-  std::vector<Line> lines;     ///< visible or hidden, in the order of the drawing
-  std::uint64_t left_out = 0;  ///< hidden lines that were left out in part or wholly
+  std::vector<Line> lines;               ///< visible or hidden, in the order of the drawing
+  std::uint64_t left_out = 0;            ///< hidden lines that were left out in part or wholly
+  std::vector<CentreLine> centre_lines;  ///< those of find_centre_lines(), where they are wanted
   bool split_hidden = false;  ///< as InkOptions has it; the states of the lines tell which is which
 };
 

@@ -42,8 +42,9 @@ enum class LineClass : std::uint8_t {
   frame_thin,
   hidden_self,   ///< what its own object hides, where the ink keeps that apart; else `hidden`
   hidden_other,  ///< what others hide, likewise
+  centre,        ///< centre lines, which are in the ink of a view
 };
-inline constexpr std::size_t kLineClasses = 17;
+inline constexpr std::size_t kLineClasses = 18;
 
 /// Returns the name of a class as files spell it: "frame_thin".
 [[nodiscard]] std::string_view class_name(LineClass line);

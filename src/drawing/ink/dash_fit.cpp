@@ -31,14 +31,18 @@ double shortest_dashed(std::span<const double> dash_mm) {
   return dash_mm.empty() ? 0 : kLeastStretch * (period_of(dash_mm) + dash_mm.front());
 }
 
-double fitted_stretch(double length_mm, bool closed, std::span<const double> dash_mm) {
+double fitted_stretch(double length_mm, Stroke stroke, std::span<const double> dash_mm) {
   if (dash_mm.empty()) return 0;
+  const bool closed = stroke == Stroke::closed;
+  // With an even number of periods a first dash lies in the middle.
+  const double step = stroke == Stroke::centred ? 2 : 1;
   const double first = dash_mm.front(), period = period_of(dash_mm);
   const double end = closed ? 0 : first;
-  const double most = std::floor((length_mm / kLeastStretch - end) / period);
-  if (!(most >= (closed ? 2 : 1))) return 0;
-  const double least = std::min(closed ? kDashesOfCircle : 1, most);
-  const double periods = std::clamp(std::round((length_mm - end) / period), least, most);
+  const double most = step * std::floor((length_mm / kLeastStretch - end) / (step * period));
+  if (!(most >= (closed ? 2 : step))) return 0;
+  const double least = std::min(closed ? kDashesOfCircle : step, most);
+  const double periods =
+      std::clamp(step * std::round((length_mm - end) / (step * period)), least, most);
   const double stretch = length_mm / (periods * period + end);
   return rounded_within(stretch, 0.1 * first * stretch / (periods * period + end));
 }

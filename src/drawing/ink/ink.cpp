@@ -257,6 +257,7 @@ Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
                        const parallel::Context& context) {
   Ink ink{.pens = options.pens ? *options.pens : choose_pens(drawing),
           .lines = {},
+          .centre_lines = {},
           .split_hidden = options.split_hidden};
   for (const Line& line : drawing.lines)
     if (line.state == LineState::visible || (options.hidden && may_be_dashed(line)))

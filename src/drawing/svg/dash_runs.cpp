@@ -17,11 +17,6 @@ namespace {
 /// Lines that turn by more make a corner. Meshes stand for circles with as few as ten sides.
 constexpr double kCosineOfCorner = 0.8;
 
-double distance(const PaperPoint& a, const PaperPoint& b) {
-  const double x = b.x - a.x, y = b.y - a.y;
-  return std::sqrt(x * x + y * y);
-}
-
 /// Returns the point of the curve halfway between two of its points; none for opposite ones.
 std::optional<PaperPoint> halfway(const PaperCurve& c, const PaperPoint& a, const PaperPoint& b) {
   const double area = c.u.x * c.v.y - c.u.y * c.v.x;
@@ -114,9 +109,10 @@ class ChainCutter {
 
   [[nodiscard]] DashRun run(std::size_t from, std::size_t to, bool round) const {
     const auto first = static_cast<std::ptrdiff_t>(from), last = static_cast<std::ptrdiff_t>(to);
-    return {{{chain_.points.begin() + first, chain_.points.begin() + last + 1},
-             {chain_.lines.begin() + first, chain_.lines.begin() + last}},
-            fitted_stretch(length_of_run(from, to), round, dash_mm_)};
+    return {
+        {{chain_.points.begin() + first, chain_.points.begin() + last + 1},
+         {chain_.lines.begin() + first, chain_.lines.begin() + last}},
+        fitted_stretch(length_of_run(from, to), round ? Stroke::closed : Stroke::open, dash_mm_)};
   }
 
   JoinedLines chain_;

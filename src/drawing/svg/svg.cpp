@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -12,6 +13,7 @@
 
 #include "core/number.hpp"
 #include "drawing/buffered_writer.hpp"
+#include "drawing/ink/dash_fit.hpp"
 #include "drawing/ink/hidden_ink.hpp"
 #include "drawing/svg/dash_runs.hpp"
 #include "drawing/svg/svg_layers.hpp"
@@ -22,18 +24,16 @@ namespace strake::drawing {
 
 namespace {
 
-/// Collects the paths of one object by their patterns, in the order in which these come first.
+/// Collects paths by their patterns, in the order in which these come first.
 class DashedPaths {
  public:
-  DashedPaths(const PaperCurves& curves, std::span<const double> dash_mm)
-      : curves_(curves), dash_mm_(dash_mm) {}
+  explicit DashedPaths(std::span<const double> dash_mm) : dash_mm_(dash_mm) {}
 
-  void add(const JoinedLines& chain) {
-    for (const DashRun& run : dash_runs(chain, curves_, dash_mm_)) {
-      auto path = std::ranges::find(paths_, run.stretch, &Path::stretch);
-      if (path == paths_.end()) path = paths_.insert(path, {run.stretch, {}});
-      append_svg_path(path->commands, run.chain, curves_);
-    }
+  /// Returns the commands of the path that has this pattern.
+  std::string& of(double stretch) {
+    auto path = std::ranges::find(paths_, stretch, &Path::stretch);
+    if (path == paths_.end()) path = paths_.insert(path, {stretch, {}});
+    return path->commands;
   }
 
   void write(BufferedWriter& out) const {
@@ -55,7 +55,6 @@ class DashedPaths {
   /// Tenths of a micrometre add up to no visible length on the longest lines.
   static double rounded(double mm) { return std::round(mm * 1e4) / 1e4; }
 
-  const PaperCurves& curves_;
   std::span<const double> dash_mm_;
   std::vector<Path> paths_;
 };
@@ -75,8 +74,10 @@ void write_object(BufferedWriter& out, const PaperCurves& curves, const model::M
     }
     out << "\"/>";
   } else {
-    DashedPaths paths(curves, dash_mm);
-    for (const JoinedLines& chain : chains) paths.add(chain);
+    DashedPaths paths(dash_mm);
+    for (const JoinedLines& chain : chains)
+      for (const DashRun& run : dash_runs(chain, curves, dash_mm))
+        append_svg_path(paths.of(run.stretch), run.chain, curves);
     paths.write(out);
   }
   out << "</g>\n";
@@ -147,6 +148,22 @@ void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink
   for (const Layer& layer : kLayers) write_layer(out, curves, ink, model, layer, prefix, dashes);
 }
 
+void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix,
+                        std::span<const double> dash_mm) {
+  if (ink.centre_lines.empty()) return;
+  begin_layer(out, "Centre lines", fmt::format("{}centre-lines", prefix), "centre");
+  DashedPaths paths(dash_mm);
+  for (const CentreLine& line : ink.centre_lines) {
+    double length = 0;
+    for (std::size_t i = 1; i < line.points.size(); ++i)
+      length += distance(line.points[i - 1], line.points[i]);
+    const Stroke stroke = line.cross ? Stroke::centred : Stroke::open;
+    append_svg_chain(paths.of(fitted_stretch(length, stroke, dash_mm)), line.points);
+  }
+  paths.write(out);
+  out << "\n</g>\n";
+}
+
 double rounded_dash(double mm) { return std::round(mm * 100) / 100; }
 
 namespace {
@@ -174,6 +191,8 @@ void write_style(BufferedWriter& out, const Ink& ink, bool sections) {
         ".visible.section path {{ stroke-width: {}; }}\n"
         ".visible.hatch path {{ stroke-width: {}; }}\n",
         pens.section, pens.thin);
+  if (!ink.centre_lines.empty())
+    out << fmt::format(".centre path {{ stroke-width: {}; stroke-linecap: butt; }}\n", pens.thin);
   const bool smooth = std::ranges::any_of(
       ink.lines, [](const Line& line) { return line.kind == hlr::EdgeKind::smooth; });
   if (smooth) out << fmt::format(".visible.smooth path {{ stroke-width: {}; }}\n", pens.thin);
@@ -253,6 +272,10 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
   const std::vector<double> dashes{rounded_dash(ink.pens.thin * kDash),
                                    rounded_dash(ink.pens.thin * kDashGap)};
   write_layers(out, drawing.curves, ink, model, "", {dashes, dashes});
+  std::array<double, kCentreDashes.size()> centre{};
+  std::ranges::transform(kCentreDashes, centre.begin(),
+                         [&](double widths) { return rounded_dash(widths * ink.pens.thin); });
+  write_centre_lines(out, ink, "", centre);
   write_frame(out, drawing);
   out << "</g>\n";
   write_title(out, drawing);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,6 +60,11 @@ struct HiddenDashes {
 /// `prefix` stands before the ids of the layers.
 void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
                   const model::Model& model, std::string_view prefix, const HiddenDashes& dashes);
+
+/// Writes the layer of centre lines, of class "centre", where there are any. Their dashes fit each
+/// of them.
+void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix,
+                        std::span<const double> dash_mm);
 
 /// Returns a length of a dash as style sheets have it, rounded to hundredths of a millimetre.
 [[nodiscard]] double rounded_dash(double mm);

@@ -2,6 +2,7 @@
 // Lines joined into chains, and the commands of SVG paths for them.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,11 @@ struct JoinedLines {
   Chain points;
   std::vector<const Line*> lines;
 };
+
+[[nodiscard]] inline double distance(const PaperPoint& a, const PaperPoint& b) {
+  const double x = b.x - a.x, y = b.y - a.y;
+  return std::sqrt(x * x + y * y);
+}
 
 /// Joins lines that meet end to end on paper into chains, each line once.
 ///

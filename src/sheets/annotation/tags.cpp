@@ -114,6 +114,9 @@ OccupancyGrid occupied_paper(const Sheet& sheet) {
   OccupancyGrid occupied(sheet.width_mm, sheet.height_mm);
   for (const PlacedView& view : sheet.views) {
     for (const Line& line : view.ink.lines) occupied.add_line(line.a_paper, line.b_paper);
+    for (const drawing::CentreLine& line : view.ink.centre_lines)
+      for (std::size_t i = 1; i < line.points.size(); ++i)
+        occupied.add_line(line.points[i - 1], line.points[i]);
     for (const Marks* marks : {&view.caption, &view.grid, &view.frame}) {
       for (const Path& path : marks->paths)
         for (std::size_t i = 1; i < path.points.size(); ++i)

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sheets/output/line_styles.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
+#include "drawing/ink/dash_fit.hpp"
 #include "drawing/ink/hidden_ink.hpp"
 
 namespace strake::sheets {
@@ -13,7 +16,7 @@ namespace {
 /// Rounds to hundredths of a millimetre, which are as fine as any pen.
 double rounded(double mm) { return std::round(mm * 100) / 100; }
 
-std::vector<double> in_widths(std::initializer_list<double> dashes, double width) {
+std::vector<double> in_widths(std::span<const double> dashes, double width) {
   std::vector<double> lengths;
   for (const double dash : dashes) lengths.push_back(std::max(rounded(dash * width), 0.01));
   return lengths;
@@ -22,8 +25,10 @@ std::vector<double> in_widths(std::initializer_list<double> dashes, double width
 /// Returns the dashes of a class in widths of its pen, ISO 128-20 types 02 and 04. A dot is as long
 /// as it is wide, or else it is not seen in print.
 std::vector<double> usual_dashes(LineClass line, double width) {
-  if (line == LineClass::hidden) return in_widths({drawing::kDash, drawing::kDashGap}, width);
-  if (line == LineClass::grid) return in_widths({24, 3, 1, 3}, width);
+  if (line == LineClass::hidden)
+    return in_widths(std::array{drawing::kDash, drawing::kDashGap}, width);
+  if (line == LineClass::grid || line == LineClass::centre)
+    return in_widths(drawing::kCentreDashes, width);
   return {};
 }
 
@@ -45,6 +50,7 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
     case LineClass::hidden_other:
       return pens.thin;
     case LineClass::grid:
+    case LineClass::centre:
     case LineClass::grid_label:
     case LineClass::leader:
       // As thin as hidden lines, and no thinner than prints well.
@@ -63,9 +69,9 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
 
 std::string_view class_name(LineClass line) {
   constexpr std::array<std::string_view, kLineClasses> kNames{
-      "outline",  "edge",   "boundary",   "intersection", "section",     "hatch",
-      "polyline", "smooth", "hidden",     "grid",         "grid_label",  "leader",
-      "title",    "frame",  "frame_thin", "hidden_self",  "hidden_other"};
+      "outline",  "edge",   "boundary",   "intersection", "section",      "hatch",
+      "polyline", "smooth", "hidden",     "grid",         "grid_label",   "leader",
+      "title",    "frame",  "frame_thin", "hidden_self",  "hidden_other", "centre"};
   return kNames.at(static_cast<std::size_t>(line));
 }
 

@@ -50,6 +50,7 @@ std::string selector(LineClass line) {
       list += fmt::format(".strake .{}.{} path, ", layer.hidden ? "hidden" : "visible",
                           drawing::kind_name(layer.kind));
   if (line == LineClass::hidden_self) list = ".strake .hidden .by-self path, ";
+  if (line == LineClass::centre) list = ".strake .centre path, ";
   if (line == LineClass::hidden_other) list = ".strake .hidden .by-other path, ";
   return list + ".strake ." + std::string(class_name(line));
 }
@@ -57,9 +58,12 @@ std::string selector(LineClass line) {
 /// Returns whether a class has a rule: those that came later have none where nothing is of them, so
 /// that sheets without stay as they were.
 bool is_used(const Sheet& sheet, LineClass line) {
-  if (line != LineClass::hidden_self && line != LineClass::hidden_other) return true;
-  return std::ranges::any_of(sheet.views,
-                             [](const PlacedView& view) { return view.ink.split_hidden; });
+  const auto any = [&](const auto& of_view) { return std::ranges::any_of(sheet.views, of_view); };
+  if (line == LineClass::hidden_self || line == LineClass::hidden_other)
+    return any([](const PlacedView& view) { return view.ink.split_hidden; });
+  if (line == LineClass::centre)
+    return any([](const PlacedView& view) { return !view.ink.centre_lines.empty(); });
+  return true;
 }
 
 void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>& heights) {
@@ -174,6 +178,7 @@ void write_view(BufferedWriter& out, const PlacedView& view, const LineStyles& s
   drawing::write_layers(
       out, view.drawing.curves, view.ink, model, id + "-",
       {style_of(styles, self).dash_mm, style_of(styles, LineClass::hidden_other).dash_mm});
+  drawing::write_centre_lines(out, view.ink, id + "-", style_of(styles, LineClass::centre).dash_mm);
   write_layer(out, view.frame, id + "-frame", "Frame");
   write_layer(out, view.grid, id + "-grid", "Grid");
   write_layer(out, view.tags, id + "-tags", "Tags");

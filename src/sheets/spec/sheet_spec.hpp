@@ -12,6 +12,7 @@
 
 #include "settings/named_sets.hpp"
 #include "sheets/spec/template.hpp"
+#include "strake/drawing/centre_lines.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/sheets/sheet_file.hpp"
@@ -49,6 +50,7 @@ struct ViewSpec {
   std::vector<HatchSpec> hatches;         ///< the first that picks an object holds for it
   std::vector<settings::Chooser> uncut;   ///< what sections leave whole
   HiddenLines hidden = HiddenLines::off;
+  std::optional<drawing::CentreLineOptions> centre_lines;  ///< none: not drawn
   /// Objects that lie so far from all others that they decide the scale are left out.
   bool leaves_far_objects_out = false;
   std::optional<double> scale;

@@ -29,7 +29,7 @@ double end_dash(double length, double stretch, std::span<const double> dash) {
 TEST(DashFit, StrokesEndWithTheWholeFirstDash) {
   for (const auto dash : {std::span<const double>(kDashes), std::span<const double>(kCentre)})
     for (double length = shortest_dashed(dash) + 0.01; length < 200; length *= 1.037) {
-      const double stretch = fitted_stretch(length, false, dash);
+      const double stretch = fitted_stretch(length, Stroke::open, dash);
       ASSERT_GT(stretch, 0) << length;
       EXPECT_GE(stretch, kLeastStretch * 0.9) << length;
       EXPECT_LE(stretch, 1.5) << length;
@@ -39,25 +39,38 @@ TEST(DashFit, StrokesEndWithTheWholeFirstDash) {
 }
 
 TEST(DashFit, WhatIsTooShortForAGapIsContinuous) {
-  EXPECT_EQ(fitted_stretch(2.6, false, kDashes), 0);
-  EXPECT_GT(fitted_stretch(2.71, false, kDashes), 0);
-  EXPECT_EQ(fitted_stretch(2.9, true, kDashes), 0);
-  EXPECT_EQ(fitted_stretch(100, false, {}), 0);
+  EXPECT_EQ(fitted_stretch(2.6, Stroke::open, kDashes), 0);
+  EXPECT_GT(fitted_stretch(2.71, Stroke::open, kDashes), 0);
+  EXPECT_EQ(fitted_stretch(2.9, Stroke::closed, kDashes), 0);
+  EXPECT_EQ(fitted_stretch(100, Stroke::open, {}), 0);
 }
 
 TEST(DashFit, ClosedStrokesHaveWholePeriodsAndSmallCirclesFourDashes) {
   for (double length = 6.1; length < 200; length *= 1.037) {
-    const double stretch = fitted_stretch(length, true, kDashes);
+    const double stretch = fitted_stretch(length, Stroke::closed, kDashes);
     const double periods = length / (3.75 * stretch);
     EXPECT_NEAR(periods, std::round(periods), 0.101 * 0.8) << length;
     EXPECT_GE(std::round(periods), 4) << length;
   }
 }
 
+// The arms of a cross meet in a dash, and not in a gap or a dot.
+TEST(DashFit, CentredStrokesHaveADashInTheirMiddle) {
+  for (double length = 1; length < 200; length *= 1.037) {
+    const double stretch = fitted_stretch(length, Stroke::centred, kCentre);
+    if (stretch == 0) {
+      EXPECT_LT(length, 0.4 * (2 * 7.75 + 6) + 1e-9);
+      continue;
+    }
+    const double middle = std::fmod(length / 2, 7.75 * stretch);
+    EXPECT_NEAR(middle, 3 * stretch, 0.11 * 6 * stretch) << length;
+  }
+}
+
 TEST(DashFit, FewPatternsServeMostShortStrokes) {
   std::vector<double> seen;
   for (double length = 3; length < 8; length += 0.01) {
-    const double stretch = fitted_stretch(length, false, kDashes);
+    const double stretch = fitted_stretch(length, Stroke::open, kDashes);
     if (std::ranges::find(seen, stretch) == seen.end()) seen.push_back(stretch);
   }
   EXPECT_LT(seen.size(), 20U);
@@ -146,7 +159,8 @@ TEST(DashRuns, CurvesCountWithTheLengthsOfTheirArcs) {
   for (std::uint32_t e = 0; e < 8; ++e) drawn.curves.edges.push_back({model::ObjectId{}, e, 0U});
   const std::vector<DashRun> runs = drawn.runs();
   ASSERT_EQ(runs.size(), 1U);
-  EXPECT_EQ(runs.front().stretch, fitted_stretch(2 * geometry::kPi * kRadius, true, kDashes));
+  EXPECT_EQ(runs.front().stretch,
+            fitted_stretch(2 * geometry::kPi * kRadius, Stroke::closed, kDashes));
 }
 
 TEST(DashRuns, NothingIsLostAndOrderIsKept) {
