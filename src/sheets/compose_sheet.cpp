@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,13 +16,17 @@
 #include "settings/text_file.hpp"
 #include "sheets/annotation/tags.hpp"
 #include "sheets/annotation/title_block.hpp"
+#include "sheets/annotation/view_marks.hpp"
 #include "sheets/arrangement/far_objects_of_views.hpp"
 #include "sheets/arrangement/grid_lines.hpp"
+#include "sheets/arrangement/levels.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/output/line_styles.hpp"
+#include "sheets/place_notes.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/drawing/hatching.hpp"
+#include "strake/geometry/grid.hpp"
 #include "strake/model/selection.hpp"
 #include "strake/sheets/sheet_file.hpp"
 
@@ -53,7 +58,9 @@ class Composer {
     const std::optional<double> scale = main_scale(what_, places_);
     for (std::size_t v = 0; v < what_.views.size(); ++v) caption(v, scale);
     grid();
+    view_marks();
     fill_frame(what_, scale, sheet_);
+    draw_notes(notes_, what_, scale, sheet_);
     if (const Status status = tags(); !status) return status.error();
     for (PlacedView& view : sheet_.views) view.drawing.lines = {};
     return std::move(sheet_);
@@ -95,6 +102,7 @@ class Composer {
       for (const settings::Chooser& chooser : view.uncut) ask(chooser);
     }
     for (const TagSpec& tag : what_.tags) ask(*tag.select);
+    for (const PartsListSpec& list : what_.parts_lists) ask(*list.select);
     Result<Picks> picked = model::pick(selections, scene_, context_);
     if (!picked) return picked.error();
     picks_ = std::move(*picked);
@@ -107,6 +115,8 @@ class Composer {
       warn("selection-matches-nothing", model::picks_nothing(choosers[s]->selection, *scene_.model),
            choosers[s]->where);
     }
+    notes_ = plan_notes(what_, *scene_.model, std::span(picks_).last(what_.parts_lists.size()),
+                        room_, sheet_.diagnostics);
     return {};
   }
 
@@ -214,7 +224,7 @@ class Composer {
       if (!laid_out) return laid_out.error();
       drawings_[v] = {};
       sheet_.views.push_back(
-          {spec.name, spec.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}, {}});
+          {spec.name, spec.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}, {}, {}});
       frame_view(sheet_.views.back());
       check_lines(spec, sheet_.views.back().drawing);
     }
@@ -361,6 +371,57 @@ class Composer {
              what_.grid.where);
   }
 
+  /// Marks levels, and where and what other views show.
+  void view_marks() {
+    std::vector<bool> level(what_.levels.all.size()), cut(what_.views.size());
+    const double letters = lettering_of(what_).scale_mm;
+    for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
+      const ViewSpec& spec = what_.views[v];
+      const drawing::Placement place = placement(v);
+      const MarkedView in{spec, place, places_[v].lines};
+      Marks& marks = sheet_.views[v].notes;
+      const auto within = mark_levels(what_.levels, spec, place, places_[v].lines, marks);
+      for (std::size_t i = 0; i < level.size(); ++i) level[i] = level[i] || within[i];
+      for (std::size_t w = 0; w < sheet_.views.size(); ++w) {
+        const ViewSpec& other = what_.views[w];
+        if (w != v && !other.section_mark.empty())
+          cut[w] = mark_section(other, in, letters, marks) || cut[w];
+        if (std::ranges::find(spec.extents_of, other.name) == spec.extents_of.end()) continue;
+        if (!mark_extent(extent_of(w), other.title.empty() ? other.name : other.title, in, letters,
+                         marks))
+          warn("extent-not-shown",
+               "the view '" + spec.name + "' cannot show what '" + other.name +
+                   "' shows: one of them is in perspective, or empty",
+               spec.where);
+      }
+    }
+    for (std::size_t i = 0; i < level.size(); ++i)
+      if (!level[i])
+        warn("level-nowhere", "the level '" + what_.levels.all[i].label + "' shows in no view",
+             what_.levels.where);
+    for (std::size_t v = 0; v < cut.size(); ++v)
+      if (!cut[v] && !what_.views[v].section_mark.empty())
+        warn("section-mark-nowhere",
+             "no other view sees the section " + what_.views[v].section_mark + " edge-on",
+             what_.views[v].where);
+  }
+
+  /// Returns the box of what a view shows, mm of the model: its limits, or its visible lines.
+  [[nodiscard]] geometry::Box3d extent_of(std::size_t v) const {
+    geometry::Box3d box{{1, 1, 1}, {0, 0, 0}};
+    const hlr::View& view = what_.views[v].view;
+    if (view.perspective) return box;
+    if (view.limits) return {geometry::to_mm(view.limits->lo), geometry::to_mm(view.limits->hi)};
+    bool any = false;
+    for (const drawing::Line& line : sheet_.views[v].ink.lines)
+      for (const geometry::Vec3d& p : {line.a_mm, line.b_mm}) {
+        if (!any) box = {p, p};
+        any = true;
+        box.include(p);
+      }
+    return box;
+  }
+
   Status tags() {
     const std::size_t first = asked_;
     std::vector<TagList> lists;
@@ -421,6 +482,7 @@ class Composer {
   std::vector<std::vector<model::ObjectId>> far_left_out_;  ///< of each view
   std::vector<hlr::Drawing> drawings_;
   std::vector<ViewPlace> places_;
+  Notes notes_;
   Sheet sheet_;
 };
 

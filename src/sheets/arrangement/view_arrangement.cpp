@@ -13,6 +13,7 @@
 
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/arrangement/grid_lines.hpp"
+#include "sheets/arrangement/levels.hpp"
 #include "sheets/spec/text_metrics.hpp"
 
 namespace strake::sheets {
@@ -439,6 +440,10 @@ class Placer {
     place.left_mm = std::max(rim.left_mm, rim.other_mm);
     place.top_mm = std::max(rim.top_mm, rim.other_mm);
     place.right_mm = place.bottom_mm = rim.other_mm;
+    place.right_mm = std::max(place.right_mm, level_margin(what_.levels, view));
+    if (shows_cutting_planes(what_, view))
+      for (double* const side : {&place.left_mm, &place.top_mm, &place.right_mm, &place.bottom_mm})
+        *side = std::max(*side, kCuttingPlaneMarginMm);
     if (view.title.empty()) return place;
     const Lettering letters = lettering_of(what_);
     const bool scaled = view.scale && !view.view.perspective;
@@ -531,6 +536,15 @@ class Placer {
 };
 
 }  // namespace
+
+bool shows_cutting_planes(const SheetSpec& what, const ViewSpec& view) {
+  return !view.view.perspective && std::ranges::any_of(what.views, [&](const ViewSpec& cut) {
+    return !cut.section_mark.empty() && cut.name != view.name &&
+           std::ranges::any_of(cut.view.sections, [&](const hlr::Section& section) {
+             return dot(section.normal, view.view.direction) == 0;
+           });
+  });
+}
 
 GridMargin margin_of(const GridSpec& grid, const ViewSpec& view) {
   constexpr double kGap = drawing::kFrameGapMm;

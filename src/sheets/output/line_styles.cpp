@@ -22,13 +22,15 @@ std::vector<double> in_widths(std::span<const double> dashes, double width) {
   return lengths;
 }
 
-/// Returns the dashes of a class in widths of its pen, ISO 128-20 types 02 and 04. A dot is as long
+/// Returns the dashes of a class in widths of its pen, ISO 128-2 types 02 and 04. A dot is as long
 /// as it is wide, or else it is not seen in print.
 std::vector<double> usual_dashes(LineClass line, double width) {
   if (line == LineClass::hidden)
     return in_widths(std::array{drawing::kDash, drawing::kDashGap}, width);
-  if (line == LineClass::grid || line == LineClass::centre)
+  if (line == LineClass::grid || line == LineClass::centre || line == LineClass::cutting_plane)
     return in_widths(drawing::kCentreDashes, width);
+  // Long dash and two dots, type 05.
+  if (line == LineClass::extent) return in_widths(std::array{24.0, 3.0, 1.0, 3.0, 1.0, 3.0}, width);
   return {};
 }
 
@@ -51,6 +53,9 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
       return pens.thin;
     case LineClass::grid:
     case LineClass::centre:
+    case LineClass::cutting_plane:
+    case LineClass::extent:
+    case LineClass::note:
     case LineClass::grid_label:
     case LineClass::leader:
       // As thin as hidden lines, and no thinner than prints well.
@@ -69,9 +74,10 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
 
 std::string_view class_name(LineClass line) {
   constexpr std::array<std::string_view, kLineClasses> kNames{
-      "outline",  "edge",   "boundary",   "intersection", "section",      "hatch",
-      "polyline", "smooth", "hidden",     "grid",         "grid_label",   "leader",
-      "title",    "frame",  "frame_thin", "hidden_self",  "hidden_other", "centre"};
+      "outline",       "edge",   "boundary",   "intersection", "section",      "hatch",
+      "polyline",      "smooth", "hidden",     "grid",         "grid_label",   "leader",
+      "title",         "frame",  "frame_thin", "hidden_self",  "hidden_other", "centre",
+      "cutting_plane", "extent", "note"};
   return kNames.at(static_cast<std::size_t>(line));
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/number.hpp"
 #include "drawing/buffered_writer.hpp"
@@ -55,15 +56,29 @@ std::string selector(LineClass line) {
   return list + ".strake ." + std::string(class_name(line));
 }
 
+/// Returns all marks of a sheet.
+std::vector<const Marks*> marks_of(const Sheet& sheet) {
+  std::vector<const Marks*> all{&sheet.frame, &sheet.notes};
+  for (const PlacedView& view : sheet.views)
+    for (const Marks* marks : {&view.caption, &view.grid, &view.tags, &view.frame, &view.notes})
+      all.push_back(marks);
+  return all;
+}
+
 /// Returns whether a class has a rule: those that came later have none where nothing is of them, so
 /// that sheets without stay as they were.
 bool is_used(const Sheet& sheet, LineClass line) {
   const auto any = [&](const auto& of_view) { return std::ranges::any_of(sheet.views, of_view); };
+  if (line < LineClass::hidden_self) return true;
   if (line == LineClass::hidden_self || line == LineClass::hidden_other)
     return any([](const PlacedView& view) { return view.ink.split_hidden; });
   if (line == LineClass::centre)
     return any([](const PlacedView& view) { return !view.ink.centre_lines.empty(); });
-  return true;
+  return std::ranges::any_of(marks_of(sheet), [&](const Marks* marks) {
+    const auto has = [&](const auto& mark) { return mark.line == line; };
+    return std::ranges::any_of(marks->paths, has) || std::ranges::any_of(marks->circles, has) ||
+           std::ranges::any_of(marks->texts, has);
+  });
 }
 
 void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>& heights) {
@@ -181,6 +196,7 @@ void write_view(BufferedWriter& out, const PlacedView& view, const LineStyles& s
   drawing::write_centre_lines(out, view.ink, id + "-", style_of(styles, LineClass::centre).dash_mm);
   write_layer(out, view.frame, id + "-frame", "Frame");
   write_layer(out, view.grid, id + "-grid", "Grid");
+  write_layer(out, view.notes, id + "-notes", "Notes");
   write_layer(out, view.tags, id + "-tags", "Tags");
   write_layer(out, view.caption, id + "-title", "Title");
   out << "</g>\n";
@@ -188,12 +204,8 @@ void write_view(BufferedWriter& out, const PlacedView& view, const LineStyles& s
 
 std::set<double> heights_of(const Sheet& sheet) {
   std::set<double> heights;
-  const auto add = [&](const Marks& marks) {
-    for (const Text& text : marks.texts) heights.insert(text.height_mm);
-  };
-  add(sheet.frame);
-  for (const PlacedView& view : sheet.views)
-    for (const Marks* marks : {&view.caption, &view.grid, &view.tags}) add(*marks);
+  for (const Marks* marks : marks_of(sheet))
+    for (const Text& text : marks->texts) heights.insert(text.height_mm);
   return heights;
 }
 
@@ -218,6 +230,7 @@ void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink
         << sheet.artwork->elements << "\n</svg>\n";
   out << "<g class=\"strake\" id=\"sheet-drawing\">\n";
   write_layer(out, sheet.frame, "sheet-frame", "Frame");
+  write_layer(out, sheet.notes, "sheet-notes", "Notes");
   for (std::size_t v = 0; v < sheet.views.size(); ++v)
     write_view(out, sheet.views[v], sheet.styles, model, v + 1);
   out << "</g>\n</svg>\n";

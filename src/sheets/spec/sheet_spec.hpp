@@ -56,6 +56,8 @@ struct ViewSpec {
   std::optional<double> scale;
   std::optional<PaperPoint> position;  ///< position of the anchor, or without one of the middle
   std::optional<geometry::Vec3l> anchor;
+  std::string section_mark;             ///< the letter of its section in other views; empty: none
+  std::vector<std::string> extents_of;  ///< views whose extents are outlined in this one
 };
 
 struct TagSpec {
@@ -79,6 +81,42 @@ struct GridSpec {
   std::string where;
   std::vector<GridPlane> planes;
   std::vector<std::string> views;  ///< empty: all views that look along them
+};
+
+/// A height of the model that elevations mark.
+struct LevelSpec {
+  std::string label;
+  double at_mm = 0;
+};
+
+struct LevelsSpec {
+  std::string where;
+  std::vector<LevelSpec> all;
+  std::vector<std::string> views;  ///< empty: all elevations
+};
+
+struct ScaleBarSpec {
+  std::string where;
+  std::optional<PaperPoint> position;  ///< of its upper left corner
+};
+
+struct NorthSpec {
+  std::string where;
+  geometry::Vec3l direction{0, 1, 0};
+  std::string view;                    ///< empty: the first that shows it
+  std::optional<PaperPoint> position;  ///< of its middle
+};
+
+/// A list of objects, those with equal texts on one line with their number.
+struct PartsListSpec {
+  std::string where, title;
+  std::optional<settings::Chooser> select;
+  std::vector<std::string> headings, columns;  ///< a column is a text with names, as tags have
+  std::optional<PaperPoint> position;          ///< of its upper left corner
+};
+
+struct RevisionSpec {
+  std::string revision, date, text, by;
 };
 
 struct StyleSpec {
@@ -105,6 +143,11 @@ struct SheetSpec {
   std::vector<ViewSpec> views;  ///< views of the arrangement come first
   std::vector<TagSpec> tags;
   GridSpec grid;
+  LevelsSpec levels;
+  std::optional<ScaleBarSpec> scale_bar;
+  std::optional<NorthSpec> north;
+  std::vector<PartsListSpec> parts_lists;
+  std::vector<RevisionSpec> revisions;
   std::array<StyleSpec, kLineClasses> styles;
   bool split_hidden = false;  ///< what an object hides itself has a layer of its own
 };
