@@ -334,7 +334,10 @@ class Composer {
     const GridMargin rim = margin_of(what_.grid, what_.views[v]);
     const double x = rounded_paper((box.left + box.right) / 2);
     const Lettering letters = lettering_of(what_);
-    double y = box.bottom + rim.other_mm + letters.gap_mm;
+    const double below = shows_cutting_planes(what_, what_.views[v])
+                             ? std::max(rim.other_mm, kCuttingPlaneMarginMm)
+                             : rim.other_mm;
+    double y = box.bottom + below + letters.gap_mm;
     const auto write = [&](const std::string& text, double height) {
       y = rounded_paper(y + height);
       view.caption.texts.push_back({LineClass::title, {x, y}, height, Align::middle, text, false});
