@@ -2,6 +2,8 @@
 // Patterns of dashes, fitted to the lengths of the lines that have them.
 #pragma once
 
+// Decision 0103 says why patterns are stretched, and why by one factor.
+
 #include <array>
 #include <cstdint>
 #include <span>

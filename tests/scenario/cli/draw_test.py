@@ -502,6 +502,21 @@ class Draw(Scenario):
         self.assertIn('id="hidden-sharp" class="hidden sharp"', two)
         self.assertEqual(self.run_strake(*run, '--hidden-layers', 'three').returncode, 2)
 
+    def test_centre_lines_are_of_exact_primitives(self):
+        self.write('m.obj', prism('pin', 0, 48, (0, 0), 200, 0, 600))
+        run = ['draw', 'm.obj', '--unit', 'mm', '--up-axis', 'z', '--view', 'top']
+        done = self.run_strake(*run, '--centre-lines', 'on', '-o', 'x.svg', '-o', 'x.json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # A mesh has no axis, however round it looks.
+        self.assertNotIn('centre-lines', (self.folder / 'x.svg').read_text(encoding='utf-8'))
+        for wrong in ('yes', '0mm', '7'):
+            done = self.run_strake(*run, '--centre-lines', wrong, '-o', 'y.svg')
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn('--centre-lines', done.stderr)
+        done = self.run_strake('draw', 'x.json', '--centre-lines', 'on', '-o', 'y.svg')
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn('--centre-lines', done.stderr)
+
     def test_an_empty_sheet_is_not_silent(self):
         self.two_files()
         done = self.run_strake('draw', 'a.obj', '-o', 'x.svg', '--limits', '1e6,1e6,1e6,2e6,2e6,2e6')
