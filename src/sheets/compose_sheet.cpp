@@ -14,6 +14,7 @@
 #include "drawing/layout/expected_extent.hpp"
 #include "drawing/layout/view_plane.hpp"
 #include "settings/text_file.hpp"
+#include "sheets/annotation/dimensions.hpp"
 #include "sheets/annotation/tags.hpp"
 #include "sheets/annotation/title_block.hpp"
 #include "sheets/annotation/view_marks.hpp"
@@ -59,6 +60,7 @@ class Composer {
     for (std::size_t v = 0; v < what_.views.size(); ++v) caption(v, scale);
     grid();
     view_marks();
+    dimensions();
     fill_frame(what_, scale, sheet_);
     draw_notes(notes_, what_, scale, sheet_);
     if (const Status status = tags(); !status) return status.error();
@@ -331,13 +333,9 @@ class Composer {
   void caption(std::size_t v, std::optional<double> sheet_scale) {
     PlacedView& view = sheet_.views[v];
     const PaperBox& box = places_[v].lines;
-    const GridMargin rim = margin_of(what_.grid, what_.views[v]);
     const double x = rounded_paper((box.left + box.right) / 2);
     const Lettering letters = lettering_of(what_);
-    const double below = shows_cutting_planes(what_, what_.views[v])
-                             ? std::max(rim.other_mm, kCuttingPlaneMarginMm)
-                             : rim.other_mm;
-    double y = box.bottom + below + letters.gap_mm;
+    double y = box.bottom + margin_below(what_, what_.views[v]) + letters.gap_mm;
     const auto write = [&](const std::string& text, double height) {
       y = rounded_paper(y + height);
       view.caption.texts.push_back({LineClass::title, {x, y}, height, Align::middle, text, false});
@@ -407,6 +405,17 @@ class Composer {
         warn("section-mark-nowhere",
              "no other view sees the section " + what_.views[v].section_mark + " edge-on",
              what_.views[v].where);
+  }
+
+  void dimensions() {
+    for (const DimensionSpec& spec : what_.dimensions)
+      for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
+        if (what_.views[v].name != spec.view) continue;
+        const drawing::Placement place = placement(v);
+        const Status drawn = draw_dimension(spec, scene_, {what_.views[v], place, places_[v].lines},
+                                            sheet_.views[v].notes);
+        if (!drawn) warn("dimension-not-drawn", drawn.error().message, spec.where);
+      }
   }
 
   /// Returns the box of what a view shows, mm of the model: its limits, or its visible lines.

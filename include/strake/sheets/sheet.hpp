@@ -46,8 +46,9 @@ enum class LineClass : std::uint8_t {
   cutting_plane,  ///< where another view is cut
   extent,         ///< what another view shows
   note,           ///< scale bar, north, levels, lists
+  dimension,      ///< dimensions, with their extension lines
 };
-inline constexpr std::size_t kLineClasses = 21;
+inline constexpr std::size_t kLineClasses = 22;
 
 /// Returns the name of a class as files spell it: "frame_thin".
 [[nodiscard]] std::string_view class_name(LineClass line);

@@ -21,33 +21,6 @@ using geometry::Vec3d;
 /// are, mm.
 constexpr double kBeyondMm = 8, kWideEndMm = 6, kArrowMm = 9, kHeadMm = 3;
 
-PaperPoint rounded(const PaperPoint& p) { return {rounded_paper(p.x), rounded_paper(p.y)}; }
-
-PaperPoint along(const PaperPoint& p, const PaperPoint& way, double mm) {
-  return {p.x + way.x * mm, p.y + way.y * mm};
-}
-
-/// Where the model lies on the paper of a view without perspective.
-class ViewPaper {
- public:
-  explicit ViewPaper(const MarkedView& in) : in_(in), axes_(drawing::paper_axes(in.spec.view)) {}
-
-  [[nodiscard]] bool good() const { return axes_ && !axes_->eye; }
-  [[nodiscard]] PaperPoint vector(const Vec3d& v) const {
-    return {dot(axes_->right, v), -dot(axes_->up, v)};
-  }
-  [[nodiscard]] PaperPoint point(const Vec3d& mm) const {
-    const PaperPoint v = vector(mm - geometry::to_mm(in_.placement.anchor));
-    const double scale = in_.placement.sheet.scale;
-    return {in_.placement.at.x + v.x / scale, in_.placement.at.y + v.y / scale};
-  }
-  [[nodiscard]] const Vec3d& toward() const { return axes_->toward; }
-
- private:
-  const MarkedView& in_;
-  std::optional<drawing::PaperAxes> axes_;
-};
-
 /// Draws an end of a cutting plane: its wide part, its arrow and its letter. `out` points away from
 /// the view along the plane, `look` in the direction of viewing.
 void end_of_plane(const PaperPoint& end, const PaperPoint& out, const PaperPoint& look,

@@ -2,22 +2,13 @@
 // What views say of each other: where one is cut, and what one shows of another.
 #pragma once
 
-#include <span>
 #include <string>
 
-#include "sheets/arrangement/view_arrangement.hpp"
+#include "sheets/annotation/view_paper.hpp"
 #include "sheets/spec/sheet_spec.hpp"
-#include "strake/drawing/drawing.hpp"
 #include "strake/sheets/sheet.hpp"
 
 namespace strake::sheets {
-
-/// A view and its place on paper.
-struct MarkedView {
-  const ViewSpec& spec;
-  const drawing::Placement& placement;
-  const PaperBox& lines;  ///< box of all its lines
-};
 
 /// Appends the cutting plane of `cut` to a view that sees it edge-on (ISO 128-3): a long dashed
 /// dotted line with wide ends beyond the lines of the view, arrows in the direction of viewing, and

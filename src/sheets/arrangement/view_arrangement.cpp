@@ -20,6 +20,9 @@ namespace strake::sheets {
 
 namespace {
 
+/// The paper beyond the line of a dimension, for extension lines and half a text.
+constexpr double kDimensionMarginMm = 5;
+
 using geometry::Vec3l;
 
 /// A cell of the arrangement: its column and row, relative to the front view.
@@ -439,11 +442,20 @@ class Placer {
     const GridMargin rim = margin_of(what_.grid, view);
     place.left_mm = std::max(rim.left_mm, rim.other_mm);
     place.top_mm = std::max(rim.top_mm, rim.other_mm);
-    place.right_mm = place.bottom_mm = rim.other_mm;
+    place.right_mm = rim.other_mm;
     place.right_mm = std::max(place.right_mm, level_margin(what_.levels, view));
     if (shows_cutting_planes(what_, view))
-      for (double* const side : {&place.left_mm, &place.top_mm, &place.right_mm, &place.bottom_mm})
+      for (double* const side : {&place.left_mm, &place.top_mm, &place.right_mm})
         *side = std::max(*side, kCuttingPlaneMarginMm);
+    for (const DimensionSpec& dimension : what_.dimensions) {
+      if (dimension.view != view.name || dimension.along == DimensionSpec::Along::aligned) continue;
+      const bool upright = dimension.along == DimensionSpec::Along::vertical;
+      double& side =
+          upright ? (dimension.other_side ? place.right_mm : place.left_mm) : place.top_mm;
+      if (upright || !dimension.other_side)
+        side = std::max(side, dimension.offset_mm + kDimensionMarginMm);
+    }
+    place.bottom_mm = margin_below(what_, view);
     if (view.title.empty()) return place;
     const Lettering letters = lettering_of(what_);
     const bool scaled = view.scale && !view.view.perspective;
@@ -544,6 +556,16 @@ bool shows_cutting_planes(const SheetSpec& what, const ViewSpec& view) {
              return dot(section.normal, view.view.direction) == 0;
            });
   });
+}
+
+double margin_below(const SheetSpec& what, const ViewSpec& view) {
+  double below = margin_of(what.grid, view).other_mm;
+  if (shows_cutting_planes(what, view)) below = std::max(below, kCuttingPlaneMarginMm);
+  for (const DimensionSpec& dimension : what.dimensions)
+    if (dimension.view == view.name && dimension.other_side &&
+        dimension.along == DimensionSpec::Along::horizontal)
+      below = std::max(below, dimension.offset_mm + kDimensionMarginMm);
+  return below;
 }
 
 GridMargin margin_of(const GridSpec& grid, const ViewSpec& view) {

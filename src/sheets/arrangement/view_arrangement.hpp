@@ -64,6 +64,9 @@ struct Arranged {
 /// The paper beside its lines that it needs for that.
 inline constexpr double kCuttingPlaneMarginMm = 12;
 
+/// Returns the paper below the lines of a view that its marks need, before its title.
+[[nodiscard]] double margin_below(const SheetSpec& what, const ViewSpec& view);
+
 /// The letter heights of captions and their distance below views: smaller up to A3.
 struct Lettering {
   double title_mm = 5, scale_mm = 3.5, gap_mm = 4;

@@ -56,6 +56,7 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
     case LineClass::cutting_plane:
     case LineClass::extent:
     case LineClass::note:
+    case LineClass::dimension:
     case LineClass::grid_label:
     case LineClass::leader:
       // As thin as hidden lines, and no thinner than prints well.
@@ -77,7 +78,7 @@ std::string_view class_name(LineClass line) {
       "outline",       "edge",   "boundary",   "intersection", "section",      "hatch",
       "polyline",      "smooth", "hidden",     "grid",         "grid_label",   "leader",
       "title",         "frame",  "frame_thin", "hidden_self",  "hidden_other", "centre",
-      "cutting_plane", "extent", "note"};
+      "cutting_plane", "extent", "note",       "dimension"};
   return kNames.at(static_cast<std::size_t>(line));
 }
 

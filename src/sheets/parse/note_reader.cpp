@@ -2,14 +2,19 @@
 #include "sheets/parse/note_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
 
 #include "sheets/annotation/tags.hpp"
 #include "sheets/spec/template.hpp"
 #include "strake/drawing/view.hpp"
+#include "strake/geometry/grid.hpp"
 
 namespace strake::sheets {
 
@@ -160,6 +165,71 @@ void NoteReader::revision(const Value& value) {
   revision.text = table.text("text").value_or("");
   revision.by = table.text("by").value_or("");
   found_.revisions.push_back(std::move(revision));
+}
+
+DimensionEnd NoteReader::end_of_dimension(TableReader& table, std::string_view key) {
+  DimensionEnd end;
+  const Value* const value = table.value(key);
+  if (value == nullptr) {
+    reading_.fault(table.at(), "[[dimension]] has no '" + std::string(key) + "'",
+                   "write " + std::string(key) +
+                       " = [\"1m\", \"0m\", \"2m\"], or { object = \"NAME\", " +
+                       "side = \"left\" }");
+    return end;
+  }
+  if (!std::holds_alternative<settings::Table>(value->held)) {
+    const auto mm = table.point_mm(key);
+    const auto point = mm ? geometry::snap(*mm) : std::nullopt;
+    if (point)
+      end.point = *point;
+    else
+      reading_.fault(value->at,
+                     "'" + std::string(key) + "' of [[dimension]] is no point of the model",
+                     "write " + std::string(key) + " = [\"1m\", \"0m\", \"2m\"]");
+    return end;
+  }
+  TableReader inner(reading_, *value, "'" + std::string(key) + "' of [[dimension]]");
+  end.object = inner.required_text("object");
+  constexpr std::array<std::string_view, 5> kSides{"left", "right", "top", "bottom", "centre"};
+  const std::string side = inner.word("side", kSides).value_or("centre");
+  end.side = static_cast<DimensionEnd::Side>(std::ranges::find(kSides, side) - kSides.begin());
+  return end;
+}
+
+void NoteReader::dimension(const Value& value) {
+  TableReader table(reading_, value, "[[dimension]]");
+  DimensionSpec spec;
+  spec.where = place(value, "[[dimension]]");
+  spec.view = table.required_text("view");
+  know_view(spec.view, table.at(), "'view' of [[dimension]]");
+  spec.from = end_of_dimension(table, "from");
+  spec.to = end_of_dimension(table, "to");
+  constexpr std::array<std::string_view, 3> kAlong{"horizontal", "vertical", "aligned"};
+  const std::string along = table.word("along", kAlong).value_or("horizontal");
+  spec.along = static_cast<DimensionSpec::Along>(std::ranges::find(kAlong, along) - kAlong.begin());
+  constexpr std::array<std::string_view, 4> kPlaces{"above", "left", "below", "right"};
+  const auto where = table.word("place", kPlaces);
+  if (where) {
+    const bool upright = *where == "left" || *where == "right";
+    if (upright != (along == "vertical"))
+      reading_.fault(table.value("place")->at, "'place' of [[dimension]] does not go with 'along'",
+                     "write above or below for horizontal and aligned ones, left or right for "
+                     "vertical ones");
+    spec.other_side = *where == "below" || *where == "right";
+  }
+  if (const auto offset = table.tolerance_mm("offset")) spec.offset_mm = *offset;
+  if (spec.offset_mm > 1000)
+    reading_.fault(table.value("offset")->at, "'offset' of [[dimension]] is wider than any sheet",
+                   "write a length of paper, as \"12mm\"");
+  if (const auto decimals = table.whole("decimals")) {
+    if (*decimals < 0 || *decimals > 3)
+      reading_.fault(table.value("decimals")->at,
+                     "the model is exact to three decimals of a millimetre",
+                     "write decimals = 0 to 3");
+    else
+      spec.decimals = static_cast<int>(*decimals);
+  }
+  found_.dimensions.push_back(std::move(spec));
 }
 
 }  // namespace strake::sheets

@@ -19,10 +19,12 @@ class NoteReader {
   void north(const settings::Value& value);
   void parts_list(const settings::Value& value);
   void revision(const settings::Value& value);
+  void dimension(const settings::Value& value);
   /// Checks that the views that a view names exist.
   void check_names(const ViewSpec& view, settings::SourcePosition at);
 
  private:
+  DimensionEnd end_of_dimension(settings::TableReader& table, std::string_view key);
   void level(settings::TableReader& table, const settings::Value& value);
   void column(settings::TableReader& table, const settings::Value& value, PartsListSpec& list);
   std::optional<PaperPoint> position(settings::TableReader& table);

@@ -86,6 +86,7 @@ class Parser {
     if (const Value* const value = top_.table("north")) notes.north(*value);
     for (const Value* value : top_.tables("parts_list")) notes.parts_list(*value);
     for (const Value* value : top_.tables("revision")) notes.revision(*value);
+    for (const Value* value : top_.tables("dimension")) notes.dimension(*value);
     for (std::size_t v = 0; v < found_.views.size(); ++v)
       notes.check_names(found_.views[v], places_[v]);
     return std::move(found_);

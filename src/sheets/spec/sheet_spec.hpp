@@ -115,6 +115,26 @@ struct PartsListSpec {
   std::optional<PaperPoint> position;          ///< of its upper left corner
 };
 
+/// An end of a dimension: a point of the model, or a side of an object as a view shows it.
+struct DimensionEnd {
+  enum class Side : std::uint8_t { left, right, top, bottom, centre };
+
+  std::string object;  ///< its id, or a name that no other object has; empty: `point`
+  Side side = Side::centre;
+  geometry::Vec3l point;  ///< grid units
+};
+
+struct DimensionSpec {
+  enum class Along : std::uint8_t { horizontal, vertical, aligned };
+
+  std::string where, view;
+  DimensionEnd from, to;
+  Along along = Along::horizontal;
+  bool other_side = false;  ///< below or at the right, not above or at the left
+  double offset_mm = 10;    ///< from the lines of the view, or of an aligned one from its points
+  int decimals = -1;        ///< negative: as many as there are, three at most
+};
+
 struct RevisionSpec {
   std::string revision, date, text, by;
 };
@@ -148,6 +168,7 @@ struct SheetSpec {
   std::optional<NorthSpec> north;
   std::vector<PartsListSpec> parts_lists;
   std::vector<RevisionSpec> revisions;
+  std::vector<DimensionSpec> dimensions;
   std::array<StyleSpec, kLineClasses> styles;
   bool split_hidden = false;  ///< what an object hides itself has a layer of its own
 };
