@@ -116,6 +116,12 @@ revision = "A"
 date = "2026-01-05"
 text = "First"
 by = "NN"
+[[dimension]]
+view = "front"
+from = { object = "base", side = "left" }
+to = ["4m", 0, 0]
+place = "below"
+decimals = 1
 )toml"},
           {"frame.svg", kSheetTemplate}};
 }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/number.hpp"
+#include "sheets/annotation/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 
 namespace strake::sheets {
@@ -101,29 +102,43 @@ void draw_arrow(const PaperPoint& tip, const PaperPoint& from, Marks& marks) {
                          true});
 }
 
-void draw_line(const DimensionLine& line, const std::string& value, Marks& marks) {
-  const PaperPoint back{-line.way.x, -line.way.y};
-  const double wide = text_width(value) * kValueMm;
+/// Returns the text of a dimension: above its line where that is level, else in its middle; behind
+/// an arrow where it has no room there. `beyond` is how far the line goes on behind its arrows.
+Text text_of_dimension(const DimensionLine& line, const std::string& value, double beyond) {
   const bool level = std::fabs(line.way.y) < 1e-9;
-  const bool narrow = line.length < 2 * kArrowLengthMm + 1 + (level ? 0 : 2 * kValueMm);
-  const double beyond = narrow ? 2 * kArrowLengthMm : 0;
-  marks.paths.push_back(
-      {LineClass::dimension,
-       {rounded(along(line.a, back, beyond)), rounded(along(line.b, line.way, beyond))},
-       false});
-  draw_arrow(line.a, narrow ? back : line.way, marks);
-  draw_arrow(line.b, narrow ? line.way : back, marks);
   PaperPoint at{(line.a.x + line.b.x) / 2, (line.a.y + line.b.y) / 2};
   Align align = Align::middle;
-  // What has no room between the extension lines stands behind the arrow that comes last.
-  if (level && wide > line.length) {
+  if (level && text_width(value) * kValueMm > line.length) {
     at = along(line.b.x > line.a.x ? line.b : line.a, {1, 0}, std::max(beyond, kStandOffMm));
     align = Align::start;
-  } else if (narrow) {
+  } else if (!level && beyond > 0) {
     at = along(line.b, line.way, beyond + kValueMm);
   }
   at.y += level ? -kStandOffMm : kValueMm / 2;
-  marks.texts.push_back({LineClass::dimension, rounded(at), kValueMm, align, value, !level});
+  return {LineClass::dimension, rounded(at), kValueMm, align, value, !level};
+}
+
+void draw_line(const DimensionLine& line, const std::string& value, Marks& marks) {
+  const PaperPoint back{-line.way.x, -line.way.y};
+  const double height = std::fabs(line.way.y) < 1e-9 ? 0 : 2 * kValueMm;
+  const bool narrow = line.length < 2 * kArrowLengthMm + 1 + height;
+  const double beyond = narrow ? 2 * kArrowLengthMm : 0;
+  const PaperPoint a = along(line.a, back, beyond), b = along(line.b, line.way, beyond);
+  const auto stroke = [&](const PaperPoint& from, const PaperPoint& to) {
+    marks.paths.push_back({LineClass::dimension, {rounded(from), rounded(to)}, false});
+  };
+  Text text = text_of_dimension(line, value, beyond);
+  // A text that clears the paper clears the view's lines; this one is cut here.
+  const auto gap = text.clears ? clipped({a, b}, widened(box_of(text), 0.5)) : std::nullopt;
+  if (gap) {
+    stroke(a, gap->a);
+    stroke(gap->b, b);
+  } else {
+    stroke(a, b);
+  }
+  draw_arrow(line.a, narrow ? back : line.way, marks);
+  draw_arrow(line.b, narrow ? line.way : back, marks);
+  marks.texts.push_back(std::move(text));
 }
 
 /// Draws the extension line from an end to the line of the dimension and a little beyond.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/annotation/paper_segments.hpp"
@@ -82,12 +83,14 @@ bool mark_extent(const geometry::Box3d& extent, const std::string& name, const M
   }
   const PaperPoint a = rounded({box->left, box->top}), b = rounded({box->right, box->bottom});
   marks.paths.push_back({LineClass::extent, {a, {b.x, a.y}, b, {a.x, b.y}, a}, false});
-  marks.texts.push_back({LineClass::extent,
-                         {a.x, rounded_paper(a.y - 1)},
-                         letters_mm,
-                         Align::start,
-                         on_one_line(name),
-                         true});
+  Text text{LineClass::extent, {a.x, rounded_paper(a.y - 1)},
+            letters_mm,        Align::start,
+            on_one_line(name), true};
+  // Extents that begin at one corner have their names one above the other.
+  const auto covers = [&](const Text& other) { return box_of(other).overlaps(box_of(text)); };
+  while (std::ranges::any_of(marks.texts, covers))
+    text.at.y = rounded_paper(text.at.y - 1.5 * letters_mm);
+  marks.texts.push_back(std::move(text));
   return true;
 }
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "sheets/annotation/paper_segments.hpp"
+#include "sheets/spec/text_metrics.hpp"
 #include "support/sheet_models.hpp"
 
 namespace strake::sheets {
@@ -63,15 +65,19 @@ TEST(Dimensions, UprightOnesAreReadFromBelowInAGap) {
   const Marks& marks = marks_of(d);
   EXPECT_EQ(value_of(d), "1000");
   EXPECT_TRUE(marks.texts[0].clears);
+  for (const Path& path : marks.paths) {
+    for (std::size_t i = 1; !path.filled && i < path.points.size(); ++i)
+      EXPECT_FALSE(clipped({path.points[i - 1], path.points[i]}, box_of(marks.texts[0])));
+  }
   EXPECT_NEAR(marks.texts[0].at.x, d.sheet.views[0].box.right + 14, 0.01);
 }
 
 TEST(Dimensions, AlignedOnesRunAlongTheirPoints) {
   const Drawn d = dimensioned("from=[0,0,0]\nto=[\"3m\",0,\"4m\"]\nalong=\"aligned\"\n");
   EXPECT_EQ(value_of(d), "5000");
-  const Path& line = marks_of(d).paths[2];
-  EXPECT_NEAR(std::hypot(line.points[1].x - line.points[0].x, line.points[1].y - line.points[0].y),
-              100, 0.01);
+  // Its line has a gap for the text.
+  const PaperPoint a = marks_of(d).paths[2].points[0], b = marks_of(d).paths[3].points[1];
+  EXPECT_NEAR(std::hypot(b.x - a.x, b.y - a.y), 100, 0.01);
 }
 
 TEST(Dimensions, NarrowOnesHaveTheirArrowsOutside) {
