@@ -22,6 +22,7 @@
 #include "sheets/arrangement/grid_lines.hpp"
 #include "sheets/arrangement/levels.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
+#include "sheets/arrangement/view_margins.hpp"
 #include "sheets/output/line_styles.hpp"
 #include "sheets/place_notes.hpp"
 #include "sheets/spec/sheet_spec.hpp"
@@ -335,7 +336,7 @@ class Composer {
     const PaperBox& box = places_[v].lines;
     const double x = rounded_paper((box.left + box.right) / 2);
     const Lettering letters = lettering_of(what_);
-    double y = box.bottom + margin_below(what_, what_.views[v]) + letters.gap_mm;
+    double y = box.bottom + margins_of(what_, what_.views[v]).bottom_mm + letters.gap_mm;
     const auto write = [&](const std::string& text, double height) {
       y = rounded_paper(y + height);
       view.caption.texts.push_back({LineClass::title, {x, y}, height, Align::middle, text, false});

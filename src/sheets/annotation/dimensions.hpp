@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "sheets/annotation/view_paper.hpp"
+#include "sheets/arrangement/view_paper.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/scene.hpp"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "sheets/annotation/view_paper.hpp"
+#include "sheets/arrangement/view_paper.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "strake/sheets/sheet.hpp"
 

@@ -13,15 +13,12 @@
 
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/arrangement/grid_lines.hpp"
-#include "sheets/arrangement/levels.hpp"
+#include "sheets/arrangement/view_margins.hpp"
 #include "sheets/spec/text_metrics.hpp"
 
 namespace strake::sheets {
 
 namespace {
-
-/// The paper beyond the line of a dimension, for extension lines and half a text.
-constexpr double kDimensionMarginMm = 5;
 
 using geometry::Vec3l;
 
@@ -439,23 +436,11 @@ class Placer {
     const ViewSpec& view = what_.views[v];
     UnplacedView place;
     place.slot = view.slot;
-    const GridMargin rim = margin_of(what_.grid, view);
-    place.left_mm = std::max(rim.left_mm, rim.other_mm);
-    place.top_mm = std::max(rim.top_mm, rim.other_mm);
-    place.right_mm = rim.other_mm;
-    place.right_mm = std::max(place.right_mm, level_margin(what_.levels, view));
-    if (shows_cutting_planes(what_, view))
-      for (double* const side : {&place.left_mm, &place.top_mm, &place.right_mm})
-        *side = std::max(*side, kCuttingPlaneMarginMm);
-    for (const DimensionSpec& dimension : what_.dimensions) {
-      if (dimension.view != view.name || dimension.along == DimensionSpec::Along::aligned) continue;
-      const bool upright = dimension.along == DimensionSpec::Along::vertical;
-      double& side =
-          upright ? (dimension.other_side ? place.right_mm : place.left_mm) : place.top_mm;
-      if (upright || !dimension.other_side)
-        side = std::max(side, dimension.offset_mm + kDimensionMarginMm);
-    }
-    place.bottom_mm = margin_below(what_, view);
+    const ViewMargins rim = margins_of(what_, view);
+    place.left_mm = rim.left_mm;
+    place.top_mm = rim.top_mm;
+    place.right_mm = rim.right_mm;
+    place.bottom_mm = rim.bottom_mm;
     if (view.title.empty()) return place;
     const Lettering letters = lettering_of(what_);
     const bool scaled = view.scale && !view.view.perspective;
@@ -548,30 +533,6 @@ class Placer {
 };
 
 }  // namespace
-
-bool shows_cutting_planes(const SheetSpec& what, const ViewSpec& view) {
-  return !view.view.perspective && std::ranges::any_of(what.views, [&](const ViewSpec& cut) {
-    return !cut.section_mark.empty() && cut.name != view.name &&
-           std::ranges::any_of(cut.view.sections, [&](const hlr::Section& section) {
-             return dot(section.normal, view.view.direction) == 0;
-           });
-  });
-}
-
-double margin_below(const SheetSpec& what, const ViewSpec& view) {
-  double below = margin_of(what.grid, view).other_mm;
-  if (shows_cutting_planes(what, view)) below = std::max(below, kCuttingPlaneMarginMm);
-  for (const DimensionSpec& dimension : what.dimensions)
-    if (dimension.view == view.name && dimension.other_side &&
-        dimension.along == DimensionSpec::Along::horizontal)
-      below = std::max(below, dimension.offset_mm + kDimensionMarginMm);
-  return below;
-}
-
-GridMargin margin_of(const GridSpec& grid, const ViewSpec& view) {
-  constexpr double kGap = drawing::kFrameGapMm;
-  return view.view.perspective ? GridMargin{kGap, kGap, kGap} : grid_margin(grid, view);
-}
 
 Lettering lettering_of(const SheetSpec& what) {
   if (std::max(what.width_mm, what.height_mm) > 420) return {};

@@ -56,17 +56,6 @@ struct Arranged {
 [[nodiscard]] Result<Arranged> arrange(std::span<const UnplacedView> views, Projection projection,
                                        const SheetArea& room, double gap_mm, double scale);
 
-/// Returns the paper beside the lines of a view that its grid lines need, or its frame.
-[[nodiscard]] GridMargin margin_of(const GridSpec& grid, const ViewSpec& view);
-
-/// Returns whether a view shows where others are cut: it sees a plane of one with a mark edge-on.
-[[nodiscard]] bool shows_cutting_planes(const SheetSpec& what, const ViewSpec& view);
-/// The paper beside its lines that it needs for that.
-inline constexpr double kCuttingPlaneMarginMm = 12;
-
-/// Returns the paper below the lines of a view that its marks need, before its title.
-[[nodiscard]] double margin_below(const SheetSpec& what, const ViewSpec& view);
-
 /// The letter heights of captions and their distance below views: smaller up to A3.
 struct Lettering {
   double title_mm = 5, scale_mm = 3.5, gap_mm = 4;
