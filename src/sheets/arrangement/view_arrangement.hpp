@@ -9,7 +9,6 @@
 
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/arrangement/free_place.hpp"
-#include "sheets/arrangement/grid_lines.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
