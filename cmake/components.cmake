@@ -127,6 +127,7 @@ strake_component(drawing
   DEPENDS parallel geometry model
   PACKAGES zlib
   HEADERS
+    drawing/centre_lines.hpp
     drawing/drawing.hpp
     drawing/hatching.hpp
     drawing/ink.hpp

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,15 +14,21 @@
 #include "drawing/layout/expected_extent.hpp"
 #include "drawing/layout/view_plane.hpp"
 #include "settings/text_file.hpp"
+#include "sheets/annotation/dimensions.hpp"
 #include "sheets/annotation/tags.hpp"
 #include "sheets/annotation/title_block.hpp"
+#include "sheets/annotation/view_marks.hpp"
 #include "sheets/arrangement/far_objects_of_views.hpp"
 #include "sheets/arrangement/grid_lines.hpp"
+#include "sheets/arrangement/levels.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
+#include "sheets/arrangement/view_margins.hpp"
 #include "sheets/output/line_styles.hpp"
+#include "sheets/place_notes.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/drawing/hatching.hpp"
+#include "strake/geometry/grid.hpp"
 #include "strake/model/selection.hpp"
 #include "strake/sheets/sheet_file.hpp"
 
@@ -53,7 +60,10 @@ class Composer {
     const std::optional<double> scale = main_scale(what_, places_);
     for (std::size_t v = 0; v < what_.views.size(); ++v) caption(v, scale);
     grid();
+    view_marks();
+    dimensions();
     fill_frame(what_, scale, sheet_);
+    draw_notes(notes_, what_, scale, sheet_);
     if (const Status status = tags(); !status) return status.error();
     for (PlacedView& view : sheet_.views) view.drawing.lines = {};
     return std::move(sheet_);
@@ -95,6 +105,7 @@ class Composer {
       for (const settings::Chooser& chooser : view.uncut) ask(chooser);
     }
     for (const TagSpec& tag : what_.tags) ask(*tag.select);
+    for (const PartsListSpec& list : what_.parts_lists) ask(*list.select);
     Result<Picks> picked = model::pick(selections, scene_, context_);
     if (!picked) return picked.error();
     picks_ = std::move(*picked);
@@ -107,6 +118,8 @@ class Composer {
       warn("selection-matches-nothing", model::picks_nothing(choosers[s]->selection, *scene_.model),
            choosers[s]->where);
     }
+    notes_ = plan_notes(what_, *scene_.model, std::span(picks_).last(what_.parts_lists.size()),
+                        room_, sheet_.diagnostics);
     return {};
   }
 
@@ -214,7 +227,7 @@ class Composer {
       if (!laid_out) return laid_out.error();
       drawings_[v] = {};
       sheet_.views.push_back(
-          {spec.name, spec.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}, {}});
+          {spec.name, spec.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}, {}, {}});
       frame_view(sheet_.views.back());
       check_lines(spec, sheet_.views.back().drawing);
     }
@@ -277,11 +290,23 @@ class Composer {
       auto chosen = drawing::choose_ink(sheet_.views[v].drawing,
                                         {.hidden = hidden != HiddenLines::off,
                                          .clean_up = hidden != HiddenLines::all,
+                                         .split_hidden = what_.split_hidden,
                                          .pens = pens_of(sheet_.styles)},
                                         context_);
       if (!chosen) return chosen.error();
       sheet_.views[v].ink = std::move(*chosen);
+      if (const Status status = centre_lines(v); !status) return status;
     }
+    return {};
+  }
+
+  Status centre_lines(std::size_t v) {
+    PlacedView& view = sheet_.views[v];
+    if (!what_.views[v].centre_lines) return {};
+    auto lines = drawing::find_centre_lines(view.drawing, view.ink, *scene_.model,
+                                            *what_.views[v].centre_lines, context_);
+    if (!lines) return lines.error();
+    view.ink.centre_lines = std::move(*lines);
     return {};
   }
 
@@ -309,10 +334,9 @@ class Composer {
   void caption(std::size_t v, std::optional<double> sheet_scale) {
     PlacedView& view = sheet_.views[v];
     const PaperBox& box = places_[v].lines;
-    const GridMargin rim = margin_of(what_.grid, what_.views[v]);
     const double x = rounded_paper((box.left + box.right) / 2);
     const Lettering letters = lettering_of(what_);
-    double y = box.bottom + rim.other_mm + letters.gap_mm;
+    double y = box.bottom + margins_of(what_, what_.views[v]).bottom_mm + letters.gap_mm;
     const auto write = [&](const std::string& text, double height) {
       y = rounded_paper(y + height);
       view.caption.texts.push_back({LineClass::title, {x, y}, height, Align::middle, text, false});
@@ -347,6 +371,68 @@ class Composer {
         warn("grid-line-nowhere",
              "the grid line '" + what_.grid.planes[p].label + "' shows in no view",
              what_.grid.where);
+  }
+
+  /// Marks levels, and where and what other views show.
+  void view_marks() {
+    std::vector<bool> level(what_.levels.all.size()), cut(what_.views.size());
+    const double letters = lettering_of(what_).scale_mm;
+    for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
+      const ViewSpec& spec = what_.views[v];
+      const drawing::Placement place = placement(v);
+      const MarkedView in{spec, place, places_[v].lines};
+      Marks& marks = sheet_.views[v].notes;
+      const auto within = mark_levels(what_.levels, spec, place, places_[v].lines, marks);
+      for (std::size_t i = 0; i < level.size(); ++i) level[i] = level[i] || within[i];
+      for (std::size_t w = 0; w < sheet_.views.size(); ++w) {
+        const ViewSpec& other = what_.views[w];
+        if (w != v && !other.section_mark.empty())
+          cut[w] = mark_section(other, in, letters, marks) || cut[w];
+        if (std::ranges::find(spec.extents_of, other.name) == spec.extents_of.end()) continue;
+        if (!mark_extent(extent_of(w), other.title.empty() ? other.name : other.title, in, letters,
+                         marks))
+          warn("extent-not-shown",
+               "the view '" + spec.name + "' cannot show what '" + other.name +
+                   "' shows: one of them is in perspective, or empty",
+               spec.where);
+      }
+    }
+    for (std::size_t i = 0; i < level.size(); ++i)
+      if (!level[i])
+        warn("level-nowhere", "the level '" + what_.levels.all[i].label + "' shows in no view",
+             what_.levels.where);
+    for (std::size_t v = 0; v < cut.size(); ++v)
+      if (!cut[v] && !what_.views[v].section_mark.empty())
+        warn("section-mark-nowhere",
+             "no other view sees the section " + what_.views[v].section_mark + " edge-on",
+             what_.views[v].where);
+  }
+
+  void dimensions() {
+    for (const DimensionSpec& spec : what_.dimensions)
+      for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
+        if (what_.views[v].name != spec.view) continue;
+        const drawing::Placement place = placement(v);
+        const Status drawn = draw_dimension(spec, scene_, {what_.views[v], place, places_[v].lines},
+                                            sheet_.views[v].notes);
+        if (!drawn) warn("dimension-not-drawn", drawn.error().message, spec.where);
+      }
+  }
+
+  /// Returns the box of what a view shows, mm of the model: its limits, or its visible lines.
+  [[nodiscard]] geometry::Box3d extent_of(std::size_t v) const {
+    geometry::Box3d box{{1, 1, 1}, {0, 0, 0}};
+    const hlr::View& view = what_.views[v].view;
+    if (view.perspective) return box;
+    if (view.limits) return {geometry::to_mm(view.limits->lo), geometry::to_mm(view.limits->hi)};
+    bool any = false;
+    for (const drawing::Line& line : sheet_.views[v].ink.lines)
+      for (const geometry::Vec3d& p : {line.a_mm, line.b_mm}) {
+        if (!any) box = {p, p};
+        any = true;
+        box.include(p);
+      }
+    return box;
   }
 
   Status tags() {
@@ -409,6 +495,7 @@ class Composer {
   std::vector<std::vector<model::ObjectId>> far_left_out_;  ///< of each view
   std::vector<hlr::Drawing> drawings_;
   std::vector<ViewPlace> places_;
+  Notes notes_;
   Sheet sheet_;
 };
 

@@ -90,6 +90,39 @@ sections = ["y<300mm"]
 hatch = [{ select = "type = mesh", angle = "30deg", spacing = "80mm" }, { spacing = 0 }]
 position = ["300mm", "100mm"]
 )toml"},
+          {"notes.toml", R"toml([sheet]
+hidden_layers = "two"
+[arrangement]
+views = ["front", "top"]
+centre_lines = "3mm"
+[arrangement.front]
+sections = "y=1m"
+section_mark = "A"
+[arrangement.top]
+extents_of = ["front"]
+[levels]
+z = ["0m", ["DECK", "1m"]]
+[scale_bar]
+position = ["20mm", "250mm"]
+[north]
+direction = "1,2,0"
+view = "top"
+[[parts_list]]
+title = "PARTS"
+select = "*"
+columns = [["NAME", "{{name}}"], ["DN", "{{@DN}}"]]
+[[revision]]
+revision = "A"
+date = "2026-01-05"
+text = "First"
+by = "NN"
+[[dimension]]
+view = "front"
+from = { object = "base", side = "left" }
+to = ["4m", 0, 0]
+place = "below"
+decimals = 1
+)toml"},
           {"frame.svg", kSheetTemplate}};
 }
 

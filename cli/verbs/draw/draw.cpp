@@ -186,6 +186,19 @@ void add_lines(CLI::App& command, DrawOptions& options) {
                          "(default off)",
                          suffixes_by_ink(true)))
       ->group("Lines");
+  add_choice(
+      command, "--hidden-layers", options.hidden_layers, {"one", "two"},
+      "Hidden lines as one layer, or what an object hides itself and what others hide as two "
+      "(default one)")
+      ->group("Lines");
+  command
+      .add_option(
+          "--centre-lines", options.centre_lines,
+          fmt::format("Centre lines of round parts in {}: on, off, or the diameter on paper "
+                      "from which parts have them (default off; on is 2mm)",
+                      suffixes_by_ink(true)))
+      ->type_name("on|off|LENGTH")
+      ->group("Lines");
   command
       .add_flag("--visible-only", options.visible_only,
                 fmt::format("Leave hidden lines out of everything, of {} too: less time and memory",
@@ -269,12 +282,13 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
           ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
           ->group("Output");
   for (const char* const other :
-       {"--view",          "--direction",        "--eye",          "--up",
-        "--limits",        "--section",          "--uncut",        "--hatch",
-        "--select",        "--hidden",           "--visible-only", "--stage",
-        "--intersections", "--own-polylines",    "--smooth",       "--flush-seams",
-        "--sharp-angle",   "--contact-distance", "--scale",        "--paper",
-        "--title",         "--project",          "--save",         "--stored"})
+       {"--view",         "--direction",   "--eye",           "--up",
+        "--limits",       "--section",     "--uncut",         "--hatch",
+        "--select",       "--hidden",      "--hidden-layers", "--centre-lines",
+        "--visible-only", "--stage",       "--intersections", "--own-polylines",
+        "--smooth",       "--flush-seams", "--sharp-angle",   "--contact-distance",
+        "--scale",        "--paper",       "--title",         "--project",
+        "--save",         "--stored"})
     sheet->excludes(other);
 }
 

@@ -20,6 +20,7 @@ std::string option_of_model(const DrawOptions& given) {
   if (!given.input.up_axes.empty()) return "--up-axis";
   if (given.input.strict) return "--strict";
   if (given.input.georeference) return "--georeference";
+  if (!given.centre_lines.empty()) return "--centre-lines";
   return first_option_of_lines(given);
 }
 

@@ -188,7 +188,17 @@ Result<drawing::LayoutOptions> layout_options(const DrawOptions& given) {
 
 drawing::InkOptions ink_options(const DrawOptions& given) {
   return {.hidden = given.hidden != "off" && !given.hidden.empty(),
-          .clean_up = given.hidden != "all"};
+          .clean_up = given.hidden != "all",
+          .split_hidden = given.hidden_layers == "two"};
+}
+
+Result<std::optional<drawing::CentreLineOptions>> centre_line_options(const DrawOptions& given) {
+  if (given.centre_lines.empty()) return std::optional<drawing::CentreLineOptions>();
+  auto options = drawing::parse_centre_lines(given.centre_lines);
+  if (options) return options;
+  Error error = options.error();
+  error.where = "--centre-lines";
+  return error;
 }
 
 Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool keep_hidden) {
@@ -206,6 +216,8 @@ Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool 
   if (!uncut) return uncut.error();
   const auto hatches = parse_hatches(given.hatches);
   if (!hatches) return hatches.error();
+  if (const auto centre_lines = centre_line_options(given); !centre_lines)
+    return centre_lines.error();
   return DrawRequest{*scene,
                      *view,
                      *options,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "cli/run/project_input.hpp"
 #include "cli/verbs/draw/draw_options.hpp"
 #include "strake/core/result.hpp"
+#include "strake/drawing/centre_lines.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/ink.hpp"
 #include "strake/hlr/hlr.hpp"
@@ -29,8 +31,8 @@ struct DrawOptions {
   PerspectiveOptions perspective;
   std::vector<std::string> sheets;
   std::string view, direction, up, limits, scale, paper, title;
-  std::string stage, solver, global, culling, bucketing, hidden, intersections, own_polylines,
-      smooth, flush_seams, sharp_angle, contact_distance;
+  std::string stage, solver, global, culling, bucketing, hidden, hidden_layers, centre_lines,
+      intersections, own_polylines, smooth, flush_seams, sharp_angle, contact_distance;
   std::vector<std::string> select, outputs, sections, uncut, hatches;
   bool visible_only = false;
   ProjectOptions project;
@@ -60,5 +62,9 @@ struct DrawRequest {
 
 /// Returns what --hidden asks for.
 [[nodiscard]] drawing::InkOptions ink_options(const DrawOptions& given);
+
+/// Parses --centre-lines; none: they are not drawn. Errors: usage.
+[[nodiscard]] Result<std::optional<drawing::CentreLineOptions>> centre_line_options(
+    const DrawOptions& given);
 
 }  // namespace strake::cli

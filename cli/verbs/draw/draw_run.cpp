@@ -130,6 +130,14 @@ Status write_drawing(Session& session, const DrawOptions& given,
         drawing::choose_ink(drawing, ink_options(given), session.context());
     if (!chosen) return chosen.error();
     ink = std::move(*chosen);
+    const auto centre_lines = centre_line_options(given);
+    if (!centre_lines) return centre_lines.error();
+    if (*centre_lines) {
+      auto found =
+          drawing::find_centre_lines(drawing, ink, model, **centre_lines, session.context());
+      if (!found) return found.error();
+      ink.centre_lines = std::move(*found);
+    }
   }
   for (std::size_t i = 0; i < writers.size(); ++i) {
     Diagnostics noticed;

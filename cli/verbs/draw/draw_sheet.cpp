@@ -43,13 +43,31 @@ void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const mod
                                         drawing::state_name(static_cast<drawing::LineState>(s))),
                             view.drawing.count[s]);
   }
-  print_diagnostics(
-      console, sheet.diagnostics,
-      {"view-empty", "selection-matches-nothing", "uncut-without-sections", "field-not-filled",
-       "field-not-in-template", "field-too-long", "view-off-the-sheet", "view-off-the-frame",
-       "view-on-title-block", "views-overlap", "far-object", "far-object-left-out",
-       "grid-line-nowhere", "grid-label-no-room", "tag-not-seen", "tag-no-room",
-       "tag-attribute-missing", "tag-attribute-partly-missing"});
+  print_diagnostics(console, sheet.diagnostics,
+                    {"view-empty",
+                     "selection-matches-nothing",
+                     "uncut-without-sections",
+                     "field-not-filled",
+                     "field-not-in-template",
+                     "field-too-long",
+                     "view-off-the-sheet",
+                     "view-off-the-frame",
+                     "view-on-title-block",
+                     "views-overlap",
+                     "far-object",
+                     "far-object-left-out",
+                     "grid-line-nowhere",
+                     "grid-label-no-room",
+                     "tag-not-seen",
+                     "tag-no-room",
+                     "tag-attribute-missing",
+                     "tag-attribute-partly-missing",
+                     "level-nowhere",
+                     "section-mark-nowhere",
+                     "extent-not-shown",
+                     "parts-list-no-room",
+                     "scale-bar-without-scale",
+                     "north-not-shown", "dimension-not-drawn"});
 }
 
 /// "SVG": the formats of sheets in a sentence.

@@ -45,6 +45,8 @@ constexpr std::array kTextsOfLines{
 
 constexpr std::array kTextsOfSheet{
     Text{"hidden", [](DrawOptions& o) -> std::string& { return o.hidden; }},
+    Text{"hidden-layers", [](DrawOptions& o) -> std::string& { return o.hidden_layers; }},
+    Text{"centre-lines", [](DrawOptions& o) -> std::string& { return o.centre_lines; }},
     Text{"scale", [](DrawOptions& o) -> std::string& { return o.scale; }},
     Text{"paper", [](DrawOptions& o) -> std::string& { return o.paper; }},
     Text{"title", [](DrawOptions& o) -> std::string& { return o.title; }},

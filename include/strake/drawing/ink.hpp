@@ -26,14 +26,26 @@ struct InkOptions {
   /// the same object, so close on paper that their ink touches: two dashed lines out of step look
   /// like a third, solid one. Equal objects get equal ink, whatever other objects hide.
   bool clean_up = true;
+  /// Keep what an object hides itself and what others hide apart, as two layers with styles of
+  /// their own.
+  bool split_hidden = false;
   std::optional<Pens> pens = std::nullopt;  ///< none: chosen by the density of the drawing
+};
+
+/// A centre line on paper: straight from point to point.
+struct CentreLine {
+  model::ObjectId object{};  ///< whose axis it is; of several in line the first
+  std::vector<PaperPoint> points;
+  bool cross = false;  ///< an arm of a cross, which has a dash in its middle
 };
 
 /// The lines of a drawing that get ink on paper, and the pens.
 struct Ink {
   Pens pens;
-  std::vector<Line> lines;     ///< visible or hidden, in the order of the drawing
-  std::uint64_t left_out = 0;  ///< hidden lines that were left out in part or wholly
+  std::vector<Line> lines;               ///< visible or hidden, in the order of the drawing
+  std::uint64_t left_out = 0;            ///< hidden lines that were left out in part or wholly
+  std::vector<CentreLine> centre_lines;  ///< those of find_centre_lines(), where they are wanted
+  bool split_hidden = false;  ///< as InkOptions has it; the states of the lines tell which is which
 };
 
 /// Returns the pens for a drawing: the widest group that suits the sheet's size, or a narrower one

@@ -40,8 +40,15 @@ enum class LineClass : std::uint8_t {
   title,
   frame,
   frame_thin,
+  hidden_self,    ///< what its own object hides, where the ink keeps that apart; else `hidden`
+  hidden_other,   ///< what others hide, likewise
+  centre,         ///< centre lines, which are in the ink of a view
+  cutting_plane,  ///< where another view is cut
+  extent,         ///< what another view shows
+  note,           ///< scale bar, north, levels, lists
+  dimension,      ///< dimensions, with their extension lines
 };
-inline constexpr std::size_t kLineClasses = 15;
+inline constexpr std::size_t kLineClasses = 22;
 
 /// Returns the name of a class as files spell it: "frame_thin".
 [[nodiscard]] std::string_view class_name(LineClass line);
@@ -111,6 +118,7 @@ struct PlacedView {
   PaperBox box;  ///< box of all lines of the view, hidden ones included
   Marks caption, grid, tags;
   Marks frame;  ///< round a view in perspective
+  Marks notes;  ///< levels, cutting planes and extents of other views
 };
 
 struct Sheet {
@@ -125,6 +133,7 @@ struct Sheet {
     std::string view_box, elements;
   };
   std::optional<Template> artwork;
+  Marks notes;  ///< scale bar, north, lists
   /// "view-empty", "selection-matches-nothing", "field-not-filled", "field-not-in-template",
   /// "view-off-the-sheet", "views-overlap", "tag-no-room" … (docs/sheets.md)
   Diagnostics diagnostics;

@@ -255,7 +255,10 @@ Pens choose_pens(const NeutralDrawing& drawing) {
 
 Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
                        const parallel::Context& context) {
-  Ink ink{.pens = options.pens ? *options.pens : choose_pens(drawing), .lines = {}};
+  Ink ink{.pens = options.pens ? *options.pens : choose_pens(drawing),
+          .lines = {},
+          .centre_lines = {},
+          .split_hidden = options.split_hidden};
   for (const Line& line : drawing.lines)
     if (line.state == LineState::visible || (options.hidden && may_be_dashed(line)))
       ink.lines.push_back(line);

@@ -2,6 +2,7 @@
 // Lines joined into chains.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -17,6 +18,11 @@ struct JoinedLines {
   Chain points;
   std::vector<const Line*> lines;
 };
+
+[[nodiscard]] inline double distance(const PaperPoint& a, const PaperPoint& b) {
+  const double x = b.x - a.x, y = b.y - a.y;
+  return std::sqrt(x * x + y * y);
+}
 
 /// Joins lines that meet end to end on paper into chains, each line once.
 ///

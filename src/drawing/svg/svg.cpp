@@ -3,15 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/number.hpp"
 #include "drawing/buffered_writer.hpp"
+#include "drawing/ink/dash_fit.hpp"
 #include "drawing/ink/hidden_ink.hpp"
+#include "drawing/strokes/dash_runs.hpp"
 #include "drawing/strokes/layers.hpp"
 #include "drawing/strokes/strokes.hpp"
 #include "drawing/svg/svg_layers.hpp"
@@ -22,32 +26,106 @@ namespace strake::drawing {
 
 namespace {
 
+/// Collects paths by their patterns, in the order in which these come first.
+class DashedPaths {
+ public:
+  explicit DashedPaths(std::span<const double> dash_mm) : dash_mm_(dash_mm) {}
+
+  /// Returns the commands of the path that has this pattern.
+  std::string& of(double stretch) {
+    auto path = std::ranges::find(paths_, stretch, &Path::stretch);
+    if (path == paths_.end()) path = paths_.insert(path, {stretch, {}});
+    return path->commands;
+  }
+
+  void write(BufferedWriter& out) const {
+    for (const Path& path : paths_) {
+      out << "<path style=\"stroke-dasharray:";
+      if (path.stretch == 0) out << "none";
+      for (std::size_t k = 0; path.stretch != 0 && k < dash_mm_.size(); ++k)
+        out << (k == 0 ? "" : " ") << shortest(rounded(dash_mm_[k] * path.stretch));
+      out << "\" d=\"" << path.commands << "\"/>";
+    }
+  }
+
+ private:
+  struct Path {
+    double stretch;
+    std::string commands;
+  };
+
+  /// Tenths of a micrometre add up to no visible length on the longest lines.
+  static double rounded(double mm) { return std::round(mm * 1e4) / 1e4; }
+
+  std::span<const double> dash_mm_;
+  std::vector<Path> paths_;
+};
+
 void write_object(BufferedWriter& out, const PaperCurves& curves, const model::Model& model,
-                  std::span<const Line* const> lines) {
+                  std::span<const Line* const> lines, std::span<const double> dash_mm) {
   const std::vector<JoinedLines> chains = join_lines(lines);
   if (chains.empty()) return;
   const model::Object& object = model.object(lines.front()->object);
   out << "<g data-id=\"" << xml_escaped(object.id) << "\" data-name=\"" << xml_escaped(object.name)
-      << "\" data-file=\"" << xml_escaped(model.files[object.file].label) << "\"><path d=\"";
-  for (const JoinedLines& chain : chains) {
-    append_svg_path(out.text(), stroke_of(chain, curves));
-    out.done();
+      << "\" data-file=\"" << xml_escaped(model.files[object.file].label) << "\">";
+  if (dash_mm.empty()) {
+    out << "<path d=\"";
+    for (const JoinedLines& chain : chains) {
+      append_svg_path(out.text(), stroke_of(chain, curves));
+      out.done();
+    }
+    out << "\"/>";
+  } else {
+    DashedPaths paths(dash_mm);
+    for (const JoinedLines& chain : chains)
+      for (const DashRun& run : dash_runs(chain, curves, dash_mm))
+        append_svg_path(paths.of(run.stretch), stroke_of(run.chain, curves));
+    paths.write(out);
   }
-  out << "\"/></g>\n";
+  out << "</g>\n";
+}
+
+void write_objects(BufferedWriter& out, const PaperCurves& curves, const model::Model& model,
+                   std::span<const Line* const> lines, std::span<const double> dash_mm) {
+  for_each_object(lines, [&](std::span<const Line* const> of_object) {
+    write_object(out, curves, model, of_object, dash_mm);
+  });
+}
+
+void begin_layer(BufferedWriter& out, std::string_view label, std::string_view id,
+                 std::string_view classes) {
+  out << "<g inkscape:groupmode=\"layer\" inkscape:label=\"" << label << "\" id=\"" << id
+      << "\" class=\"" << classes << "\">\n";
 }
 
 void write_layer(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
-                 const model::Model& model, const Layer& layer, std::string_view prefix) {
+                 const model::Model& model, const Layer& layer, std::string_view prefix,
+                 const HiddenDashes& dashes) {
   const std::vector<const Line*> lines = lines_of(layer, ink);
   if (lines.empty()) return;
   const std::string_view state = layer.hidden ? "hidden" : "visible";
   const std::string_view kind = kind_name(layer.kind);
-  out << fmt::format(
-      "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" id=\"{}{}-{}\" class=\"{} {}\">\n",
-      layer.label, prefix, state, kind, state, kind);
-  for_each_object(lines, [&](std::span<const Line* const> of_object) {
-    write_object(out, curves, model, of_object);
-  });
+  const std::string id = fmt::format("{}{}-{}", prefix, state, kind);
+  begin_layer(out, layer.label, id, fmt::format("{} {}", state, kind));
+  if (layer.hidden && ink.split_hidden) {
+    const auto part = [&](LineState by, std::string_view name, std::string_view words,
+                          std::span<const double> dash_mm) {
+      std::vector<const Line*> some;
+      std::ranges::copy_if(lines, std::back_inserter(some),
+                           [&](const Line* line) { return line->state == by; });
+      if (some.empty()) return;
+      begin_layer(out, fmt::format("{}, {}", layer.label, words), fmt::format("{}-{}", id, name),
+                  name);
+      write_objects(out, curves, model, some, dash_mm);
+      out << "</g>\n";
+    };
+    part(LineState::hidden_by_other, "by-other", "by others", dashes.by_other);
+    part(LineState::hidden_by_self, "by-self", "by the object itself", dashes.by_self);
+  } else {
+    write_objects(
+        out, curves, model, lines,
+        layer.hidden ? std::span<const double>(dashes.by_self) : std::span<const double>());
+  }
   out << "</g>\n";
 }
 
@@ -63,9 +141,27 @@ void write_far_objects(BufferedWriter& out, const NeutralDrawing& drawing,
 }
 
 void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
-                  const model::Model& model, std::string_view prefix) {
-  for (const Layer& layer : kLayers) write_layer(out, curves, ink, model, layer, prefix);
+                  const model::Model& model, std::string_view prefix, const HiddenDashes& dashes) {
+  for (const Layer& layer : kLayers) write_layer(out, curves, ink, model, layer, prefix, dashes);
 }
+
+void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix,
+                        std::span<const double> dash_mm) {
+  if (ink.centre_lines.empty()) return;
+  begin_layer(out, "Centre lines", fmt::format("{}centre-lines", prefix), "centre");
+  DashedPaths paths(dash_mm);
+  for (const CentreLine& line : ink.centre_lines) {
+    double length = 0;
+    for (std::size_t i = 1; i < line.points.size(); ++i)
+      length += distance(line.points[i - 1], line.points[i]);
+    const DashEnds ends = line.cross ? DashEnds::centred : DashEnds::open;
+    append_svg_chain(paths.of(fitted_stretch(length, ends, dash_mm)), line.points);
+  }
+  paths.write(out);
+  out << "\n</g>\n";
+}
+
+double rounded_dash(double mm) { return std::round(mm * 100) / 100; }
 
 namespace {
 
@@ -85,13 +181,15 @@ void write_style(BufferedWriter& out, const Ink& ink, bool sections) {
       ".sheet {{ fill: #fff; stroke: none; }}\n"
       "text {{ font-family: sans-serif; font-size: 3.5px; }}\n"
       ".frame path {{ stroke-width: {2}; }}\n",
-      pens.outline, pens.edge, pens.thin, shortest(std::round(pens.thin * kDash * 100) / 100),
-      shortest(std::round(pens.thin * kDashGap * 100) / 100));
+      pens.outline, pens.edge, pens.thin, shortest(rounded_dash(pens.thin * kDash)),
+      shortest(rounded_dash(pens.thin * kDashGap)));
   if (sections)
     out << fmt::format(
         ".visible.section path {{ stroke-width: {}; }}\n"
         ".visible.hatch path {{ stroke-width: {}; }}\n",
         pens.section, pens.thin);
+  if (!ink.centre_lines.empty())
+    out << fmt::format(".centre path {{ stroke-width: {}; stroke-linecap: butt; }}\n", pens.thin);
   const bool smooth = std::ranges::any_of(
       ink.lines, [](const Line& line) { return line.kind == hlr::EdgeKind::smooth; });
   if (smooth) out << fmt::format(".visible.smooth path {{ stroke-width: {}; }}\n", pens.thin);
@@ -168,7 +266,13 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
                      shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
-  write_layers(out, drawing.curves, ink, model, "");
+  const std::vector<double> dashes{rounded_dash(ink.pens.thin * kDash),
+                                   rounded_dash(ink.pens.thin * kDashGap)};
+  write_layers(out, drawing.curves, ink, model, "", {dashes, dashes});
+  std::array<double, kCentreDashes.size()> centre{};
+  std::ranges::transform(kCentreDashes, centre.begin(),
+                         [&](double widths) { return rounded_dash(widths * ink.pens.thin); });
+  write_centre_lines(out, ink, "", centre);
   write_frame(out, drawing);
   out << "</g>\n";
   write_title(out, drawing);

@@ -2,7 +2,9 @@
 // The layers of a view, written as SVG.
 #pragma once
 
+#include <span>
 #include <string_view>
+#include <vector>
 
 #include "drawing/buffered_writer.hpp"
 #include "strake/drawing/drawing.hpp"
@@ -11,10 +13,26 @@
 
 namespace strake::drawing {
 
+/// The lengths of ink and gap by turns of hidden lines, mm; empty: continuous. Lines that others
+/// hide have their own where the ink keeps the two apart.
+struct HiddenDashes {
+  std::vector<double> by_self, by_other;
+};
+
 /// Writes the lines of a view: a group per layer, of class "visible sharp" and the like, and in it
-/// a group per object with one path. `prefix` stands before the ids of the layers.
+/// a group per object with one path, or for dashed lines one for each pattern that fits them
+/// (dash_runs). Where hidden lines are kept apart, the layer has a layer for each state within it.
+/// `prefix` stands before the ids of the layers.
 void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
-                  const model::Model& model, std::string_view prefix);
+                  const model::Model& model, std::string_view prefix, const HiddenDashes& dashes);
+
+/// Writes the layer of centre lines, of class "centre", where there are any. Their dashes fit each
+/// of them.
+void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix,
+                        std::span<const double> dash_mm);
+
+/// Returns a length of a dash as style sheets have it, rounded to hundredths of a millimetre.
+[[nodiscard]] double rounded_dash(double mm);
 
 /// Writes an element of metadata for each object that was left out because it lies far from all
 /// others.

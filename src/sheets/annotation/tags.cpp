@@ -23,21 +23,6 @@ using drawing::rounded_paper;
 
 constexpr std::array<std::string_view, 5> kNames{"name", "id", "path", "file", "type"};
 
-/// Returns the value of an object for a name in a text; empty where it has none.
-std::string value_of_name(const model::Model& model, model::ObjectId id, const std::string& name) {
-  const model::Object& object = model.object(id);
-  if (name == "name") return object.name;
-  if (name == "id") return object.id;
-  if (name == "file") return model.files[object.file].label;
-  if (name == "path" || name == "type") {
-    const model::SelectableProperties all = model::selectable_properties(model, id);
-    if (name == "path") return all.path;
-    return all.types.empty() ? std::string() : *all.types.begin();
-  }
-  const auto values = model::values_of(model, object, std::string_view(name).substr(1));
-  return values.empty() ? std::string() : std::string(values.front());
-}
-
 double length_of(const Line& line) {
   const double dx = line.b_paper.x - line.a_paper.x, dy = line.b_paper.y - line.a_paper.y;
   return std::sqrt(dx * dx + dy * dy);
@@ -114,7 +99,10 @@ OccupancyGrid occupied_paper(const Sheet& sheet) {
   OccupancyGrid occupied(sheet.width_mm, sheet.height_mm);
   for (const PlacedView& view : sheet.views) {
     for (const Line& line : view.ink.lines) occupied.add_line(line.a_paper, line.b_paper);
-    for (const Marks* marks : {&view.caption, &view.grid, &view.frame}) {
+    for (const drawing::CentreLine& line : view.ink.centre_lines)
+      for (std::size_t i = 1; i < line.points.size(); ++i)
+        occupied.add_line(line.points[i - 1], line.points[i]);
+    for (const Marks* marks : {&view.caption, &view.grid, &view.frame, &view.notes}) {
       for (const Path& path : marks->paths)
         for (std::size_t i = 1; i < path.points.size(); ++i)
           occupied.add_line(path.points[i - 1], path.points[i]);
@@ -175,6 +163,20 @@ std::vector<TaggedObject> with_texts(std::vector<TaggedObject> all,
 bool is_tag_name(std::string_view name) {
   return std::find(kNames.begin(), kNames.end(), name) != kNames.end() ||
          (name.size() > 1 && name.front() == '@');
+}
+
+std::string value_of_name(const model::Model& model, model::ObjectId id, const std::string& name) {
+  const model::Object& object = model.object(id);
+  if (name == "name") return object.name;
+  if (name == "id") return object.id;
+  if (name == "file") return model.files[object.file].label;
+  if (name == "path" || name == "type") {
+    const model::SelectableProperties all = model::selectable_properties(model, id);
+    if (name == "path") return all.path;
+    return all.types.empty() ? std::string() : *all.types.begin();
+  }
+  const auto values = model::values_of(model, object, std::string_view(name).substr(1));
+  return values.empty() ? std::string() : std::string(values.front());
 }
 
 TagList tags_of(const TagSpec& spec, const std::vector<bool>& picked, const model::Model& model,

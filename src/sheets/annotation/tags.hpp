@@ -21,6 +21,10 @@ namespace strake::sheets {
 /// Returns whether texts of tags may use a name: name, id, path, file, type or @ATTRIBUTE.
 [[nodiscard]] bool is_tag_name(std::string_view name);
 
+/// Returns the value of an object for such a name; empty where it has none.
+[[nodiscard]] std::string value_of_name(const model::Model& model, model::ObjectId id,
+                                        const std::string& name);
+
 /// What became of the tags of one table in one view.
 struct TagCount {
   std::size_t unseen = 0;     ///< objects without a visible line

@@ -13,6 +13,7 @@
 
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/arrangement/grid_lines.hpp"
+#include "sheets/arrangement/view_margins.hpp"
 #include "sheets/spec/text_metrics.hpp"
 
 namespace strake::sheets {
@@ -435,10 +436,11 @@ class Placer {
     const ViewSpec& view = what_.views[v];
     UnplacedView place;
     place.slot = view.slot;
-    const GridMargin rim = margin_of(what_.grid, view);
-    place.left_mm = std::max(rim.left_mm, rim.other_mm);
-    place.top_mm = std::max(rim.top_mm, rim.other_mm);
-    place.right_mm = place.bottom_mm = rim.other_mm;
+    const ViewMargins rim = margins_of(what_, view);
+    place.left_mm = rim.left_mm;
+    place.top_mm = rim.top_mm;
+    place.right_mm = rim.right_mm;
+    place.bottom_mm = rim.bottom_mm;
     if (view.title.empty()) return place;
     const Lettering letters = lettering_of(what_);
     const bool scaled = view.scale && !view.view.perspective;
@@ -531,11 +533,6 @@ class Placer {
 };
 
 }  // namespace
-
-GridMargin margin_of(const GridSpec& grid, const ViewSpec& view) {
-  constexpr double kGap = drawing::kFrameGapMm;
-  return view.view.perspective ? GridMargin{kGap, kGap, kGap} : grid_margin(grid, view);
-}
 
 Lettering lettering_of(const SheetSpec& what) {
   if (std::max(what.width_mm, what.height_mm) > 420) return {};

@@ -9,7 +9,6 @@
 
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/arrangement/free_place.hpp"
-#include "sheets/arrangement/grid_lines.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
@@ -55,9 +54,6 @@ struct Arranged {
 /// Errors: input, where nothing fits at any scale.
 [[nodiscard]] Result<Arranged> arrange(std::span<const UnplacedView> views, Projection projection,
                                        const SheetArea& room, double gap_mm, double scale);
-
-/// Returns the paper beside the lines of a view that its grid lines need, or its frame.
-[[nodiscard]] GridMargin margin_of(const GridSpec& grid, const ViewSpec& view);
 
 /// The letter heights of captions and their distance below views: smaller up to A3.
 struct Lettering {

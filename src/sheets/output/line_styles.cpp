@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sheets/output/line_styles.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
+#include "drawing/ink/dash_fit.hpp"
 #include "drawing/ink/hidden_ink.hpp"
 
 namespace strake::sheets {
@@ -13,17 +16,21 @@ namespace {
 /// Rounds to hundredths of a millimetre, which are as fine as any pen.
 double rounded(double mm) { return std::round(mm * 100) / 100; }
 
-std::vector<double> in_widths(std::initializer_list<double> dashes, double width) {
+std::vector<double> in_widths(std::span<const double> dashes, double width) {
   std::vector<double> lengths;
   for (const double dash : dashes) lengths.push_back(std::max(rounded(dash * width), 0.01));
   return lengths;
 }
 
-/// Returns the dashes of a class in widths of its pen, ISO 128-20 types 02 and 04. A dot is as long
+/// Returns the dashes of a class in widths of its pen, ISO 128-2 types 02 and 04. A dot is as long
 /// as it is wide, or else it is not seen in print.
 std::vector<double> usual_dashes(LineClass line, double width) {
-  if (line == LineClass::hidden) return in_widths({drawing::kDash, drawing::kDashGap}, width);
-  if (line == LineClass::grid) return in_widths({24, 3, 1, 3}, width);
+  if (line == LineClass::hidden)
+    return in_widths(std::array{drawing::kDash, drawing::kDashGap}, width);
+  if (line == LineClass::grid || line == LineClass::centre || line == LineClass::cutting_plane)
+    return in_widths(drawing::kCentreDashes, width);
+  // Long dash and two dots, type 05.
+  if (line == LineClass::extent) return in_widths(std::array{24.0, 3.0, 1.0, 3.0, 1.0, 3.0}, width);
   return {};
 }
 
@@ -41,8 +48,15 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
     case LineClass::polyline:
     case LineClass::smooth:
     case LineClass::hidden:
+    case LineClass::hidden_self:
+    case LineClass::hidden_other:
       return pens.thin;
     case LineClass::grid:
+    case LineClass::centre:
+    case LineClass::cutting_plane:
+    case LineClass::extent:
+    case LineClass::note:
+    case LineClass::dimension:
     case LineClass::grid_label:
     case LineClass::leader:
       // As thin as hidden lines, and no thinner than prints well.
@@ -61,8 +75,10 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
 
 std::string_view class_name(LineClass line) {
   constexpr std::array<std::string_view, kLineClasses> kNames{
-      "outline", "edge", "boundary",   "intersection", "section", "hatch", "polyline",  "smooth",
-      "hidden",  "grid", "grid_label", "leader",       "title",   "frame", "frame_thin"};
+      "outline",       "edge",   "boundary",   "intersection", "section",      "hatch",
+      "polyline",      "smooth", "hidden",     "grid",         "grid_label",   "leader",
+      "title",         "frame",  "frame_thin", "hidden_self",  "hidden_other", "centre",
+      "cutting_plane", "extent", "note",       "dimension"};
   return kNames.at(static_cast<std::size_t>(line));
 }
 
@@ -90,14 +106,38 @@ LineClass class_of(hlr::EdgeKind kind, bool hidden) {
   return LineClass::edge;
 }
 
+namespace {
+
+std::size_t index_of(LineClass line) { return static_cast<std::size_t>(line); }
+
+/// Returns a style as the file has it, with what is usual in the place of what it does not say.
+template <class UsualDashes>
+LineStyle styled(const StyleSpec& spec, const model::Color& color, double width_mm,
+                 const UsualDashes& usual) {
+  LineStyle style;
+  style.width_mm = spec.width_mm.value_or(width_mm);
+  style.dash_mm = spec.dash_mm ? *spec.dash_mm : usual(style.width_mm);
+  style.color = spec.color.value_or(color);
+  return style;
+}
+
+}  // namespace
+
 LineStyles styles_of(const std::array<StyleSpec, kLineClasses>& specs, const drawing::Pens& pens) {
   LineStyles styles;
   for (std::size_t c = 0; c < kLineClasses; ++c) {
     const auto line = static_cast<LineClass>(c);
-    styles[c].width_mm = specs[c].width_mm.value_or(usual_width(line, pens));
-    styles[c].dash_mm = specs[c].dash_mm.value_or(usual_dashes(line, styles[c].width_mm));
-    if (specs[c].color) styles[c].color = *specs[c].color;
+    styles[c] = styled(specs[c], styles[c].color, usual_width(line, pens),
+                       [&](double width) { return usual_dashes(line, width); });
   }
+  // What is hidden in either way is drawn as all hidden lines unless the file says otherwise.
+  const StyleSpec& hidden = specs[index_of(LineClass::hidden)];
+  const LineStyle& base = styles[index_of(LineClass::hidden)];
+  for (const LineClass line : {LineClass::hidden_self, LineClass::hidden_other})
+    styles[index_of(line)] =
+        styled(specs[index_of(line)], base.color, base.width_mm, [&](double width) {
+          return hidden.dash_mm ? *hidden.dash_mm : usual_dashes(LineClass::hidden, width);
+        });
   return styles;
 }
 

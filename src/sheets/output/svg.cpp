@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "core/number.hpp"
 #include "drawing/buffered_writer.hpp"
@@ -50,7 +51,35 @@ std::string selector(LineClass line) {
     if (class_of(layer.kind, layer.hidden) == line)
       list += fmt::format(".strake .{}.{} path, ", layer.hidden ? "hidden" : "visible",
                           drawing::kind_name(layer.kind));
+  if (line == LineClass::hidden_self) list = ".strake .hidden .by-self path, ";
+  if (line == LineClass::centre) list = ".strake .centre path, ";
+  if (line == LineClass::hidden_other) list = ".strake .hidden .by-other path, ";
   return list + ".strake ." + std::string(class_name(line));
+}
+
+/// Returns all marks of a sheet.
+std::vector<const Marks*> marks_of(const Sheet& sheet) {
+  std::vector<const Marks*> all{&sheet.frame, &sheet.notes};
+  for (const PlacedView& view : sheet.views)
+    for (const Marks* marks : {&view.caption, &view.grid, &view.tags, &view.frame, &view.notes})
+      all.push_back(marks);
+  return all;
+}
+
+/// Returns whether a class has a rule: those that came later have none where nothing is of them, so
+/// that sheets without stay as they were.
+bool is_used(const Sheet& sheet, LineClass line) {
+  const auto any = [&](const auto& of_view) { return std::ranges::any_of(sheet.views, of_view); };
+  if (line < LineClass::hidden_self) return true;
+  if (line == LineClass::hidden_self || line == LineClass::hidden_other)
+    return any([](const PlacedView& view) { return view.ink.split_hidden; });
+  if (line == LineClass::centre)
+    return any([](const PlacedView& view) { return !view.ink.centre_lines.empty(); });
+  return std::ranges::any_of(marks_of(sheet), [&](const Marks* marks) {
+    const auto has = [&](const auto& mark) { return mark.line == line; };
+    return std::ranges::any_of(marks->paths, has) || std::ranges::any_of(marks->circles, has) ||
+           std::ranges::any_of(marks->texts, has);
+  });
 }
 
 void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>& heights) {
@@ -58,6 +87,7 @@ void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>
          ".strake path, .strake circle { fill: none; stroke-linecap: round; stroke-linejoin: "
          "round; }\n";
   for (std::size_t c = 0; c < kLineClasses; ++c) {
+    if (!is_used(sheet, static_cast<LineClass>(c))) continue;
     const LineStyle& style = sheet.styles.at(c);
     out << selector(static_cast<LineClass>(c))
         << fmt::format(" {{ stroke: {}; stroke-width: {}; stroke-dasharray: {};{} }}\n",
@@ -66,6 +96,7 @@ void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>
   }
   out << ".strake text { font-family: sans-serif; stroke: none; }\n";
   for (std::size_t c = 0; c < kLineClasses; ++c) {
+    if (!is_used(sheet, static_cast<LineClass>(c))) continue;
     const std::string color = model::color_text(sheet.styles.at(c).color);
     const std::string_view name = class_name(static_cast<LineClass>(c));
     out << fmt::format(".strake text.{0}, .strake path.{0}.filled {{ fill: {1}; stroke: none; }}\n",
@@ -153,15 +184,20 @@ void write_layer(BufferedWriter& out, const Marks& marks, const std::string& id,
   out << "</g>\n";
 }
 
-void write_view(BufferedWriter& out, const PlacedView& view, const model::Model& model,
-                std::size_t number) {
+void write_view(BufferedWriter& out, const PlacedView& view, const LineStyles& styles,
+                const model::Model& model, std::size_t number) {
   const std::string id = fmt::format("view-{}", number);
   out << "<g class=\"view\" id=\"" << id << "\" inkscape:groupmode=\"layer\" inkscape:label=\""
       << xml_escaped(view.name) << "\" data-view=\"" << xml_escaped(view.name) << "\" data-scale=\""
       << view.drawing.sheet.scale_text << "\">\n";
-  drawing::write_layers(out, view.drawing.curves, view.ink, model, id + "-");
+  const LineClass self = view.ink.split_hidden ? LineClass::hidden_self : LineClass::hidden;
+  drawing::write_layers(
+      out, view.drawing.curves, view.ink, model, id + "-",
+      {style_of(styles, self).dash_mm, style_of(styles, LineClass::hidden_other).dash_mm});
+  drawing::write_centre_lines(out, view.ink, id + "-", style_of(styles, LineClass::centre).dash_mm);
   write_layer(out, view.frame, id + "-frame", "Frame");
   write_layer(out, view.grid, id + "-grid", "Grid");
+  write_layer(out, view.notes, id + "-notes", "Notes");
   write_layer(out, view.tags, id + "-tags", "Tags");
   write_layer(out, view.caption, id + "-title", "Title");
   out << "</g>\n";
@@ -169,12 +205,8 @@ void write_view(BufferedWriter& out, const PlacedView& view, const model::Model&
 
 std::set<double> heights_of(const Sheet& sheet) {
   std::set<double> heights;
-  const auto add = [&](const Marks& marks) {
-    for (const Text& text : marks.texts) heights.insert(text.height_mm);
-  };
-  add(sheet.frame);
-  for (const PlacedView& view : sheet.views)
-    for (const Marks* marks : {&view.caption, &view.grid, &view.tags}) add(*marks);
+  for (const Marks* marks : marks_of(sheet))
+    for (const Text& text : marks->texts) heights.insert(text.height_mm);
   return heights;
 }
 
@@ -199,8 +231,9 @@ void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink
         << sheet.artwork->elements << "\n</svg>\n";
   out << "<g class=\"strake\" id=\"sheet-drawing\">\n";
   write_layer(out, sheet.frame, "sheet-frame", "Frame");
+  write_layer(out, sheet.notes, "sheet-notes", "Notes");
   for (std::size_t v = 0; v < sheet.views.size(); ++v)
-    write_view(out, sheet.views[v], model, v + 1);
+    write_view(out, sheet.views[v], sheet.styles, model, v + 1);
   out << "</g>\n</svg>\n";
 }
 

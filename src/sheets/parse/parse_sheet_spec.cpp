@@ -13,8 +13,10 @@
 #include "drawing/layout/view_title.hpp"
 #include "settings/table_reader.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
+#include "sheets/parse/note_reader.hpp"
 #include "sheets/parse/table_readers.hpp"
 #include "sheets/spec/sheet_spec.hpp"
+#include "sheets/spec/text_metrics.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/geometry/grid.hpp"
 
@@ -78,6 +80,15 @@ class Parser {
     for (const Value* value : top_.tables("tag")) marks.tag(*value);
     if (const Value* const value = top_.table("grid")) marks.grid(*value);
     if (const Value* const value = top_.table("styles")) marks.styles(*value);
+    NoteReader notes(reading_, sets_, found_);
+    if (const Value* const value = top_.table("levels")) notes.levels(*value);
+    if (const Value* const value = top_.table("scale_bar")) notes.scale_bar(*value);
+    if (const Value* const value = top_.table("north")) notes.north(*value);
+    for (const Value* value : top_.tables("parts_list")) notes.parts_list(*value);
+    for (const Value* value : top_.tables("revision")) notes.revision(*value);
+    for (const Value* value : top_.tables("dimension")) notes.dimension(*value);
+    for (std::size_t v = 0; v < found_.views.size(); ++v)
+      notes.check_names(found_.views[v], places_[v]);
     return std::move(found_);
   }
 
@@ -90,6 +101,8 @@ class Parser {
     size(table);
     found_.frame = table.flag("frame").value_or(true);
     found_.scale = ViewReader::scale(table);
+    constexpr std::array<std::string_view, 2> kHiddenLayers{"one", "two"};
+    found_.split_hidden = table.word("hidden_layers", kHiddenLayers).value_or("one") == "two";
     constexpr std::string_view kBox = "[\"20mm\", \"10mm\", \"410mm\", \"230mm\"]";
     if (const auto box = table.lengths_mm("area", 4, kBox))
       found_.area = paper_box(table, "area", *box);
@@ -316,7 +329,21 @@ class Parser {
     TableReader table(reading_, *value, what);
     view->where = place(value->at) + ": " + what;
     if (const auto title = table.text("title")) entitle(*view, *title);
+    view_marks(table, *view);
     views_.content(table, *view);
+  }
+
+  /// Reads what a view says of others.
+  void view_marks(TableReader& table, ViewSpec& view) {
+    if (const auto mark = table.text("section_mark")) {
+      view.section_mark = on_one_line(*mark);
+      constexpr std::size_t kLongestMark = 8;
+      if (mark->empty() || mark->size() > kLongestMark)
+        reading_.fault(table.value("section_mark")->at,
+                       "'section_mark' of " + table.what() + " is no letter",
+                       "write section_mark = \"A\"");
+    }
+    view.extents_of = table.texts("extents_of");
   }
 
   void view(const Value& value) {
@@ -329,6 +356,7 @@ class Parser {
     view.title = view.name;
     if (const auto title = table.text("title")) entitle(view, *title);
     views_.seen_from(table, view);
+    view_marks(table, view);
     view.scale = ViewReader::scale(table);
     if (const auto at = table.lengths_mm("position", 2, "[\"150mm\", \"120mm\"]"))
       view.position = PaperPoint{(*at)[0], (*at)[1]};
@@ -361,8 +389,12 @@ class Parser {
 
   /// Has the views that the file gives no title say which sections they are.
   void name_sections() {
-    for (ViewSpec& view : found_.views)
-      if (!view.own_title) view.title = drawing::title_of(view.title, view.view);
+    for (ViewSpec& view : found_.views) {
+      if (view.own_title) continue;
+      const std::string& mark = view.section_mark;
+      view.title =
+          mark.empty() ? drawing::title_of(view.title, view.view) : "SECTION " + mark + "-" + mark;
+    }
   }
 
   void add(ViewSpec view, SourcePosition at) {

@@ -256,12 +256,25 @@ void ViewReader::place_sections(ViewSpec& view) {
   }
 }
 
+void ViewReader::centre_lines(TableReader& table, ViewSpec& view) {
+  const auto text = table.text("centre_lines");
+  if (!text) return;
+  const auto options = drawing::parse_centre_lines(*text);
+  if (options)
+    view.centre_lines = *options;
+  else
+    reading_.fault(table.value("centre_lines")->at,
+                   "'centre_lines' of " + table.what() + ": " + options.error().message,
+                   options.error().mend);
+}
+
 void ViewReader::content(TableReader& table, ViewSpec& view) {
   select(table, view);
   limits(table, view);
   sections(table, view);
   uncut(table, view);
   hatches(table, view);
+  centre_lines(table, view);
   constexpr std::array<std::string_view, 3> kHidden{"off", "dashed", "all"};
   if (const auto word = table.word("hidden", kHidden))
     view.hidden = *word == "off"      ? HiddenLines::off
@@ -453,6 +466,8 @@ void MarkReader::style(const KeyValue& entry) {
   }
   TableReader table(reading_, entry.value, "[styles." + entry.key + "]");
   StyleSpec& spec = found_.styles.at(line);
+  const auto name = static_cast<LineClass>(line);
+  if (name == LineClass::hidden_self || name == LineClass::hidden_other) found_.split_hidden = true;
   spec.width_mm = table.tolerance_mm("width");
   if (spec.width_mm && !(*spec.width_mm >= 0.01 && *spec.width_mm <= 20))
     reading_.fault(table.value("width")->at, "no pen is so wide", "write \"0.01mm\" to \"20mm\"");

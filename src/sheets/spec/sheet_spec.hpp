@@ -12,6 +12,7 @@
 
 #include "settings/named_sets.hpp"
 #include "sheets/spec/template.hpp"
+#include "strake/drawing/centre_lines.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/sheets/sheet_file.hpp"
@@ -49,11 +50,14 @@ struct ViewSpec {
   std::vector<HatchSpec> hatches;         ///< the first that picks an object holds for it
   std::vector<settings::Chooser> uncut;   ///< what sections leave whole
   HiddenLines hidden = HiddenLines::off;
+  std::optional<drawing::CentreLineOptions> centre_lines;  ///< none: not drawn
   /// Objects that lie so far from all others that they decide the scale are left out.
   bool leaves_far_objects_out = false;
   std::optional<double> scale;
   std::optional<PaperPoint> position;  ///< position of the anchor, or without one of the middle
   std::optional<geometry::Vec3l> anchor;
+  std::string section_mark;             ///< the letter of its section in other views; empty: none
+  std::vector<std::string> extents_of;  ///< views whose extents are outlined in this one
 };
 
 struct TagSpec {
@@ -77,6 +81,62 @@ struct GridSpec {
   std::string where;
   std::vector<GridPlane> planes;
   std::vector<std::string> views;  ///< empty: all views that look along them
+};
+
+/// A height of the model that elevations mark.
+struct LevelSpec {
+  std::string label;
+  double at_mm = 0;
+};
+
+struct LevelsSpec {
+  std::string where;
+  std::vector<LevelSpec> all;
+  std::vector<std::string> views;  ///< empty: all elevations
+};
+
+struct ScaleBarSpec {
+  std::string where;
+  std::optional<PaperPoint> position;  ///< of its upper left corner
+};
+
+struct NorthSpec {
+  std::string where;
+  geometry::Vec3l direction{0, 1, 0};
+  std::string view;                    ///< empty: the first that shows it
+  std::optional<PaperPoint> position;  ///< of its middle
+};
+
+/// A list of objects, those with equal texts on one line with their number.
+struct PartsListSpec {
+  std::string where, title;
+  std::optional<settings::Chooser> select;
+  std::vector<std::string> headings, columns;  ///< a column is a text with names, as tags have
+  std::optional<PaperPoint> position;          ///< of its upper left corner
+};
+
+/// An end of a dimension: a point of the model, or a side of an object as a view shows it.
+struct DimensionEnd {
+  enum class Side : std::uint8_t { left, right, top, bottom, centre };
+
+  std::string object;  ///< its id, or a name that no other object has; empty: `point`
+  Side side = Side::centre;
+  geometry::Vec3l point;  ///< grid units
+};
+
+struct DimensionSpec {
+  enum class Along : std::uint8_t { horizontal, vertical, aligned };
+
+  std::string where, view;
+  DimensionEnd from, to;
+  Along along = Along::horizontal;
+  bool other_side = false;  ///< below or at the right, not above or at the left
+  double offset_mm = 10;    ///< from the lines of the view, or of an aligned one from its points
+  int decimals = -1;        ///< negative: as many as there are, three at most
+};
+
+struct RevisionSpec {
+  std::string revision, date, text, by;
 };
 
 struct StyleSpec {
@@ -103,7 +163,14 @@ struct SheetSpec {
   std::vector<ViewSpec> views;  ///< views of the arrangement come first
   std::vector<TagSpec> tags;
   GridSpec grid;
+  LevelsSpec levels;
+  std::optional<ScaleBarSpec> scale_bar;
+  std::optional<NorthSpec> north;
+  std::vector<PartsListSpec> parts_lists;
+  std::vector<RevisionSpec> revisions;
+  std::vector<DimensionSpec> dimensions;
   std::array<StyleSpec, kLineClasses> styles;
+  bool split_hidden = false;  ///< what an object hides itself has a layer of its own
 };
 
 [[nodiscard]] Result<SheetSpec> parse_sheet_spec(std::string_view text, std::string_view file,

@@ -32,15 +32,15 @@ const Golden kSafe[] = {
     {"iso",
      {15587, 14355, 11983, 42, 0, 9496},
      "3752d1536f5ab7b0cbfbe498b972f8de",
-     "8fe29b8bf9c98ee947783908ebcb4026"},
+     "9324229b39ac27ff9e282244772d9967"},
     {"top",
      {9488, 3501, 5444, 2438, 0, 28726},
      "4e1d81f053391d99f9c7ad82afa8a4e2",
-     "e8f5b7ae4712b7a25ae4528a5c1562fa"},
+     "cdedab4b529465a41c367cfec3ff408a"},
     {"front",
      {9358, 2459, 4145, 2994, 0, 30828},
      "a94c51469759660ed797f5f924eabc28",
-     "65849d31a8886a52731fb278a5228586"},
+     "5dce8d98ab4854680e364216c2a80aa0"},
 };
 
 TEST(GoldenDrawing, SafetyDisciplineOfThePlatform) {

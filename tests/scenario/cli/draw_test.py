@@ -478,6 +478,45 @@ class Draw(Scenario):
         self.assertEqual(seen, {0.5})
         self.assertEqual(widths['.hidden path'], 0.25)
 
+    def test_hidden_lines_are_dashed_to_fit_and_may_be_two_layers(self):
+        # From above: the box hides its own lower rim but for where that lies under the upper one, and all of the block.
+        self.write('m.obj', cube('box', 0, (0, 0, 0), 1000) + prism('pin', 8, 24, (500, 500), 200, -800, -200)
+                   + prism('cone', 56, 24, (500, 500), 120, -100, -50))
+        run = ['draw', 'm.obj', '--unit', 'mm', '--up-axis', 'z', '--view', 'top', '--hidden', 'all', '-o', 'x.svg']
+        self.assertEqual(self.run_strake(*run).returncode, 0)
+        one = (self.folder / 'x.svg').read_text(encoding='utf-8')
+        self.assertNotIn('-by-other"', one.replace('hidden-by-other="', ''))
+        dashes = [[float(length) for length in found.split()]
+                  for found in re.findall(r'style="stroke-dasharray:([\d. ]+)"', one)]
+        self.assertTrue(dashes)
+        for ink, gap in dashes:
+            self.assertAlmostEqual(ink / gap, 4, delta=0.02)
+        expected = None
+        for threads in (1, 2, 8):
+            done = self.run_strake(*run, '--hidden-layers', 'two', '--threads', threads)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            two = (self.folder / 'x.svg').read_text(encoding='utf-8')
+            expected = expected or two
+            self.assertEqual(two, expected)
+        self.assertIn('id="hidden-sharp-by-other" class="by-other"', two)
+        self.assertIn('id="hidden-sharp" class="hidden sharp"', two)
+        self.assertEqual(self.run_strake(*run, '--hidden-layers', 'three').returncode, 2)
+
+    def test_centre_lines_are_of_exact_primitives(self):
+        self.write('m.obj', prism('pin', 0, 48, (0, 0), 200, 0, 600))
+        run = ['draw', 'm.obj', '--unit', 'mm', '--up-axis', 'z', '--view', 'top']
+        done = self.run_strake(*run, '--centre-lines', 'on', '-o', 'x.svg', '-o', 'x.json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        # A mesh has no axis, however round it looks.
+        self.assertNotIn('centre-lines', (self.folder / 'x.svg').read_text(encoding='utf-8'))
+        for wrong in ('yes', '0mm', '7'):
+            done = self.run_strake(*run, '--centre-lines', wrong, '-o', 'y.svg')
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn('--centre-lines', done.stderr)
+        done = self.run_strake('draw', 'x.json', '--centre-lines', 'on', '-o', 'y.svg')
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn('--centre-lines', done.stderr)
+
     def test_an_empty_sheet_is_not_silent(self):
         self.two_files()
         done = self.run_strake('draw', 'a.obj', '-o', 'x.svg', '--limits', '1e6,1e6,1e6,2e6,2e6,2e6')

@@ -91,6 +91,28 @@ class Sheet(Scenario):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertRegex(done.stderr, r"frame\.svg, line 2.*'#a' is drawn within itself")
 
+    def test_notes_are_drawn_and_what_does_not_show_is_told(self):
+        sheet = ('[arrangement]\nviews = ["front", "top", "left"]\n[arrangement.front]\nsections = "y=500mm"\n'
+                 'section_mark = "A"\n[levels]\nz = ["0m", ["SKY", "9m"]]\n[scale_bar]\n[north]\n'
+                 '[[parts_list]]\nselect = "*"\ncolumns = [["NAME", "{{name}}"]]\n'
+                 '[[revision]]\nrevision = "A"\ntext = "<script>alert(1)</script>"\n')
+        self.small(sheet)
+        expected = None
+        for threads in (1, 2, 8):
+            done = self.draw('--threads', threads)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            got = (self.folder / 's.svg').read_bytes()
+            expected = expected or got
+            self.assertEqual(got, expected, threads)
+        self.assertRegex(done.stderr, r"warning level-nowhere: s.toml, line \d+: \[levels\]: the level 'SKY' shows in no view")
+        root = self.root()
+        texts = [text.text for text in root.iter(f'{SVG}text')]
+        for wanted in ('SECTION A-A', 'A', '\u00b10.000', 'N', 'POS', 'a', 'b', '<script>alert(1)</script>'):
+            self.assertIn(wanted, texts)
+        self.assertEqual([e for e in root.iter() if e.tag.endswith('script')], [])
+        layers = {element.get('id') for element in root.iter() if element.get('id')}
+        self.assertTrue({'sheet-notes', 'view-1-notes', 'view-2-notes'} <= layers, layers)
+
     def test_views_have_sections(self):
         self.small('[[view]]\nname = "v"\ndirection = "top"\nsections = ["z>400mm", "y<100mm"]\n')
         done = self.draw()

@@ -429,6 +429,29 @@ TEST(Sheet, StylesAreWhatTheFileSays) {
   EXPECT_NE(wide.svg.find("stroke-width: 0.5; stroke-dasharray: 6 1.5;"), std::string::npos);
 }
 
+TEST(Sheet, WhatIsHiddenByItselfMayBeALayerOfItsOwn) {
+  const std::string view = "[[view]]\nname=\"v\"\ndirection=\"iso\"\nhidden=\"all\"\n";
+  const Drawn one = drawn(with_frame(view));
+  EXPECT_EQ(one.svg.find("\"by-self\""), std::string::npos);
+  EXPECT_EQ(one.svg.find("hidden_self"), std::string::npos);
+  const Drawn two = drawn(with_frame("[sheet]\nhidden_layers=\"two\"\n" + view));
+  for (const char* const part : {"id=\"view-1-hidden-sharp\" class=\"hidden sharp\"",
+                                 "id=\"view-1-hidden-sharp-by-other\" class=\"by-other\"",
+                                 "id=\"view-1-hidden-sharp-by-self\" class=\"by-self\"",
+                                 ".strake .hidden .by-self path, .strake .hidden_self { stroke: "
+                                 "#000000; stroke-width: 0.25; "
+                                 "stroke-dasharray: 3 0.75;"})
+    EXPECT_NE(two.svg.find(part), std::string::npos) << part;
+  // A style for one of them says the same, and the other one is as hidden lines are.
+  const Drawn styled = drawn(with_frame(view + "[styles]\nhidden={color=\"#102030\",dash=[]}\n"
+                                               "hidden_other={color=\"#ff0000\"}\n"));
+  EXPECT_NE(styled.svg.find(".hidden .by-other path, .strake .hidden_other { stroke: #ff0000; "
+                            "stroke-width: 0.25; stroke-dasharray: none;"),
+            std::string::npos);
+  EXPECT_NE(styled.svg.find(".hidden .by-self path, .strake .hidden_self { stroke: #102030;"),
+            std::string::npos);
+}
+
 TEST(Sheet, OutlinesAndEdgesAreOfOneWeightThatGoesByTheSize) {
   for (const auto& [size, wide] : std::map<std::string, double>{{"A1", 0.7}, {"A3", 0.5}}) {
     const Drawn d = drawn(with_frame("[sheet]\nsize=\"" + size + "\"\n[[view]]\nname=\"v\"\n"));

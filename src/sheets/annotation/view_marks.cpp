@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sheets/annotation/view_marks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "drawing/layout/view_plane.hpp"
+#include "sheets/annotation/paper_segments.hpp"
+#include "sheets/spec/text_metrics.hpp"
+#include "strake/geometry/grid.hpp"
+
+namespace strake::sheets {
+
+namespace {
+
+using drawing::rounded_paper;
+using geometry::Vec3d;
+
+/// How far a cutting plane goes beyond the lines of a view, how long its wide ends and its arrows
+/// are, mm.
+constexpr double kBeyondMm = 8, kWideEndMm = 6, kArrowMm = 9, kHeadMm = 3;
+
+/// Draws an end of a cutting plane: its wide part, its arrow and its letter. `out` points away from
+/// the view along the plane, `look` in the direction of viewing.
+void end_of_plane(const PaperPoint& end, const PaperPoint& out, const PaperPoint& look,
+                  const std::string& letter, double letters_mm, Marks& marks) {
+  marks.paths.push_back(
+      {LineClass::section, {rounded(end), rounded(along(end, out, -kWideEndMm))}, false});
+  // The arrow stands on the end and points at it.
+  const PaperPoint tail = along(end, look, -kArrowMm), neck = along(end, look, -kHeadMm);
+  marks.paths.push_back({LineClass::note, {rounded(tail), rounded(neck)}, false});
+  marks.paths.push_back({LineClass::note,
+                         {rounded(end), rounded(along(neck, out, kHeadMm / 4)),
+                          rounded(along(neck, out, -kHeadMm / 4)), rounded(end)},
+                         true});
+  const PaperPoint middle = along(tail, look, -0.8 * letters_mm);
+  marks.texts.push_back({LineClass::title, rounded({middle.x, middle.y + letters_mm / 2}),
+                         letters_mm, Align::middle, letter, true});
+}
+
+}  // namespace
+
+bool mark_section(const ViewSpec& cut, const MarkedView& in, double letters_mm, Marks& marks) {
+  const ViewPaper paper(in);
+  if (!paper.good()) return false;
+  bool any = false;
+  for (const hlr::Section& section : cut.view.sections) {
+    const Vec3d normal = section.normal.as<double>();
+    const double length = std::sqrt(dot(normal, normal));
+    if (dot(section.normal, in.spec.view.direction) != 0) continue;
+    PaperPoint look = paper.vector(normal * (1 / length));
+    // Directions of views point to the viewer, who looks the other way.
+    if (dot(normal, cut.view.direction.as<double>()) > 0) look = {-look.x, -look.y};
+    const PaperPoint way{look.y, -look.x};
+    const PaperPoint on = paper.point(geometry::to_mm(section.point));
+    constexpr double kFar = 1e5;
+    const PaperSegment plane{along(on, way, -kFar), along(on, way, kFar)};
+    if (!clipped(plane, in.lines)) continue;
+    const auto line = clipped(plane, widened(in.lines, kBeyondMm));
+    if (!line) continue;
+    any = true;
+    marks.paths.push_back({LineClass::cutting_plane, {rounded(line->a), rounded(line->b)}, false});
+    end_of_plane(line->a, {-way.x, -way.y}, look, cut.section_mark, letters_mm, marks);
+    end_of_plane(line->b, way, look, cut.section_mark, letters_mm, marks);
+  }
+  return any;
+}
+
+bool mark_extent(const geometry::Box3d& extent, const std::string& name, const MarkedView& in,
+                 double letters_mm, Marks& marks) {
+  const ViewPaper paper(in);
+  if (!paper.good() || extent.empty()) return false;
+  std::optional<PaperBox> box;
+  for (int corner = 0; corner < 8; ++corner) {
+    const PaperPoint p = paper.point({corner % 2 == 0 ? extent.lo.x : extent.hi.x,
+                                      corner / 2 % 2 == 0 ? extent.lo.y : extent.hi.y,
+                                      corner < 4 ? extent.lo.z : extent.hi.z});
+    if (!box) box = PaperBox{p.x, p.y, p.x, p.y};
+    *box = {std::min(box->left, p.x), std::min(box->top, p.y), std::max(box->right, p.x),
+            std::max(box->bottom, p.y)};
+  }
+  const PaperPoint a = rounded({box->left, box->top}), b = rounded({box->right, box->bottom});
+  marks.paths.push_back({LineClass::extent, {a, {b.x, a.y}, b, {a.x, b.y}, a}, false});
+  Text text{LineClass::extent, {a.x, rounded_paper(a.y - 1)},
+            letters_mm,        Align::start,
+            on_one_line(name), true};
+  // Extents that begin at one corner have their names one above the other.
+  const auto covers = [&](const Text& other) { return box_of(other).overlaps(box_of(text)); };
+  while (std::ranges::any_of(marks.texts, covers))
+    text.at.y = rounded_paper(text.at.y - 1.5 * letters_mm);
+  marks.texts.push_back(std::move(text));
+  return true;
+}
+
+}  // namespace strake::sheets

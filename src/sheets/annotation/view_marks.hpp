@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What views say of each other: where one is cut, and what one shows of another.
+#pragma once
+
+#include <string>
+
+#include "sheets/arrangement/view_paper.hpp"
+#include "sheets/spec/sheet_spec.hpp"
+#include "strake/sheets/sheet.hpp"
+
+namespace strake::sheets {
+
+/// Appends the cutting plane of `cut` to a view that sees it edge-on (ISO 128-3): a long dashed
+/// dotted line with wide ends beyond the lines of the view, arrows in the direction of viewing, and
+/// its letter beside them. Several planes give a line each; those that miss the view none. Returns
+/// whether there was one.
+[[nodiscard]] bool mark_section(const ViewSpec& cut, const MarkedView& in, double letters_mm,
+                                Marks& marks);
+
+/// Appends the outline of a box of the model, mm, with a name at its upper left corner; a view in
+/// perspective gets none. Returns whether there was one.
+[[nodiscard]] bool mark_extent(const geometry::Box3d& extent, const std::string& name,
+                               const MarkedView& in, double letters_mm, Marks& marks);
+
+}  // namespace strake::sheets
