@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # The font of drawings that carry their letters with them (PDF), as bytes of the library, so that the
-# program needs no file when it runs (decision 0102).
+# program needs no file when it runs (decision 0079).
 #
 # As a script (cmake -D FONT=... -D OUT=... -P drawing_font.cmake) it writes the source that holds the
 # bytes: a compiler takes a text of a megabyte in no time, and an array of as many numbers in seconds.

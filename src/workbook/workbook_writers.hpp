@@ -8,7 +8,7 @@
 
 namespace strake::workbook {
 
-/// Writes clash results as a workbook (decision 0105): a summary, the results as CSV has them with
+/// Writes clash results as a workbook (decision 0082): a summary, the results as CSV has them with
 /// filters, colours and a list to pick the status from, pictures of the worst where somebody makes
 /// them, groups, joints of pipes, what was not compared. Names are text, never formulas. Errors:
 /// those of write_workbook(), and of contents.picture_of.

@@ -10,7 +10,7 @@
 
 /// What a topic says of itself at the end of its description, so that a file which comes back is
 /// understood: which clashes it is about, and what was known of them when it was written. Programs
-/// that hand topics on keep descriptions, though few keep anything else (decision 0107).
+/// that hand topics on keep descriptions, though few keep anything else (decision 0084).
 namespace strake::bcf {
 
 /// A clash of a topic, with its status when the topic was written.

@@ -2,7 +2,7 @@
 // The axes of round primitives on paper, as far as lines run beside them.
 #pragma once
 
-// Decision 0104 says why lines beside an axis decide, and not its own visibility.
+// Decision 0081 says why lines beside an axis decide, and not its own visibility.
 
 #include <span>
 #include <vector>

@@ -23,7 +23,7 @@ struct ViewLines {
 };
 
 /// Writes the lines of a view as entities of model space, layer by layer and object by object. Each
-/// entity says whose it is: id, name and file of the object (decision 0101). No line takes more
+/// entity says whose it is: id, name and file of the object (decision 0078). No line takes more
 /// than one handle, from `first` on. `layers` begin with those of ViewLayer. Errors: cancelled, out
 /// of memory.
 [[nodiscard]] Status write_view_lines(const ViewLines& view, const model::Model& model,

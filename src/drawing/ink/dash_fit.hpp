@@ -2,7 +2,7 @@
 // Patterns of dashes, fitted to the lengths of the lines that have them.
 #pragma once
 
-// Decision 0103 says why patterns are stretched, and why by one factor.
+// Decision 0080 says why patterns are stretched, and why by one factor.
 
 #include <array>
 #include <cstdint>

@@ -15,7 +15,7 @@ using GlyphId = std::uint16_t;
 /// The glyph that stands for characters that a font lacks: an empty box.
 inline constexpr GlyphId kMissingGlyph = 0;
 
-// Decision 0102 says why subsets are made here.
+// Decision 0079 says why subsets are made here.
 
 /// A font in the file that was put into the library. Its bytes are trusted, but never read beyond
 /// their end: what lies there is zero.

@@ -37,7 +37,7 @@ struct ShownObjects {
 };
 
 /// Chooses. Automatically all objects are shown as they are while shapes and instances stay within
-/// what a browser takes well (decision 0108), else those that are wanted, as far as there is room.
+/// what a browser takes well (decision 0085), else those that are wanted, as far as there is room.
 /// The choice depends on the scene and the wishes alone. Errors: cancelled, out of memory.
 [[nodiscard]] Result<ShownObjects> choose_shown(const model::Scene& scene,
                                                 const ShownWishes& wishes,

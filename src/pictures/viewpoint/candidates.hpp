@@ -10,7 +10,7 @@
 #include "strake/geometry/vec.hpp"
 #include "strake/parallel/context.hpp"
 
-// Decision 0106 says why these directions, and this measure.
+// Decision 0083 says why these directions, and this measure.
 
 namespace strake::pictures {
 

@@ -14,7 +14,7 @@
 #include "workbook/sheet/sheet_row.hpp"
 
 /// Spreadsheets of Excel and others (ECMA-376, .xlsx), written from front to back: rows are made
-/// and packed by many workers, and none is kept (decision 0105).
+/// and packed by many workers, and none is kept (decision 0082).
 namespace strake::workbook {
 
 struct SheetColumn {
