@@ -19,7 +19,7 @@ std::size_t clamped(double cell, std::size_t count) {
 /// Squares as multiples of 2^-32 of one: a walk adds them quickly, and up to rounding at its end
 /// they stay on the sheet.
 using FixedPoint = std::int64_t;
-FixedPoint fixed(double squares) { return std::llround(squares * 4294967296.0); }
+FixedPoint fixed_point(double squares) { return std::llround(squares * 4294967296.0); }
 
 std::size_t whole(FixedPoint squares, std::size_t count) {
   return static_cast<std::size_t>(
@@ -51,8 +51,9 @@ void OccupancyGrid::walk(const PaperPoint& a, const PaperPoint& b, Take&& take) 
   if (!seen) return;
   const double dx = (seen->b.x - seen->a.x) / size_, dy = (seen->b.y - seen->a.y) / size_;
   const double steps = std::max(1.0, std::ceil(std::sqrt(dx * dx + dy * dy) * 2));
-  const FixedPoint by_x = fixed(dx / steps), by_y = fixed(dy / steps);
-  FixedPoint x = fixed(seen->a.x / size_) + by_x / 2, y = fixed(seen->a.y / size_) + by_y / 2;
+  const FixedPoint by_x = fixed_point(dx / steps), by_y = fixed_point(dy / steps);
+  FixedPoint x = fixed_point(seen->a.x / size_) + by_x / 2,
+             y = fixed_point(seen->a.y / size_) + by_y / 2;
   for (double i = 0; i < steps; ++i, x += by_x, y += by_y)
     if (!take(whole(y, rows_) * columns_ + whole(x, columns_))) return;
 }
