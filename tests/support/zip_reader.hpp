@@ -54,8 +54,10 @@ inline std::map<std::string, std::string> files_of_zip(const std::string& zip) {
     const std::size_t name = little(zip, at + 28, 2), head = little(zip, at + 42, 4);
     EXPECT_EQ(zip.substr(head, 4), "PK\x03\x04");
     EXPECT_EQ(zip.substr(head + kHead, name), zip.substr(at + kEntry, name));
-    const std::string text =
-        inflated(std::string_view(zip).substr(head + kHead + name, packed), size);
+    const std::string_view bytes = std::string_view(zip).substr(head + kHead + name, packed);
+    const bool stored = little(zip, at + 10, 2) == 0;
+    const std::string text = stored ? std::string(bytes) : inflated(bytes, size);
+    EXPECT_EQ(text.size(), size);
     EXPECT_EQ(crc32(0, reinterpret_cast<const Bytef*>(text.data()), static_cast<uInt>(text.size())),
               little(zip, at + 16, 4));
     EXPECT_TRUE(files.emplace(zip.substr(at + kEntry, name), text).second);
