@@ -134,14 +134,17 @@ class ReviewTaker {
   Status take_comments(const ReviewedTopic& topic) {
     if (topic.comments.empty()) return {};
     std::set<Said> known;
-    std::map<std::string, std::string> last;  // when something was said of a clash last, by key
+    std::map<std::string, std::string> last;  // when the comment of a clash was said, by key
     for (const ReviewedClash& clash : topic.clashes) {
       const Result<std::vector<ClashEvent>> events = read_events(database_, clash.key);
       if (!events) return events.error();
+      const std::string& comment = listed(clash.key)->row.comment;
       for (const ClashEvent& event : *events) {
         if (event.run || event.comment.empty()) continue;
         known.insert(said({event.at, event.who, event.comment}));
-        last[clash.key] = std::max(last[clash.key], event.at);
+        // Behind a comment an event tells what else was set.
+        if (!comment.empty() && event.comment.starts_with(comment))
+          last[clash.key] = std::max(last[clash.key], event.at);
       }
     }
     for (report::DecisionComment comment : topic.comments) {
@@ -162,15 +165,15 @@ class ReviewTaker {
   }
 
   /// Adds a comment although it says what was said before: somebody else says it, or again. It is
-  /// that of the clash where it has none, or nothing was said of it later.
+  /// that of the clash where none was said later.
   Status add(const report::DecisionComment& comment, const std::string& key, bool is_last) {
     Result<std::optional<ClashRow>> found = rows_.find(std::string_view(key));
     if (!found) return found.error();
     if (!*found) return {};
     ClashRow row = std::move(**found);
     const std::string text = valid_utf8(comment.text);
-    if (is_last || row.comment.empty()) {
-      row.comment = text;
+    if (is_last) {
+      row.comment = listed(key)->row.comment = text;
       if (const Status status = rows_.update(row); !status) return status;
     }
     const DecisionStatus now = row.status(listed(key)->last_run);
