@@ -43,6 +43,8 @@ std::optional<int> zone_minutes(std::string_view rest) {
   const std::optional<int> hours = digits_at(rest, 1, 2), minutes = digits_at(rest, 4, 2);
   if (!hours || !minutes) return std::nullopt;
   const int total = 60 * *hours + *minutes;
+  constexpr int kFarthest = 14 * 60;
+  if (*minutes > 59 || total > kFarthest) return std::nullopt;
   return rest[0] == '-' ? -total : total;
 }
 
@@ -129,11 +131,10 @@ class BcfReader {
   Status take(const ZipReader::Entry& entry) {
     const std::string where = name_ + ", " + printable(entry.name);
     const Result<std::string> text = zip_.read(entry, kMostOfFile);
-    if (!text) return leave_out(text.error());
-    unpacked_ += text->size();
-    if (unpacked_ > kMostOfAll)
+    if (zip_.unpacked() > kMostOfAll)
       return Error{ErrorCode::input, "its topics unpack to more than 512 MiB", name_,
                    "split it into several"};
+    if (!text) return leave_out(text.error());
     pugi::xml_document document;
     if (const Status status = read_xml(document, *text, where); !status)
       return leave_out(status.error());
@@ -152,7 +153,6 @@ class BcfReader {
   ZipReader zip_;
   std::string name_;
   ReadFile file_;
-  std::size_t unpacked_ = 0;
 };
 
 }  // namespace
@@ -181,14 +181,16 @@ std::optional<std::string> utc_of(std::string_view date) {
   const chrono::year_month_day day{chrono::year(parts[0]),
                                    chrono::month(static_cast<unsigned>(parts[1])),
                                    chrono::day(static_cast<unsigned>(parts[2]))};
-  // Seconds that are put in before midnight count as the last one; 24:00 is the next day.
+  // Seconds that are put in before midnight count as those after it; 24:00 is the next day.
   if (!zone || !day.ok() || parts[3] > 24 || parts[4] > 59 || parts[5] > 60) return std::nullopt;
+  if (parts[3] == 24 && parts[4] + parts[5] > 0) return std::nullopt;
   const chrono::sys_seconds at = chrono::sys_days(day) + chrono::hours(parts[3]) +
                                  chrono::minutes(parts[4]) + chrono::seconds(parts[5]) -
                                  chrono::minutes(*zone);
   const chrono::sys_days midnight = chrono::floor<chrono::days>(at);
   const chrono::year_month_day utc(midnight);
-  if (utc.year() < chrono::year(0) || utc.year() > chrono::year(9999)) return std::nullopt;
+  // The schemas know no year 0.
+  if (utc.year() < chrono::year(1) || utc.year() > chrono::year(9999)) return std::nullopt;
   const chrono::hh_mm_ss time(at - midnight);
   return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(utc.year()),
                      static_cast<unsigned>(utc.month()), static_cast<unsigned>(utc.day()),

@@ -72,6 +72,7 @@ Result<std::string> ZipReader::read(const Entry& entry, std::size_t most) {
     const zip_int64_t got = zip_fread(file.get(), bytes.data() + had, kPiece);
     if (got < 0) return fault(entry, "the file is damaged");
     bytes.resize(had + static_cast<std::size_t>(got));
+    unpacked_ += static_cast<std::uint64_t>(got);
     if (bytes.size() > most) return fault(entry, "the file unpacks to more than it may");
     if (got == 0) return bytes;
   }

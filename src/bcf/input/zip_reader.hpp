@@ -34,6 +34,9 @@ class ZipReader {
   /// that is not known, or unpacks to more than `most` bytes.
   [[nodiscard]] Result<std::string> read(const Entry& entry, std::size_t most);
 
+  /// How many bytes all that was read came to, that of files which were refused as well.
+  [[nodiscard]] std::uint64_t unpacked() const { return unpacked_; }
+
  private:
   struct Closes {
     void operator()(zip* archive) const;
@@ -46,6 +49,7 @@ class ZipReader {
   std::unique_ptr<zip, Closes> archive_;
   std::string name_;
   std::vector<Entry> entries_;
+  std::uint64_t unpacked_ = 0;
 };
 
 }  // namespace strake::bcf

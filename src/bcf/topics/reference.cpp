@@ -2,6 +2,7 @@
 #include "bcf/topics/reference.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "clash/results/clash_key.hpp"
 #include "report/text/uuid.hpp"
@@ -92,10 +93,12 @@ std::optional<Reference> find_reference(std::string_view description) {
   }
   if (!word.starts_with(kAssignee)) return std::nullopt;
   reference.assignee_mark = word.substr(kAssignee.size());
+  // A clash that is named twice is decided about once, as it was named first.
+  std::set<std::string> keys;
   while (reference.clashes.size() < kMostReferred) {
     std::optional<ReferredClash> clash = referred(take_word(rest));
     if (!clash) break;
-    reference.clashes.push_back(std::move(*clash));
+    if (keys.insert(clash->key).second) reference.clashes.push_back(std::move(*clash));
   }
   if (reference.clashes.empty() || (reference.group.empty() && reference.clashes.size() > 1))
     return std::nullopt;

@@ -55,11 +55,6 @@ std::optional<SaidStatus> said_status(std::string_view word) {
   return at == kWords.end() ? std::nullopt : std::optional(at->said);
 }
 
-bool agrees(SaidStatus said, DecisionStatus status) {
-  return status == decided_status(said) ||
-         (said == SaidStatus::open && status == DecisionStatus::undecided);
-}
-
 DecisionStatus decided_status(SaidStatus said) {
   switch (said) {
     case SaidStatus::open:

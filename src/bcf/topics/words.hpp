@@ -24,10 +24,7 @@ enum class SaidStatus : std::uint8_t { open, active, reviewed, approved, resolve
 /// and Active have in common.
 [[nodiscard]] std::optional<SaidStatus> said_status(std::string_view word);
 
-/// Whether a clash of this status is as a topic says.
-[[nodiscard]] bool agrees(SaidStatus said, report::DecisionStatus status);
-
-/// Returns the status that a topic gives to a clash which it does not agree with.
+/// Returns the status that a topic gives to a clash which is in another one.
 [[nodiscard]] report::DecisionStatus decided_status(SaidStatus said);
 
 /// Returns "High" for a hit, "Normal" for a clearance violation, "Low" for a contact.

@@ -2,6 +2,7 @@
 #include "project/review/review.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -47,7 +48,7 @@ Ruling ruling_on_assignee(const ReviewedTopic& topic, const std::string& now,
   return has.empty() ? Ruling::take : Ruling::conflict;
 }
 
-/// What people said, in the form in which it is compared.
+/// What people said, in the form in which it is compared: who, what and when.
 using Said = std::tuple<std::string, std::string, std::string>;
 
 class ReviewTaker {
@@ -63,7 +64,7 @@ class ReviewTaker {
     if (const Status status = take_comments(topic); !status) return status;
     std::vector<std::string> to_status, to_assignee;
     for (const ReviewedClash& clash : topic.clashes) {
-      const auto at = std::ranges::lower_bound(clashes_, clash.key, {}, key_of);
+      const auto at = listed(clash.key);
       if (at == clashes_.end() || at->row.key != clash.key)
         return Error{ErrorCode::usage, "no clash has the key " + in_quotes(clash.key), {}, {}};
       if (counts(ruling_on_status(topic, clash, at->status), topic, *at, "the status"))
@@ -77,17 +78,27 @@ class ReviewTaker {
       decision.status = topic.status->given;
       if (const Status status = decide_about(to_status, decision, taken_.statuses); !status)
         return status;
+      // Another topic about the clash that says something else is a conflict.
+      for (const std::string& key : to_status) listed(key)->status = topic.status->given;
     }
     if (to_assignee.empty()) return {};
     decision.status.reset();
     decision.assignee = topic.assignee;
-    return decide_about(to_assignee, decision, taken_.assignees);
+    if (const Status status = decide_about(to_assignee, decision, taken_.assignees); !status)
+      return status;
+    for (const std::string& key : to_assignee) listed(key)->row.assignee = topic.assignee;
+    return {};
   }
 
   TakenReview finish() { return std::move(taken_); }
 
  private:
   static std::string_view key_of(const ListedClash& clash) { return clash.row.key; }
+
+  /// The first clash whose key is not less.
+  std::vector<ListedClash>::iterator listed(const std::string& key) {
+    return std::ranges::lower_bound(clashes_, std::string_view(key), {}, key_of);
+  }
 
   Status decide_about(const std::vector<std::string>& keys, const ClashDecision& decision,
                       std::uint64_t& count) {
@@ -108,43 +119,63 @@ class ReviewTaker {
     return rules_.prefers_review;
   }
 
-  Said said(const report::DecisionComment& comment) const {
-    return {comment.at, rules_.compared(comment.by), rules_.compared(comment.text)};
+  [[nodiscard]] Said said(const report::DecisionComment& comment) const {
+    return {rules_.compared(comment.by), rules_.compared(comment.text), comment.at};
+  }
+
+  /// Whether people said this; where it is not known when, whether they said it at any time.
+  static bool is_known(const std::set<Said>& known, const Said& said) {
+    if (!std::get<2>(said).empty()) return known.contains(said);
+    const auto same = known.lower_bound(said);
+    return same != known.end() && std::get<0>(*same) == std::get<0>(said) &&
+           std::get<1>(*same) == std::get<1>(said);
   }
 
   Status take_comments(const ReviewedTopic& topic) {
     if (topic.comments.empty()) return {};
     std::set<Said> known;
+    std::map<std::string, std::string> last;  // when something was said of a clash last, by key
     for (const ReviewedClash& clash : topic.clashes) {
       const Result<std::vector<ClashEvent>> events = read_events(database_, clash.key);
       if (!events) return events.error();
-      for (const ClashEvent& event : *events)
-        if (!event.run && !event.comment.empty())
-          known.insert(said({event.at, event.who, event.comment}));
+      for (const ClashEvent& event : *events) {
+        if (event.run || event.comment.empty()) continue;
+        known.insert(said({event.at, event.who, event.comment}));
+        last[clash.key] = std::max(last[clash.key], event.at);
+      }
     }
-    for (const report::DecisionComment& comment : topic.comments) {
-      if (!known.insert(said(comment)).second) {
+    for (report::DecisionComment comment : topic.comments) {
+      if (is_known(known, said(comment))) {
         ++taken_.known_comments;
         continue;
       }
-      for (const ReviewedClash& clash : topic.clashes)
-        if (const Status status = add(comment, clash.key); !status) return status;
+      if (comment.at.empty()) comment.at = topic.at;
+      known.insert(said(comment));
+      for (const ReviewedClash& clash : topic.clashes) {
+        std::string& latest = last[clash.key];
+        if (const Status status = add(comment, clash.key, comment.at >= latest); !status)
+          return status;
+        latest = std::max(latest, comment.at);
+      }
     }
     return {};
   }
 
-  /// Adds a comment although it says what was said before: somebody else says it, or again.
-  Status add(const report::DecisionComment& comment, const std::string& key) {
+  /// Adds a comment although it says what was said before: somebody else says it, or again. It is
+  /// that of the clash where it has none, or nothing was said of it later.
+  Status add(const report::DecisionComment& comment, const std::string& key, bool is_last) {
     Result<std::optional<ClashRow>> found = rows_.find(std::string_view(key));
     if (!found) return found.error();
     if (!*found) return {};
     ClashRow row = std::move(**found);
-    row.comment = valid_utf8(comment.text);
-    if (const Status status = rows_.update(row); !status) return status;
-    const auto at = std::ranges::lower_bound(clashes_, key, {}, key_of);
-    const DecisionStatus now = row.status(at->last_run);
+    const std::string text = valid_utf8(comment.text);
+    if (is_last || row.comment.empty()) {
+      row.comment = text;
+      if (const Status status = rows_.update(row); !status) return status;
+    }
+    const DecisionStatus now = row.status(listed(key)->last_run);
     ++taken_.comments;
-    return rows_.add({row.id, std::nullopt, comment.at, comment.by, now, now, row.comment});
+    return rows_.add({row.id, std::nullopt, comment.at, comment.by, now, now, text});
   }
 
   Database& database_;

@@ -37,8 +37,9 @@ struct ReviewedTopic {
   std::string assignee;  ///< empty: nobody
   /// ReviewRules::mark of whom the topic was assigned to when it was written; absent: not known.
   std::optional<std::string> written_mark;
-  std::string by, at;                             ///< who decided, and when
-  std::vector<report::DecisionComment> comments;  ///< in their order
+  std::string by, at;  ///< who decided, and when
+  /// In their order; one without a time was said when the topic was decided about.
+  std::vector<report::DecisionComment> comments;
 };
 
 /// Returns another form of a text.
@@ -67,7 +68,9 @@ struct TakenReview {
 /// 2. What changed in the review and not in the project is taken.
 /// 3. What changed in both, to something else, is a conflict, as is a decision about which it is
 ///    not known what the review started from: ReviewRules::prefers_review says which one holds.
-/// 4. A comment is known if one of the clashes of its topic has it, of the same time and author.
+/// 4. A comment is known if one of the clashes of its topic has it, of the same time and author;
+///    of the same author, where it has no time.
+/// 5. Of topics about one clash the first holds: what a later one says against it is a conflict.
 ///
 /// To be called within a transaction. Errors: as of decide(); usage for a key that no clash has.
 [[nodiscard]] Result<TakenReview> take_review(Database& database,

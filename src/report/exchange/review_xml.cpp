@@ -43,6 +43,21 @@ void xml_element(std::string& out, std::string_view name, std::string_view text)
   out.append("</").append(name).append(">");
 }
 
+/// Appends an element with what people wrote, which may have several lines.
+void xml_lines(std::string& out, std::string_view name, std::string_view text) {
+  out.append("<").append(name).append(">");
+  for (;;) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    out.append(xml_escaped(line));
+    if (end == std::string_view::npos) break;
+    out += '\n';
+    text.remove_prefix(end + 1);
+  }
+  out.append("</").append(name).append(">");
+}
+
 void xml_attribute(std::string& out, std::string_view name, std::string_view value) {
   out.append(" ").append(name).append("=\"").append(xml_escaped(value)).append("\"");
 }
@@ -102,7 +117,7 @@ void review_decision(std::string& out, const Review& review) {
   if (comment.empty()) return;
   out += "<comments><comment id=\"1\">";
   xml_element(out, "user", decision.by);
-  xml_element(out, "body", comment);
+  xml_lines(out, "body", comment);
   xml_date(out, "createddate", decision.date);
   out += "</comment></comments>";
 }

@@ -93,11 +93,13 @@ SheetRow& SheetRow::string(std::string_view text, CellStyle style) {
 }
 
 SheetRow& SheetRow::value(std::string_view raw) {
-  // What would lose digits or a leading zero as a number is a name: 007, 1234567890123456789.
+  // What would be another text as a number is a name: 007, +5, 12E3, 1234567890123456789.
   constexpr std::size_t kMostDigits = 15;
   const std::optional<double> number = parse_number(raw);
-  const bool padded = raw.size() > 1 && raw.front() == '0' && raw[1] != '.';
-  if (!number || padded || raw.size() > kMostDigits) return text(raw);
+  const std::string_view digits = raw.substr(raw.starts_with('-') ? 1 : 0);
+  const bool padded = digits.size() > 1 && digits.front() == '0' && digits[1] != '.';
+  const bool plain = digits.find_first_not_of("0123456789.") == std::string_view::npos;
+  if (!number || padded || !plain || raw.size() > kMostDigits) return text(raw);
   begin_cell(CellStyle::plain);
   out_.append("><v>").append(shortest(*number)).append("</v></c>");
   return *this;

@@ -5,6 +5,7 @@ import io
 import os
 import random
 import struct
+import time
 import unittest
 import zipfile
 from pathlib import Path
@@ -238,6 +239,37 @@ class BcfBack(BcfProject):
         self.assertIn('0 comments added, 1 comments were there', self.take(name='g.bcf').stderr)
         self.assertEqual(self.state(), before)
 
+    def test_topics_that_contradict_each_other_are_a_conflict(self):
+        self.out('--group-by', 'element', name='g.bcf')
+        rewrite(self.folder / 'x.bcf', self.folder / 'single.bcf', lambda root: root.find('Topic').set('TopicStatus', 'Approved'))
+        rewrite(self.folder / 'g.bcf', self.folder / 'group.bcf', lambda root: root.find('Topic').set('TopicStatus', 'Reviewed'))
+        with zipfile.ZipFile(self.folder / 'single.bcf', 'a') as both, zipfile.ZipFile(self.folder / 'group.bcf') as group:
+            for name in group.namelist():
+                if name.endswith('markup.bcf'):
+                    both.writestr(name, group.read(name))
+        told = self.take(name='single.bcf').stderr
+        self.assertIn('5 topics, 3 statuses', told)
+        self.assertIn('3 conflicts', told)
+        for clash, in self.query('SELECT id FROM clash'):
+            self.assertEqual(len(self.query(f"SELECT id FROM event WHERE clash = {clash} AND after IN ('approved', 'reviewed')")), 1)
+
+    def test_an_older_comment_is_not_that_of_the_clash(self):
+        key = self.listed()[0]['key']
+        self.set(key, '--comment', 'now', '--by', 'Eve')
+        self.edit(lambda topic, markup: add_comment(markup, '1' * 8 + '-1111-4111-8111-111111111111', '2001-02-03T12:00:00Z',
+                                                    'Ann', 'then'))
+        self.assertIn('3 comments added', self.take().stderr)
+        self.assertEqual(dict(self.query('SELECT key, comment FROM clashes'))[key], 'now')
+        self.assertEqual([row[0] for row in self.query(f"SELECT event.comment FROM event JOIN clash ON clash.id = event.clash "
+                                                       f"WHERE event.comment <> '' AND clash.key = '{key}' ORDER BY event.id")],
+                         ['now', 'then'])
+
+    def test_comments_without_a_date_are_known_again(self):
+        self.edit(lambda topic, markup: add_comment(markup, '1' * 8 + '-1111-4111-8111-111111111111', 'yesterday', 'Ann', 'when?'))
+        self.assertIn('3 comments added', self.take().stderr)
+        time.sleep(1.1)  # the clock of the second take is another
+        self.assertIn('0 comments added, 3 comments were there', self.take().stderr)
+
     def test_misuse(self):
         key = self.listed()[0]['key']
         for options in ([key], ['--status', 'approved'], ['--comment', 'x'], ['--group', '1'], ['--select', 'c0']):
@@ -274,6 +306,8 @@ class BcfBack(BcfProject):
         self.assertEqual(told.count('unpacks to more than it may'), 3)
         many = self.archive([version, *((f'{i:08}-0000-4000-8000-000000000000/markup.bcf', b' ' * (15 << 20)) for i in range(40))])
         self.refused(many, '512 MiB')
+        refused = self.archive([version, *((f'{i:08}-0000-4000-8000-000000000000/markup.bcf', b' ' * (17 << 20)) for i in range(40))])
+        self.refused(refused, '512 MiB')
         names = self.archive([version, ('../../../tmp/strake-escape/markup.bcf', '<Markup/>'), ('/etc/markup.bcf', '<Markup/>'),
                               ('C:\\markup.bcf', '<Markup/>')])
         (self.folder / 'names.bcf').write_bytes(names)

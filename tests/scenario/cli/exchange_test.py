@@ -126,12 +126,13 @@ class Exchange(RowProject):
     def test_statuses_come_from_a_file_and_from_a_project(self):
         self.done('clash', 'row.obj', '--unit', 'mm', '--decisions', 'd.csv', '--write-decisions')
         text = self.read('d.csv').decode()
-        decided = text.replace('new,,,', 'approved,N. N.,2026-01-09,"as agreed, =1+1"', 1)
+        comment = 'as agreed,\n=1+1'
+        decided = text.replace('new,,,', f'approved,N. N.,2026-01-09,"{comment}"', 1)
         self.assertNotEqual(text, decided)
         self.write('d.csv', decided)
         key = next(row['key'] for row in self.rows('d.csv') if row['status'] == 'approved')
         self.done('clash', '-p', 'ship.strake', '--self')
-        self.set(key, '--status', 'approved', '--by', 'N. N.', '--comment', 'as agreed, =1+1')
+        self.set(key, '--status', 'approved', '--by', 'N. N.', '--comment', comment)
         for name, source in (('f', ['row.obj', '--unit', 'mm', '--decisions', 'd.csv']), ('p', ['-p', 'ship.strake', '--self'])):
             done = self.done('clash', *source, '-o', f'{name}.xlsx', '-o', f'{name}.xml', '--json')
             results = json.loads(done.stdout)['results']
@@ -139,8 +140,10 @@ class Exchange(RowProject):
             self.assertEqual([(row['key'], row['status']) for row in rows],
                              [(result['key'], result['decision']['status']) for result in results])
             self.assertEqual([(row['status'], row['by'], row['comment']) for row in rows if row['key'] == key],
-                             [('approved', 'N. N.', 'as agreed, =1+1')])
-            summary = ElementTree.fromstring(self.read(f'{name}.xml')).find('.//summary')
+                             [('approved', 'N. N.', comment)])
+            report = ElementTree.fromstring(self.read(f'{name}.xml'))
+            self.assertEqual([body.text for body in report.iter('body')], [comment])
+            summary = report.find('.//summary')
             statuses = [row['status'] for row in rows]
             for status in ('new', 'active', 'reviewed', 'approved', 'resolved'):
                 self.assertEqual(summary.get(status), str(statuses.count(status)))

@@ -57,6 +57,13 @@ TEST(Reference, IsNoneWhereItIsDamaged) {
     EXPECT_FALSE(find_reference(text)) << text;
 }
 
+TEST(Reference, AClashNamedTwiceIsThereOnce) {
+  const auto found = find_reference(reference_line(group_of_two()) + " " + kKeyOne + "=approved");
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->clashes.size(), 2U);
+  EXPECT_EQ(found->clashes[0].status, DecisionStatus::reviewed);
+}
+
 TEST(Reference, GuidsTellClashesGroupsAndPartsApart) {
   EXPECT_EQ(clash_guid(kKeyOne), clash_guid(kKeyOne));
   EXPECT_NE(clash_guid(kKeyOne), clash_guid(kKeyTwo));

@@ -40,9 +40,10 @@ TEST(SheetRow, AValueIsANumberWhereNothingOfItGetsLost) {
     SheetRow(out, 0).value(value);
     return out.find("<v>") != std::string::npos;
   };
-  for (const char* const number : {"12", "-0.5", "0.25", "0", "1e3"})
-    EXPECT_TRUE(is_number(number));
-  for (const char* const text : {"007", "12345678901234567", "1.2.3", "=1", "", "nan", "12 mm"})
+  for (const char* const number : {"12", "-0.5", "0.25", "0", "-10"})
+    EXPECT_TRUE(is_number(number)) << number;
+  for (const char* const text :
+       {"007", "-007", "+5", "12E3", "1e3", "12345678901234567", "1.2.3", "=1", "", "nan", "12 mm"})
     EXPECT_FALSE(is_number(text)) << text;
 }
 

@@ -66,8 +66,8 @@ class TopicMatcher {
     reviewed.by = topic.changer.empty() ? by_ : bcf::compared_text(topic.changer);
     reviewed.at = topic.changed.empty() ? at_ : topic.changed;
     for (const bcf::ReadComment& comment : topic.comments)
-      reviewed.comments.push_back({comment.date.empty() ? at_ : comment.date,
-                                   comment.author.empty() ? by_ : comment.author, comment.text});
+      reviewed.comments.push_back(
+          {comment.date, comment.author.empty() ? by_ : comment.author, comment.text});
     matched_.topics.push_back(std::move(reviewed));
   }
 
