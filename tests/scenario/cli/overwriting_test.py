@@ -171,7 +171,7 @@ class Overwriting(Scenario):
         for verb in VERBS:
             text = self.text(*verb, '--help')
             for short, long in re.findall(r'^  (?:(-\w),)?(--[a-z-]+) F(?:ILE|OLDER)\b', text, re.MULTILINE):
-                if long in ('--project', '--rules', '--sheet', '--compare', '--peers'):
+                if long in ('--project', '--rules', '--sheet', '--compare', '--peers', '--bcf'):
                     continue
                 self.assertIn((' '.join(verb), short or long), tried)
 

@@ -71,7 +71,7 @@ class Usage(Scenario):
                 (['clash', 'a.obj', '--fail-on', 'sometimes'], 'hit|contact'),
                 (['clash', 'a.obj', '--distribution', 'fair'], 'planned|in-order|equal-ranges'),
                 (['info', 'a.obj', '--distribution', 'planned'], '--distribution'),
-                (['clash', 'a.obj', '-o', 'report.doc'], '.json or .csv or .html'),
+                (['clash', 'a.obj', '-o', 'report.doc'], '.json or .csv or '),
                 (['clash', 'a.obj', '--a', 'name ='], '--a, selection, column 7'),
                 (['clash', 'a.obj', '--b', 'x', '--self'], '--b excludes --self'),
                 (['clash', 'a.obj', '--most-pairs', 'all'], '--most-pairs'),
