@@ -73,11 +73,27 @@ void ifc_member(std::string& out, std::string_view key, std::string_view text) {
   append_json(out, text);
 }
 
+/// Returns a text without hyphens, which stand between the two parts of a key: "x-y" and "z" would
+/// otherwise be "x" and "y-z". A GlobalId of IFC has none.
+std::string without_hyphens(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '-')
+      out += "%2D";
+    else if (c == '%')
+      out += "%25";
+    else
+      out += c;
+  }
+  return out;
+}
+
 /// Returns what a key has of an object: its id, and where others have it too the file.
 std::string key_part(const model::Model& model, const std::vector<bool>& shared,
                      model::ObjectId id) {
   const model::Object& object = model.object(id);
-  return shared[index(id)] ? model.files[object.file].label + ":" + object.id : object.id;
+  return without_hyphens(shared[index(id)] ? model.files[object.file].label + ":" + object.id
+                                           : object.id);
 }
 
 void ifc_clash(std::string& out, const ClashContents& contents, const std::vector<bool>& shared,

@@ -16,6 +16,10 @@ FORMATS = ('x.xlsx', 'x.xml', 'x.ifcclash.json', 'x.joints.csv')
 NAMESPACE = uuid.uuid5(uuid.NAMESPACE_URL, 'urn:strake:clash')
 
 
+def ifcclash_key(a, b):
+    return '-'.join(one.replace('%', '%25').replace('-', '%2D') for one in (a, b))
+
+
 class Exchange(RowProject):
     def ship(self, *more, files=FORMATS):
         """Writes results of a ship; returns the document of the same run."""
@@ -115,11 +119,11 @@ class Exchange(RowProject):
             for key, clash in one['clashes'].items():
                 self.assertEqual(set(clash), {'a_global_id', 'b_global_id', 'a_ifc_class', 'b_ifc_class', 'a_name', 'b_name',
                                               'type', 'p1', 'p2', 'distance'})
-                self.assertEqual(key, f"{clash['a_global_id']}-{clash['b_global_id']}")
+                self.assertEqual(key, ifcclash_key(clash['a_global_id'], clash['b_global_id']))
                 self.assertEqual((len(clash['p1']), len(clash['p2'])), (3, 3))
                 found[key] = (clash['type'], round(clash['distance'], 9))
         types = {'HIT': 'protrusion', 'CONTACT': 'collision', 'CLEARANCE_VIOLATION': 'clearance'}
-        self.assertEqual(found, {f"{result['a']['id']}-{result['b']['id']}":
+        self.assertEqual(found, {ifcclash_key(result['a']['id'], result['b']['id']):
                                  (types[result['class']], round(abs(result['d_mm']) / 1000, 9))
                                  for result in document['results']})
 

@@ -176,6 +176,19 @@ TEST(IfcclashJson, IdsOfSeveralFilesAreToldApart) {
   EXPECT_TRUE(clashes.contains("u.obj:a-u.obj:b")) << clashes;
 }
 
+TEST(IfcclashJson, IdsWithHyphensAreToldApart) {
+  ClashModel m = row_of_boxes();
+  m.model.objects[0].id = "x-y";
+  m.model.objects[1].id = "z";
+  m.model.objects[2].id = "x";
+  m.model.objects[3].id = "y-z%2D";
+  clash::Findings findings = findings_of(m);
+  findings.tests[0].pairs[2].cls = clash::Class::hit;
+  const json clashes = json::parse(written(write_ifcclash_json, {findings, m.model}))[0]["clashes"];
+  EXPECT_TRUE(clashes.contains("x%2Dy-z")) << clashes;
+  EXPECT_TRUE(clashes.contains("x-y%2Dz%252D")) << clashes;
+}
+
 TEST(IfcclashJson, ATestWithoutHitsIsASetWithoutClashes) {
   const ClashModel m = row_of_boxes();
   clash::Findings findings = findings_of(m);
