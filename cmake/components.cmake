@@ -64,12 +64,14 @@ strake_component(geometry
 # The pages of all components from here on refer to each other, so they come together.
 set(manual
   docs/bcf.md
+  docs/clash-pictures.md
   docs/clash.md
   docs/cluster.md
   docs/decisions
   docs/drawing.md
   docs/evaluation.md
   docs/first-run.md
+  docs/formats/dxf.md
   docs/formats/gltf.md
   docs/formats/ifc.md
   docs/formats/importers.md
