@@ -259,7 +259,10 @@ class ModelInPage(PageScenario):
         self.assertEqual(boxes.head['scene']['objects_as_boxes'], len(coarse))
         self.assertEqual(sum(page.columns['strake-shapes']['triangles'][s] for s in page.columns['strake-instances']['shape']),
                          page.head['scene']['triangles'])
-        self.assertGreater(len(shapes), 300)
+        self.assertEqual(len(shapes), 400)
+        self.assertEqual(page.head['scene']['objects_left_out'], 0)
+        index = page.columns['strake-shapes']['index']
+        self.assertTrue(any(q == r for q, r in zip(index[1::3], index[2::3])), 'a ship has lines without thickness')
         slack = boxes.head['scene']['boxes']['step'] + .5
         for its, box in shapes.items():
             for k in range(3):

@@ -112,6 +112,22 @@ export interface Mesh {
   index: Uint32Array;
 }
 
+/** Whether an item is made of lines: triangles whose second and third corners are one vertex. */
+export function isLine(items: Items, item: number): boolean {
+  if (item >= items.instances) return false;
+  const { shapes, instances } = items.model;
+  const shape = instances.shape[item]!;
+  const first = shapes.firstIndex[shape]!;
+  return shapes.triangles[shape]! > 0 && shapes.index[first + 1] === shapes.index[first + 2];
+}
+
+/** The two ends of each line of a mesh that is made of lines. */
+export function lineEnds(mesh: Mesh): Uint32Array<ArrayBuffer> {
+  const ends = new Uint32Array((mesh.index.length / 3) * 2);
+  for (let i = 0; i < ends.length; ++i) ends[i] = mesh.index[3 * (i >> 1) + (i & 1)]!;
+  return ends;
+}
+
 export function itemTriangles(items: Items, item: number): number {
   return item < items.instances ? items.model.shapes.triangles[items.model.instances.shape[item]!]! : 12;
 }
