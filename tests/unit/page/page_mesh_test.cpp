@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/primitives/tessellate.hpp"
+#include "strake/geometry/grid.hpp"
 
 namespace strake::page {
 namespace {

@@ -9,7 +9,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { SceneHead } from '../payload/head.ts';
 import type { Model } from '../payload/payload.ts';
 import { type Batch, distanceTo, makeBatches } from './batches.ts';
-import { distanceFor, LOOKS, makeCamera, setDepth, type Side } from './camera.ts';
+import { distanceFor, distanceForBox, LOOKS, makeCamera, setDepth, type Side } from './camera.ts';
 import { type BatchMaterials, GpuBatches } from './gpu_batches.ts';
 import { type Items, isLine, itemsOf, lineEnds, makeItems, meshOf, objectBox, type Vec } from './items.ts';
 import { makeMaterial, ObjectStates, type SharedUniforms } from './materials.ts';
@@ -204,7 +204,8 @@ export class View {
   fit(): void {
     const { bounds } = this.items;
     if (!Number.isFinite(bounds[0]!)) return;
-    this.goTo([0, 1, 2].map((k) => (bounds[k]! + bounds[3 + k]!) / 2) as Vec, this.reach / 5);
+    const size = new Vector3(...([0, 1, 2].map((k) => bounds[3 + k]! - bounds[k]!) as Vec));
+    this.stand([0, 1, 2].map((k) => (bounds[k]! + bounds[3 + k]!) / 2) as Vec, Math.max(100, distanceForBox(this.camera, size)));
   }
 
   look(side: Side): void {
@@ -412,9 +413,14 @@ export class View {
   }
 
   private goTo(target: Vec, radius: number): void {
+    this.stand(target, distanceFor(this.camera, radius));
+  }
+
+  /** Looks at a place from so far away, in the direction in which it looks already. */
+  private stand(target: Vec, away: number): void {
     const direction = this.camera.getWorldDirection(new Vector3());
     this.controls.target.set(...target);
-    this.camera.position.copy(this.controls.target).addScaledVector(direction, -distanceFor(this.camera, radius));
+    this.camera.position.copy(this.controls.target).addScaledVector(direction, -away);
     this.controls.update();
   }
 

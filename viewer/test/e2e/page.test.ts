@@ -271,6 +271,19 @@ test('a damaged page says so', async () => {
   }
 });
 
+test('a page that was cut short says so by itself', async () => {
+  const text = pageWith(payload(small.head, small.blocks));
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await page.goto(folder.write('cut.html', text.slice(0, text.indexOf('strake-results'))));
+  const late = page.locator('.late');
+  assert.equal(await late.isVisible(), false);
+  await late.evaluate((element) => element.getAnimations().forEach((animation) => animation.finish()));
+  assert.match((await late.textContent())!, /cut short/);
+  assert.ok(await late.isVisible());
+  await context.close();
+});
+
 test('a damaged model is told in its place, and the lists work', async () => {
   const lines = payload(small.head, small.blocks).trimEnd().split('\n').filter((l) => !l.includes('id="strake-shapes"') && !l.includes('id="strake-drawing-0"'));
   const { page } = await openPage(browser, folder.write('no-model.html', pageWith(lines.join('\n'))));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { distanceForBox, LOOKS, makeCamera } from '../../src/scene/camera.ts';
+import { Vector3 } from 'three';
 import { distanceTo, LINES, makeBatches } from '../../src/scene/batches.ts';
 import { isLine, itemsOf, lineEnds, makeItems, meshOf, objectBox, type Items, type Vec } from '../../src/scene/items.ts';
 import { meets, passes, pick, type Ray } from '../../src/scene/ray.ts';
@@ -112,4 +114,27 @@ test('lines are told from triangles, drawn by their ends and picked from beside 
   assert.equal(pick(items, down(200, 515))?.object, 0);
   const along: Ray = { from: [-100, 500, 1000], along: [1, 0, 0] };
   assert.ok(passes(meshOf(items, [1]).position, 0, 3, along, 0.01) < Infinity, 'from its end');
+});
+
+test('a box fits into the picture, from every side and in every form', () => {
+  for (const size of [[30000, 8000, 12000], [10, 20000, 10], [500, 500, 500]] as Vec[]) {
+    for (const look of Object.values(LOOKS)) {
+      for (const aspect of [0.6, 1, 2.2]) {
+        const camera = makeCamera();
+        camera.aspect = aspect;
+        camera.far = 1e7;
+        camera.updateProjectionMatrix();
+        camera.lookAt(new Vector3(...look));
+        const direction = camera.getWorldDirection(new Vector3());
+        camera.position.copy(direction).multiplyScalar(-distanceForBox(camera, new Vector3(...size)));
+        camera.updateMatrixWorld();
+        let most = 0;
+        for (let i = 0; i < 8; ++i) {
+          const p = new Vector3(...(size.map((v, k) => ((i >> k) & 1 ? v : -v) / 2) as Vec)).project(camera);
+          most = Math.max(most, Math.abs(p.x), Math.abs(p.y));
+        }
+        assert.ok(most < 1 && most > 0.85, `${size} ${look} ${aspect}: ${most}`);
+      }
+    }
+  }
 });
