@@ -149,7 +149,8 @@ export function makeMaterial(shared: SharedUniforms, options: MaterialOptions): 
       sectionMax: shared.sectionMax,
       focus: shared.focus,
       fade: shared.fade,
-      opacity: { value: options.ghost ? 0.08 : options.behind ? 0.4 : 1 },
+      // A line in a pipe covers next to nothing of it, and has to be seen.
+      opacity: { value: options.ghost ? 0.08 : options.behind && !options.lines ? 0.4 : 1 },
       tint: { value: new Color(options.colour ?? 0x888888) },
       tinted: { value: options.ghost ? 1 : 0 },
     },

@@ -11,7 +11,7 @@ import type { Model } from '../payload/payload.ts';
 import { type Batch, distanceTo, makeBatches } from './batches.ts';
 import { distanceFor, distanceForBox, LOOKS, makeCamera, setDepth, type Side } from './camera.ts';
 import { type BatchMaterials, GpuBatches } from './gpu_batches.ts';
-import { type Items, isLine, itemsOf, lineEnds, makeItems, meshOf, objectBox, type Vec } from './items.ts';
+import { type Items, isLine, itemsOf, linePieces, makeItems, meshOf, objectBox, type Vec } from './items.ts';
 import { makeMaterial, ObjectStates, type SharedUniforms } from './materials.ts';
 import { type Hit, type Limits, pick, type Ray } from './ray.ts';
 
@@ -326,10 +326,9 @@ export class View {
   }
 
   private paintLines(lines: Uint32Array, paint: Paint): void {
-    const mesh = meshOf(this.items, lines);
     const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(mesh.position, 3));
-    geometry.setIndex(new BufferAttribute(lineEnds(mesh), 1));
+    // Software rendering leaves out a line that begins behind the camera, as one through a clash does: it is drawn in pieces.
+    geometry.setAttribute('position', new BufferAttribute(linePieces(meshOf(this.items, lines), 200), 3));
     for (const [scene, material] of [[this.pair, paint.line], [this.hiddenPair, paint.lineBehind]] as const) {
       const drawn = new LineSegments(geometry, material);
       drawn.frustumCulled = false;

@@ -4,7 +4,7 @@ import { test } from 'node:test';
 import { distanceForBox, LOOKS, makeCamera } from '../../src/scene/camera.ts';
 import { Vector3 } from 'three';
 import { distanceTo, LINES, makeBatches } from '../../src/scene/batches.ts';
-import { isLine, itemsOf, lineEnds, makeItems, meshOf, objectBox, type Items, type Vec } from '../../src/scene/items.ts';
+import { isLine, itemsOf, lineEnds, linePieces, makeItems, meshOf, objectBox, type Items, type Vec } from '../../src/scene/items.ts';
 import { meets, passes, pick, type Ray } from '../../src/scene/ray.ts';
 import { decodeHead } from '../../src/payload/head.ts';
 import { decodeBoxes, decodeInstances, decodeShapes } from '../../src/payload/payload.ts';
@@ -104,6 +104,8 @@ test('lines are told from triangles, drawn by their ends and picked from beside 
   const items = sheetAndLine();
   assert.deepEqual([isLine(items, 0), isLine(items, 1)], [false, true]);
   assert.deepEqual([...lineEnds(meshOf(items, [1]))], [0, 1, 1, 2]);
+  assert.deepEqual([...linePieces(meshOf(items, [1]), 300)], [
+    0, 500, 1000, 250, 500, 1000, 250, 500, 1000, 500, 500, 1000, 500, 500, 1000, 500, 750, 1000, 500, 750, 1000, 500, 1000, 1000]);
   assert.ok(makeBatches(items).some((batch) => batch.shape === LINES && batch.items.length === 1 && batch.items[0] === 1));
   const down = (x: number, y: number): Ray => ({ from: [x, y, 3000], along: [0, 0, -1] });
   // Two metres below the eye, a hundredth of that is 20 mm.
