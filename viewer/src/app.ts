@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts the panels together: what is chosen in one is shown in the others, and stands in the address.
-import { noFilter } from './data/filter.ts';
+import { noFilter, worstOf } from './data/filter.ts';
 import { type Report, shown } from './data/report.ts';
 import { DrawingPanel } from './drawings/drawing_panel.ts';
 import { groupDetails, objectDetails, resultDetails, type DetailEvents } from './panels/details.ts';
@@ -95,9 +95,18 @@ export class App {
   private listen(): void {
     window.addEventListener('hashchange', () => this.followAddress());
     window.addEventListener('keydown', (event) => this.key(event));
-    window.addEventListener('beforeprint', () => fill(this.printed, printSheet(this.report, this.list?.shown ?? new Uint32Array(0))));
+    window.addEventListener('beforeprint', () => this.print());
     window.addEventListener('afterprint', () => fill(this.printed));
     window.matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.scene.theme());
+  }
+
+  /** What is looked at is printed: the drawing, or the list, with the chosen clash before it. */
+  private print(): void {
+    const drawing = this.place === 'drawings' ? this.drawings?.copy() : undefined;
+    const chosen = this.place === 'list' && this.row !== undefined
+      ? h('div', { class: 'print-chosen' }, this.scene.print(), resultDetails(this.report, this.row, this.detailEvents()))
+      : undefined;
+    fill(this.printed, drawing ?? printSheet(this.report, this.list?.shown ?? new Uint32Array(0), chosen));
   }
 
   private go(place: Place): void {
@@ -171,7 +180,12 @@ export class App {
     const groups = this.report.groups!;
     this.row = undefined;
     fill(this.details, groupDetails(this.report, group, this.detailEvents()));
-    this.scene.showPlace(groups.min.map((v) => v[group]!) as Vec, groups.max.map((v) => v[group]!) as Vec);
+    this.details.scrollTop = 0;
+    const results = this.report.results!;
+    const worst = worstOf(results, group);
+    // One of the group stands for it, in colour, amid the place of all of them.
+    this.drawings?.mark(worst === undefined ? [] : [results.a[worst]!, results.b[worst]!]);
+    this.scene.showPlace(worst, groups.min.map((v) => v[group]!) as Vec, groups.max.map((v) => v[group]!) as Vec);
   }
 
   /** Goes where the address says; false where it says nothing. */

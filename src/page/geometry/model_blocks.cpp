@@ -157,7 +157,6 @@ std::string scene_member(const model::Scene& scene, const ShownObjects& shown,
   std::uint64_t triangles = 0;
   for (const PageInstance& instance : shapes.instances)
     triangles += shapes.meshes[instance.shape].index.size() / 3;
-  // An object that is to be shown but of which nothing is: it has lines alone.
   std::uint64_t as_shapes = 0;
   for (std::size_t i = 0; i < shapes.instances.size(); ++i)
     if (i == 0 || shapes.instances[i].object != shapes.instances[i - 1].object) ++as_shapes;

@@ -52,8 +52,15 @@ class MeshCutter {
       index_.push_back(static_cast<std::uint16_t>(at->second));
     }
   }
+  /// `vertex(i)` is in millimetres. A line is a triangle whose second and third vertices are one.
+  template <class Vertex>
+  void add_line(std::uint32_t from, std::uint32_t to, const Vertex& vertex) {
+    add({from, to, to}, vertex);
+  }
   /// Vertices are counted anew.
   void next_part() { numbers_.clear(); }
+  /// What follows is a mesh of its own.
+  void next_mesh() { flush(); }
   std::vector<PageMesh> finish() {
     flush();
     return std::move(meshes_);
@@ -159,11 +166,19 @@ std::vector<PageMesh> page_meshes(const geometry::TriangleMesh& mesh) {
 
 std::vector<PageMesh> page_meshes(const model::GridShape& shape) {
   MeshCutter cutter;
+  const auto vertex_of = [](const geometry::Part& part) {
+    return [&part](std::uint32_t v) { return geometry::to_mm(part.vertices[v].as<double>()); };
+  };
   for (const geometry::Part& part : shape.parts) {
     cutter.next_part();
-    for (const geometry::Triangle& t : part.triangles)
-      cutter.add(t,
-                 [&](std::uint32_t v) { return geometry::to_mm(part.vertices[v].as<double>()); });
+    for (const geometry::Triangle& t : part.triangles) cutter.add(t, vertex_of(part));
+  }
+  cutter.next_mesh();
+  for (const geometry::Part& part : shape.parts) {
+    cutter.next_part();
+    for (std::size_t c = 0; c + 1 < part.chain_first.size(); ++c)
+      for (std::uint32_t v = part.chain_first[c]; v + 1 < part.chain_first[c + 1]; ++v)
+        cutter.add_line(v, v + 1, vertex_of(part));
   }
   return cutter.finish();
 }

@@ -24,7 +24,8 @@ struct PageMesh {
 /// indices can name.
 [[nodiscard]] std::vector<PageMesh> page_meshes(const geometry::TriangleMesh& mesh);
 
-/// Returns the triangles of a shape on the grid, relative to its origin.
+/// Returns the triangles of a shape on the grid, relative to its origin, and then its lines, in
+/// meshes of their own: a line is a triangle whose second and third corners are one vertex.
 [[nodiscard]] std::vector<PageMesh> page_meshes(const model::GridShape& shape);
 
 /// How fine a page shows what is curved: corners of a circle. Nobody measures by it, and it is

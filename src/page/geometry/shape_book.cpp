@@ -62,11 +62,10 @@ class ShapeBook {
     PageInstance instance{.object = model::index(body.object), .colour = colour_of(source.color)};
     const auto* const primitive =
         std::get_if<geometry::Primitive>(&scene_.model->shapes[model::index(shape.shape)]);
-    if (primitive != nullptr) {
-      if (std::holds_alternative<geometry::LinePrimitive>(*primitive)) return;
+    if (primitive != nullptr && !std::holds_alternative<geometry::LinePrimitive>(*primitive)) {
       place(*primitive, source.placement, instance);
     } else {
-      if (!has_triangles(shape)) return;
+      if (!is_drawn(shape)) return;
       std::optional<std::uint32_t>& number = of_grid_[body.grid_shape];
       if (!number) number = next(body.grid_shape);
       instance.shape = *number;
@@ -97,9 +96,10 @@ class ShapeBook {
   }
 
  private:
-  static bool has_triangles(const model::GridShape& shape) {
-    return std::ranges::any_of(shape.parts,
-                               [](const geometry::Part& part) { return !part.triangles.empty(); });
+  static bool is_drawn(const model::GridShape& shape) {
+    return std::ranges::any_of(shape.parts, [](const geometry::Part& part) {
+      return !part.triangles.empty() || part.chain_first.size() > 1;
+    });
   }
   std::uint32_t next(ShapeSource source) {
     sources_.push_back(std::move(source));

@@ -43,9 +43,12 @@ ShapeCost cost_of(const model::GridShape& shape, const model::Model& model) {
     return {0, kPrimitiveTriangles};
   ShapeCost cost;
   for (const geometry::Part& part : shape.parts) {
-    if (part.triangles.empty()) continue;
-    cost.bytes += 6 * (part.vertices.size() + part.triangles.size());
-    cost.triangles += part.triangles.size();
+    // A line is a triangle, too; no part has both.
+    const std::size_t triangles =
+        part.kind == geometry::PartKind::wire ? part.vertices.size() : part.triangles.size();
+    if (triangles == 0) continue;
+    cost.bytes += 6 * (part.vertices.size() + triangles);
+    cost.triangles += triangles;
   }
   return cost;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -182,17 +183,30 @@ class ClashDrawer {
     return line;
   }
 
-  /// Rings the points of the results, white round the ring so that it shows on anything.
+  /// Rings the points of the results, white round the ring so that it shows on anything. The worse
+  /// come first, and those behind whose rings would cross theirs are left out: a heap of rings
+  /// hides what they are round.
   void add_marks() {
     constexpr double kFirst = 4, kOthers = 1.6;
-    for (std::size_t i = subject_.results.size(); i-- > 0;) {
+    struct Mark {
+      PicturePoint at;
+      double radius;
+    };
+    std::vector<Mark> marks;
+    for (std::size_t i = 0; i < subject_.results.size(); ++i) {
       const clash::Pair& pair = pair_of(scenery_.contents(), subject_.results[i]);
       const PicturePoint at = paper(geometry::to_mm(grid_point(pair.point_mm) - target_));
       if (at.x < 0 || at.y < 0 || at.x > picture_.width_mm || at.y > picture_.view_mm) continue;
       if (!viewpoint_.box_mm.meets({pair.point_mm, pair.point_mm})) continue;
       const double radius = i == 0 ? kFirst : kOthers;
-      picture_.rings.push_back({at, radius, 1.1, {255, 255, 255}, false});
-      picture_.rings.push_back({at, radius, 0.45, kColourOfMark, false});
+      const bool is_crowded = std::ranges::any_of(marks, [&](const Mark& mark) {
+        return std::hypot(mark.at.x - at.x, mark.at.y - at.y) < mark.radius + radius;
+      });
+      if (!is_crowded) marks.push_back({at, radius});
+    }
+    for (const Mark& mark : std::views::reverse(marks)) {
+      picture_.rings.push_back({mark.at, mark.radius, 1.1, {255, 255, 255}, false});
+      picture_.rings.push_back({mark.at, mark.radius, 0.45, kColourOfMark, false});
     }
   }
 

@@ -250,7 +250,7 @@ class ModelInPage(PageScenario):
                 for i, its in enumerate(table['object'])}
 
     def test_shapes_and_boxes_of_the_same_objects(self):
-        self.ship(400)
+        self.ship(1200)
         self.run_ok('clash', 'ship.glb', '--page-geometry', 'all', '-o', 'x.html')
         self.run_ok('clash', 'ship.glb', '--page-geometry', 'boxes', '-o', 'boxes.html')
         page, boxes = self.page(), self.page('boxes.html')
@@ -259,7 +259,10 @@ class ModelInPage(PageScenario):
         self.assertEqual(boxes.head['scene']['objects_as_boxes'], len(coarse))
         self.assertEqual(sum(page.columns['strake-shapes']['triangles'][s] for s in page.columns['strake-instances']['shape']),
                          page.head['scene']['triangles'])
-        self.assertGreater(len(shapes), 300)
+        self.assertEqual(len(shapes), 1200)
+        self.assertEqual(page.head['scene']['objects_left_out'], 0)
+        index = page.columns['strake-shapes']['index']
+        self.assertTrue(any(q == r for q, r in zip(index[1::3], index[2::3])), 'a ship has lines without thickness')
         slack = boxes.head['scene']['boxes']['step'] + .5
         for its, box in shapes.items():
             for k in range(3):

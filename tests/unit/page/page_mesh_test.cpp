@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/primitives/tessellate.hpp"
+#include "strake/geometry/grid.hpp"
 
 namespace strake::page {
 namespace {
@@ -109,6 +110,30 @@ TEST(PageMesh, LargeMeshesAreCutAndLoseNothing) {
     for (std::size_t c = 0; c < 3; ++c)
       for (int k = 0; k < 2; ++k)
         EXPECT_NEAR(triangles[t][c][k], mesh.vertices[mesh.triangles[t][c]][k], .01);
+}
+
+TEST(PageMesh, LinesAreMeshesOfTheirOwn) {
+  model::GridShape shape;
+  geometry::Part& sheet = shape.parts.emplace_back();
+  sheet.vertices = {{0, 0, 0}, {1000000, 0, 0}, {0, 1000000, 0}};
+  sheet.triangles = std::vector<geometry::Triangle>{{0, 1, 2}};
+  geometry::Part& wire = shape.parts.emplace_back();
+  wire.kind = geometry::PartKind::wire;
+  wire.vertices = {{0, 0, 0}, {2000000, 0, 0}, {2000000, 3000000, 0}, {0, 0, 5000000}, {0, 0, 0}};
+  wire.chain_first = {0, 3, 5};
+  const std::vector<PageMesh> meshes = page_meshes(shape);
+  ASSERT_EQ(meshes.size(), 2U);
+  EXPECT_NE(meshes[0].index[1], meshes[0].index[2]);
+  const auto lines = triangles_of({meshes[1]});
+  ASSERT_EQ(lines.size(), 3U);
+  const std::vector<std::array<std::size_t, 2>> ends{{0, 1}, {1, 2}, {3, 4}};
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    EXPECT_EQ(meshes[1].index[3 * i + 1], meshes[1].index[3 * i + 2]);
+    for (std::size_t c = 0; c < 2; ++c)
+      for (int k = 0; k < 3; ++k)
+        EXPECT_NEAR(lines[i][c][k], geometry::to_mm(wire.vertices[ends[i][c]].as<double>())[k],
+                    .01);
+  }
 }
 
 TEST(PageMesh, WhatIsEmptyHasNoMesh) {

@@ -64,6 +64,15 @@ TEST(ClashPicture, ShowsBothObjectsAndWhereTheyCross) {
       picture->texts, [](const PictureText& t) { return t.text.starts_with("Hit, ") && t.bold; }));
 }
 
+TEST(ClashPicture, RingsDoNotCrowd) {
+  const PicturedClash clash(crossing());
+  Subject group = clash.subject("pipe", "beam");
+  group.results.insert(group.results.end(), 5, group.results.front());
+  const auto picture = picture_of(clash, group);
+  ASSERT_TRUE(picture);
+  EXPECT_EQ(picture->rings.size(), 2U) << "one place, one ring";
+}
+
 TEST(ClashPicture, WithoutACaptionIsTheViewAlone) {
   const PicturedClash clash(crossing());
   PictureOptions options;

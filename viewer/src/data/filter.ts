@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which results the table shows, and in what order.
-import { NONE16, NONE32, NONE8 } from '../payload/payload.ts';
+import { NONE16, NONE32, NONE8, type Results } from '../payload/payload.ts';
 import { cellOf, objectName, type Report, shown } from './report.ts';
 import { sortByValue } from './order.ts';
 
@@ -154,6 +154,17 @@ export class Rows {
       });
     };
   }
+}
+
+/** The severest result of a group, the deepest of several, or undefined where it has none. */
+export function worstOf(results: Results, group: number): number | undefined {
+  let worst: number | undefined;
+  for (let i = 0; i < results.count; ++i) {
+    if (results.group?.[i] !== group) continue;
+    const more = worst === undefined ? -1 : SEVERITY[results.class[i]!]! - SEVERITY[results.class[worst]!]! || results.d[i]! - results.d[worst]!;
+    if (more < 0) worst = i;
+  }
+  return worst;
 }
 
 /** HIT first, then what is too close; what touches is mostly meant. */

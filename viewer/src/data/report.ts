@@ -78,9 +78,12 @@ export function objectId(objects: Objects, object: number): string {
   return objects.id.at(object);
 }
 
-/** The name of an object, with what would not show replaced. */
+/** The name of an object, with what would not show replaced; never blank. */
 export function objectName(objects: Objects, object: number): string {
-  return shown((objects.flags[object]! & NAME_IS_ID) !== 0 ? objects.id.at(object) : objects.names.at(object)) || shown(objects.id.at(object));
+  const name = shown((objects.flags[object]! & NAME_IS_ID) !== 0 ? objects.id.at(object) : objects.names.at(object));
+  if (name.trim() !== '') return name;
+  const id = shown(objects.id.at(object));
+  return id.trim() !== '' ? id : '(no name)';
 }
 
 export function fileName(report: Report, object: number): string {

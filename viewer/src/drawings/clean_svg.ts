@@ -56,6 +56,9 @@ function taken(from: Element, found: CleanDrawing, depth: number): SVGElement {
     const value = from.getAttribute(attribute);
     if (value !== null && PLAIN_PAINT.test(value) && !/url/i.test(value)) element.setAttribute(attribute, value);
   }
+  // Dashes are fitted to each line, and stand in its style; all else of that is left.
+  const dashes = /^stroke-dasharray:([\d. ]+|none)$/.exec(from.getAttribute('style') ?? '')?.[1];
+  if (dashes !== undefined) element.style.strokeDasharray = dashes;
   if (name === 'g' && from.getAttributeNS(INKSCAPE, 'groupmode') === 'layer') {
     found.layers.push({ label: from.getAttributeNS(INKSCAPE, 'label') ?? from.id, group: element as SVGGElement });
   }

@@ -65,6 +65,16 @@ export class DrawingPanel {
     this.mark(this.wanted);
   }
 
+  /** The drawing that is shown, all of it, for paper; undefined where none is. */
+  copy(): HTMLElement | undefined {
+    const drawing = this.opened.get(this.current);
+    if (!drawing || typeof drawing === 'string') return undefined;
+    const svg = drawing.svg.cloneNode(true) as SVGSVGElement;
+    const { whole } = drawing.svg.dataset;
+    if (whole) svg.setAttribute('viewBox', whole);
+    return h('div', { class: 'paper print-drawing' }, svg, h('p', {}, 'Fitted to this paper: do not measure on it.'));
+  }
+
   /** Marks objects in the drawing. */
   mark(objects: number[]): void {
     this.wanted = objects;

@@ -6,7 +6,7 @@ import { fileName, hasDisciplines, disciplineOf, objectName, type Report, shown 
 import { CLASS_PLURALS, CLASS_WORDS, coordinate, count, length, plural, STATUS_WORDS } from '../data/words.ts';
 import { NONE8 } from '../payload/payload.ts';
 import { classCell, type Column, ResultTable } from '../table/result_table.ts';
-import { classMark, fill, h, shortName, toggle } from '../ui/dom.ts';
+import { classMark, fill, h, shortName, toggle, wrappedName } from '../ui/dom.ts';
 
 export interface ListEvents {
   chosen(row: number): void;
@@ -15,6 +15,16 @@ export interface ListEvents {
 }
 
 const SEVERITY_OF_GROUP = [0, 2, 1];
+
+/** How many characters the longest of some coordinates has: one that is cut would read as another number. */
+function mostDigits(values: Float64Array): number {
+  let [least, most] = [0, 0];
+  for (const v of values) {
+    if (v < least) least = v;
+    else if (v > most) most = v;
+  }
+  return Math.max(coordinate(least).length, coordinate(most).length);
+}
 
 export class ListPanel {
   readonly element: HTMLElement;
@@ -205,14 +215,16 @@ export class ListPanel {
     const name = (object: number, row: number, side: 'a' | 'b'): Node => {
       const discipline = disciplineOf(this.report, row, side);
       const below = discipline >= 0 ? shown(this.report.head.disciplines[discipline]!) : this.report.head.files.length > 1 ? fileName(this.report, object) : '';
-      return h('span', { class: 'object-cell' }, shortName(objectName(objects, object).slice(0, 200)), below !== '' && h('small', {}, below.slice(0, 60)));
+      const words = objectName(objects, object).slice(0, 200);
+      return h('span', { class: 'object-cell' }, below === '' ? wrappedName(words) : shortName(words), below !== '' && h('small', {}, below.slice(0, 60)));
     };
+    const widest = [results.x, results.y, results.z].reduce((n, v) => n + mostDigits(v), 4);
     const columns: Column[] = [
       { id: 'class', label: 'Class', title: 'What it is', width: '6rem', cell: (r) => classCell(results.class[r]!, CLASS_WORDS[results.class[r]!]!) },
       { id: 'd', label: 'd mm', title: 'Distance; less than 0 is depth', width: '4.6rem', right: true, cell: (r) => length(results.d[r]!) },
       { id: 'a', label: 'Object A', title: 'The one object', width: 'minmax(5rem, 1fr)', cell: (r) => name(results.a[r]!, r, 'a') },
       { id: 'b', label: 'Object B', title: 'The other object', width: 'minmax(5rem, 1fr)', cell: (r) => name(results.b[r]!, r, 'b') },
-      { id: 'place', label: 'Place mm', title: 'x, y, z', width: '10.6rem', right: true, cell: (r) => `${coordinate(results.x[r]!)}  ${coordinate(results.y[r]!)}  ${coordinate(results.z[r]!)}` },
+      { id: 'place', label: 'Place mm', title: 'x, y, z', width: `${Math.max(7, 0.54 * widest + 0.6).toFixed(1)}rem`, right: true, cell: (r) => `${coordinate(results.x[r]!)}  ${coordinate(results.y[r]!)}  ${coordinate(results.z[r]!)}` },
     ];
     if (results.status || results.allowed) {
       columns.push({ id: 'status', label: 'Status', title: 'What was decided', width: '5.6rem', cell: (r) => {

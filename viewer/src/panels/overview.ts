@@ -141,6 +141,13 @@ function matrix(report: Report, events: OverviewEvents): HTMLElement | undefined
   );
 }
 
+/** Which objects a test compares. */
+function setsOf({ sets }: TestSummary): string {
+  if (sets.a === '*' && sets.b === '*') return 'all with all';
+  const words = (set: string): string => (set === '*' ? 'all' : shown(set));
+  return `${words(sets.a)} with ${words(sets.b)}`;
+}
+
 function tests(report: Report, list: TestSummary[], events: OverviewEvents): HTMLElement {
   const cell = (n: number): HTMLElement => h('td', { class: 'right' }, count(n));
   return section(
@@ -150,7 +157,7 @@ function tests(report: Report, list: TestSummary[], events: OverviewEvents): HTM
         h('thead', {}, h('tr', {}, ...['Test', 'Objects A', 'Objects B', 'Hits', 'Too close', 'Contacts', 'Allowed', 'Clearance mm', 'Touching mm'].map((t, i) => h('th', { scope: 'col', class: i > 0 ? 'right' : '' }, t)))),
         h('tbody', {}, ...list.map((t, i) =>
           h('tr', {},
-            h('th', { scope: 'row' }, h('button', { type: 'button', class: 'link', onclick: () => events.showTest(i) }, shown(t.name) || 'All results'), h('div', { class: 'hint' }, `${shown(t.sets.a)} against ${shown(t.sets.b)}`)),
+            h('th', { scope: 'row' }, h('button', { type: 'button', class: 'link', onclick: () => events.showTest(i) }, shown(t.name) || 'All results'), h('div', { class: 'hint' }, setsOf(t))),
             cell(t.objects.a), cell(t.objects.b), cell(t.counts.HIT), cell(t.counts.CLEARANCE_VIOLATION), cell(t.counts.CONTACT), cell(t.counts.ALLOWED),
             h('td', { class: 'right' }, exact(t.settings.clearance_mm) + (t.settings.clearance_attribute ? ` + ${shown(t.settings.clearance_attribute)}` : '')),
             h('td', { class: 'right' }, `−${exact(t.settings.touch_overlap_mm)} to ${exact(t.settings.touch_gap_mm)}`)))))),

@@ -8,7 +8,8 @@ import { h } from '../ui/dom.ts';
 // Some forty pages; more is for a program, not for paper.
 const MOST_ROWS = 2000;
 
-export function printSheet(report: Report, rows: Uint32Array): HTMLElement {
+/** `chosen` is what is told of the chosen clash, where there is one. */
+export function printSheet(report: Report, rows: Uint32Array, chosen: HTMLElement | undefined): HTMLElement {
   const { head, results, objects } = report;
   const sum = totals(head);
   const listed = rows.subarray(0, MOST_ROWS);
@@ -19,6 +20,7 @@ export function printSheet(report: Report, rows: Uint32Array): HTMLElement {
     h('h1', {}, shown(head.title)),
     h('p', {}, [shown(head.program), head.made && shown(head.made)].filter(Boolean).join(', ')),
     head.clash && h('p', {}, `${count(sum.HIT)} hits, ${count(sum.CLEARANCE_VIOLATION)} too close, ${count(sum.CONTACT)} contacts, ${count(sum.ALLOWED)} allowed.`),
+    chosen,
     results && h('p', {}, `${count(rows.length)} of ${count(results.count)} results are in the list${listed.length < rows.length ? `; the first ${count(listed.length)} are printed` : ''}.`),
     results && h('table', {},
       h('thead', {}, h('tr', {}, ...['Class', 'd mm', 'Object A', 'Object B', 'x mm', 'y mm', 'z mm', ...(status ? ['Status'] : [])].map((t) => h('th', { scope: 'col', class: t.endsWith(' mm') ? 'right' : '' }, t)))),

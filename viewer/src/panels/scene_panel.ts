@@ -119,9 +119,18 @@ export class ScenePanel {
     this.told.hidden = this.ready;
   }
 
-  showPlace(min: Vec, max: Vec): void {
-    this.wanted = () => this.showPlace(min, max);
+  /** Shows a place, with a result that stands for those there. */
+  showPlace(row: number | undefined, min: Vec, max: Vec): void {
+    if (row === undefined) this.showNothing();
+    else this.showResult(row, false);
+    this.wanted = () => this.showPlace(row, min, max);
     this.view?.showBox(min, max);
+  }
+
+  /** What is seen, for paper, with the names of the two; undefined where nothing is. */
+  print(): HTMLElement | undefined {
+    if (!this.ready || this.canvas.clientWidth === 0) return undefined;
+    return h('figure', {}, h('img', { src: this.canvas.toDataURL('image/png'), alt: 'The model' }));
   }
 
   fly(): void {
@@ -172,7 +181,7 @@ export class ScenePanel {
     return h(
       'div',
       { class: 'tools', role: 'toolbar', 'aria-label': 'View of the model' },
-      tool('Clash', 'Fly to the clash (Enter)', () => this.fly()),
+      this.report.results && tool('Clash', 'Fly to the clash (Enter)', () => this.fly()),
       tool('All', 'The whole model (F)', () => this.view?.fit()),
       h('span', { class: 'gap' }),
       tool('Top', 'From the top (1)', () => this.view?.look('top')),

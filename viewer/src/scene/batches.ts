@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts items together for drawing: many instances of a shape as one instanced batch, the rest of a neighbourhood as one
 // mesh. A batch holds things that are near each other, so that what is near can be drawn first and what is out of view left out.
-import { type Items, itemTriangles } from './items.ts';
+import { isLine, type Items, itemTriangles } from './items.ts';
 
 export interface Batch {
-  /** the shape that all items are instances of; -1: boxes; -2: a mesh of several shapes */
+  /** the shape that all items are instances of; -1: boxes; -2: a mesh of several shapes; -3: lines */
   shape: number;
   items: Uint32Array;
   triangles: number;
@@ -13,6 +13,7 @@ export interface Batch {
 
 export const BOXES = -1;
 export const MERGED = -2;
+export const LINES = -3;
 
 // As much as software rendering draws within a frame or two.
 const TRIANGLES_IN_BATCH = 6000;
@@ -39,6 +40,7 @@ export function makeBatches(items: Items): Batch[] {
   for (let i = 0; i < items.instances; ++i) ++uses[items.model.instances.shape[i]!]!;
   const kind = (item: number): number => {
     if (item >= items.instances) return BOXES;
+    if (isLine(items, item)) return LINES;
     const shape = items.model.instances.shape[item]!;
     return uses[shape]! >= FEWEST_INSTANCES ? shape : MERGED;
   };

@@ -25,6 +25,19 @@ export function distanceFor(camera: PerspectiveCamera, radius: number): number {
   return radius / Math.sin(Math.min(vertical, horizontal));
 }
 
+/** How far from its middle a box fits into the picture, a little air round it, seen as the camera looks. */
+export function distanceForBox(camera: PerspectiveCamera, size: Vector3): number {
+  const vertical = Math.tan((camera.fov * Math.PI) / 360) / 1.08;
+  const horizontal = vertical * camera.aspect;
+  const turn = camera.quaternion.clone().invert();
+  let away = 0;
+  for (let i = 0; i < 8; ++i) {
+    const corner = new Vector3(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5).multiply(size).applyQuaternion(turn);
+    away = Math.max(away, corner.z + Math.max(Math.abs(corner.x) / horizontal, Math.abs(corner.y) / vertical));
+  }
+  return away;
+}
+
 /** Sets the planes between which one sees, by what there is to be seen. */
 export function setDepth(camera: PerspectiveCamera, target: Vector3, reach: number): void {
   const away = camera.position.distanceTo(target);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes what the graphics card draws of a batch, when it is drawn for the first time.
-import { BufferAttribute, BufferGeometry, InstancedBufferAttribute, InstancedBufferGeometry, Mesh, type ShaderMaterial } from 'three';
-import { type Batch, BOXES, MERGED } from './batches.ts';
-import { type Items, itemVertices, meshOf } from './items.ts';
+import { BufferAttribute, BufferGeometry, InstancedBufferAttribute, InstancedBufferGeometry, LineSegments, Mesh, type ShaderMaterial } from 'three';
+import { type Batch, BOXES, LINES, MERGED } from './batches.ts';
+import { type Items, itemVertices, lineEnds, meshOf } from './items.ts';
 
 export interface BatchMaterials {
   instanced: ShaderMaterial;
   merged: ShaderMaterial;
+  lines: ShaderMaterial;
 }
 
 interface ShapeAttributes {
@@ -15,26 +16,28 @@ interface ShapeAttributes {
 }
 
 export class GpuBatches {
-  private readonly meshes = new Map<Batch, Mesh>();
+  private readonly meshes = new Map<Batch, Mesh | LineSegments>();
   private readonly shapes = new Map<number, ShapeAttributes>();
 
   constructor(private readonly items: Items) {}
 
   /** The mesh of a batch. Its material is set whenever it is drawn. */
-  mesh(batch: Batch, materials: BatchMaterials): Mesh {
+  mesh(batch: Batch, materials: BatchMaterials): Mesh | LineSegments {
     let mesh = this.meshes.get(batch);
     if (!mesh) {
-      mesh = new Mesh(batch.shape === MERGED ? this.merged(batch) : this.instanced(batch));
+      if (batch.shape === LINES) mesh = new LineSegments(this.merged(batch));
+      else mesh = new Mesh(batch.shape === MERGED ? this.merged(batch) : this.instanced(batch));
       mesh.frustumCulled = false;
       mesh.matrixAutoUpdate = false;
       this.meshes.set(batch, mesh);
     }
-    mesh.material = batch.shape === MERGED ? materials.merged : materials.instanced;
+    mesh.material = batch.shape === LINES ? materials.lines : batch.shape === MERGED ? materials.merged : materials.instanced;
     return mesh;
   }
 
   private merged(batch: Batch): BufferGeometry {
-    const { position, index } = meshOf(this.items, batch.items);
+    const mesh = meshOf(this.items, batch.items);
+    const { position } = mesh;
     const object = new Uint32Array(position.length / 3);
     let at = 0;
     for (const item of batch.items) {
@@ -45,7 +48,7 @@ export class GpuBatches {
     const geometry = new BufferGeometry();
     geometry.setAttribute('position', new BufferAttribute(position, 3));
     geometry.setAttribute('object', new BufferAttribute(object, 1));
-    geometry.setIndex(new BufferAttribute(index, 1));
+    geometry.setIndex(new BufferAttribute(batch.shape === LINES ? lineEnds(mesh) : mesh.index, 1));
     return geometry;
   }
 

@@ -112,6 +112,39 @@ export interface Mesh {
   index: Uint32Array;
 }
 
+/** Whether an item is made of lines: triangles whose second and third corners are one vertex. */
+export function isLine(items: Items, item: number): boolean {
+  if (item >= items.instances) return false;
+  const { shapes, instances } = items.model;
+  const shape = instances.shape[item]!;
+  const first = shapes.firstIndex[shape]!;
+  return shapes.triangles[shape]! > 0 && shapes.index[first + 1] === shapes.index[first + 2];
+}
+
+/** The two ends of each line of a mesh that is made of lines. */
+export function lineEnds(mesh: Mesh): Uint32Array<ArrayBuffer> {
+  const ends = new Uint32Array((mesh.index.length / 3) * 2);
+  for (let i = 0; i < ends.length; ++i) ends[i] = mesh.index[3 * (i >> 1) + (i & 1)]!;
+  return ends;
+}
+
+const MOST_PIECES = 64;
+
+/** The ends of the lines of a mesh, as points, in pieces no longer than a length (or as many as are of use). */
+export function linePieces(mesh: Mesh, longest: number): Float32Array<ArrayBuffer> {
+  const ends = lineEnds(mesh);
+  const out: number[] = [];
+  for (let i = 0; i < ends.length; i += 2) {
+    const at = (end: number, k: number): number => mesh.position[3 * ends[i + end]! + k]!;
+    const length = Math.hypot(at(1, 0) - at(0, 0), at(1, 1) - at(0, 1), at(1, 2) - at(0, 2));
+    const pieces = Math.min(MOST_PIECES, Math.max(1, Math.ceil(length / longest)));
+    for (let piece = 0; piece < pieces; ++piece) {
+      for (const step of [piece, piece + 1]) for (let k = 0; k < 3; ++k) out.push(at(0, k) + ((at(1, k) - at(0, k)) * step) / pieces);
+    }
+  }
+  return new Float32Array(out);
+}
+
 export function itemTriangles(items: Items, item: number): number {
   return item < items.instances ? items.model.shapes.triangles[items.model.instances.shape[item]!]! : 12;
 }

@@ -89,22 +89,29 @@ in vec3 seen;
 out vec4 colour;
 void main() {
   if (any(lessThan(place, sectionMin)) || any(greaterThan(place, sectionMax))) discard;
-#ifdef LINES
-  colour = vec4(tint, 1.0);
-  return;
-#endif
-  vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
-  float facing = abs(dot(normal, normalize(seen)));
-  float light = 0.66 + 0.28 * facing + 0.1 * normal.y;
 #ifdef ONE_COLOUR
   vec3 base = tint;
 #else
   vec3 base = mix(shade, tint, tinted);
 #endif
 #ifdef GHOST
-  // Seen edge-on a ghost is denser, so that its outline shows.
   float near = clamp(1.5 - distance(place, focus) / fade, 0.0, 1.0);
   if (near == 0.0) discard;
+#endif
+#ifdef LINES
+  // A line has no face that light could fall on, and as a ghost it is seen edge-on from everywhere.
+#ifdef GHOST
+  colour = vec4(base, 4.0 * opacity * near);
+#else
+  colour = vec4(base, opacity);
+#endif
+  return;
+#endif
+  vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
+  float facing = abs(dot(normal, normalize(seen)));
+  float light = 0.66 + 0.28 * facing + 0.1 * normal.y;
+#ifdef GHOST
+  // Seen edge-on a ghost is denser, so that its outline shows.
   colour = vec4(base, opacity * near * mix(2.4, 0.75, facing));
 #else
   colour = vec4(base * light, opacity);
@@ -142,7 +149,8 @@ export function makeMaterial(shared: SharedUniforms, options: MaterialOptions): 
       sectionMax: shared.sectionMax,
       focus: shared.focus,
       fade: shared.fade,
-      opacity: { value: options.ghost ? 0.08 : options.behind ? 0.4 : 1 },
+      // A line in a pipe covers next to nothing of it, and has to be seen.
+      opacity: { value: options.ghost ? 0.08 : options.behind && !options.lines ? 0.4 : 1 },
       tint: { value: new Color(options.colour ?? 0x888888) },
       tinted: { value: options.ghost ? 1 : 0 },
     },

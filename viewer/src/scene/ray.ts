@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds what a ray meets first: the boxes of all items, then the triangles of those that it goes through, the nearest
 // box first. A million boxes take some milliseconds, and it needs no picture.
-import { type Items, meshOf, type Vec } from './items.ts';
+import { isLine, type Items, meshOf, type Vec } from './items.ts';
 
 export interface Ray {
   from: Vec;
@@ -22,15 +22,17 @@ export interface Limits {
   min?: Vec;
   max?: Vec;
   visible?: (object: number) => boolean;
+  /** how far beside a line the ray may pass, as a share of how far away that is */
+  slack?: number;
 }
 
-/** Where a ray enters a box, or Infinity where it passes by. */
-export function enters(box: Float32Array, at: number, ray: Ray): number {
+/** Where a ray enters a box that is grown to all sides, or Infinity where it passes by. */
+export function enters(box: Float32Array, at: number, ray: Ray, grown = 0): number {
   let near = 0;
   let far = Infinity;
   for (let k = 0; k < 3; ++k) {
     const d = ray.along[k]!;
-    const [low, high] = [box[at + k]! - ray.from[k]!, box[at + 3 + k]! - ray.from[k]!];
+    const [low, high] = [box[at + k]! - grown - ray.from[k]!, box[at + 3 + k]! + grown - ray.from[k]!];
     if (d === 0) {
       if (low > 0 || high < 0) return Infinity;
       continue;
@@ -62,11 +64,32 @@ export function meets(p: Float32Array, a: number, b: number, c: number, ray: Ray
   return t >= 0 ? t : Infinity;
 }
 
+/** Where a ray passes a line near enough, or Infinity. */
+export function passes(p: Float32Array, a: number, b: number, ray: Ray, slack: number): number {
+  const at = (i: number): Vec => [p[i]!, p[i + 1]!, p[i + 2]!];
+  const dot = (x: Vec, y: Vec): number => x[0] * y[0] + x[1] * y[1] + x[2] * y[2];
+  const { from, along } = ray;
+  const off = at(a).map((v, k) => v - from[k]!) as Vec;
+  const line = at(b).map((v, k) => v - p[a + k]!) as Vec;
+  const [square, beside] = [dot(line, line), dot(line, along)];
+  const turn = square - beside * beside;
+  const s = turn > 0 ? Math.min(1, Math.max(0, (beside * dot(along, off) - dot(line, off)) / turn)) : 0;
+  const t = dot(along, off) + s * beside;
+  return t > 0 && Math.hypot(...along.map((v, k) => t * v - off[k]! - s * line[k]!)) <= slack * t ? t : Infinity;
+}
+
+/** How far the farthest corner of a box is. */
+function farthest(box: Float32Array, at: number, from: Vec): number {
+  return Math.hypot(...from.map((v, k) => Math.max(Math.abs(box[at + k]! - v), Math.abs(box[at + 3 + k]! - v))));
+}
+
 /** The first thing that a ray meets. `along` is of length one. */
 export function pick(items: Items, ray: Ray, limits: Limits = {}): Hit | undefined {
+  const { slack = 0 } = limits;
   const found: { item: number; near: number }[] = [];
   for (let item = 0; item < items.count; ++item) {
-    const near = enters(items.box, 6 * item, ray);
+    const grown = slack > 0 && isLine(items, item) ? slack * farthest(items.box, 6 * item, ray.from) : 0;
+    const near = enters(items.box, 6 * item, ray, grown);
     if (near === Infinity) continue;
     if (limits.visible && !limits.visible(items.object[item]!)) continue;
     found.push({ item, near });
@@ -82,7 +105,7 @@ export function pick(items: Items, ray: Ray, limits: Limits = {}): Hit | undefin
     const { position, index } = meshOf(items, [item]);
     for (let i = 0; i < index.length; i += 3) {
       const [a, b, c] = [3 * index[i]!, 3 * index[i + 1]!, 3 * index[i + 2]!];
-      const t = meets(position, a, b, c, ray);
+      const t = b === c ? passes(position, a, b, ray, slack) : meets(position, a, b, c, ray);
       if (t === Infinity || (best && t >= best.distance)) continue;
       const point = ray.from.map((v, k) => v + t * ray.along[k]!) as Vec;
       if (!inside(point)) continue;

@@ -9,9 +9,9 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { SceneHead } from '../payload/head.ts';
 import type { Model } from '../payload/payload.ts';
 import { type Batch, distanceTo, makeBatches } from './batches.ts';
-import { distanceFor, LOOKS, makeCamera, setDepth, type Side } from './camera.ts';
+import { distanceFor, distanceForBox, LOOKS, makeCamera, setDepth, type Side } from './camera.ts';
 import { type BatchMaterials, GpuBatches } from './gpu_batches.ts';
-import { type Items, itemsOf, makeItems, meshOf, objectBox, type Vec } from './items.ts';
+import { type Items, isLine, itemsOf, linePieces, makeItems, meshOf, objectBox, type Vec } from './items.ts';
 import { makeMaterial, ObjectStates, type SharedUniforms } from './materials.ts';
 import { type Hit, type Limits, pick, type Ray } from './ray.ts';
 
@@ -22,6 +22,8 @@ interface Paint {
   body: ShaderMaterial;
   rim: ShaderMaterial;
   behind: ShaderMaterial;
+  line: ShaderMaterial;
+  lineBehind: ShaderMaterial;
 }
 
 /** A clash, in millimetres of the model. */
@@ -40,6 +42,8 @@ const COLOUR_PICKED = 0x009e73;
 
 const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
 const FAR = 1e12;
+// A line is thinner than a finger.
+const PIXELS_BESIDE = 5;
 
 export interface ViewEvents {
   picked(object: number | undefined): void;
@@ -114,6 +118,7 @@ export class View {
     const both = (ghost: boolean): BatchMaterials => ({
       instanced: makeMaterial(this.shared, { instanced: true, ghost }),
       merged: makeMaterial(this.shared, { ghost }),
+      lines: makeMaterial(this.shared, { ghost, lines: true }),
     });
     this.ghosts = both(true);
     this.solids = both(false);
@@ -199,7 +204,8 @@ export class View {
   fit(): void {
     const { bounds } = this.items;
     if (!Number.isFinite(bounds[0]!)) return;
-    this.goTo([0, 1, 2].map((k) => (bounds[k]! + bounds[3 + k]!) / 2) as Vec, this.reach / 5);
+    const size = new Vector3(...([0, 1, 2].map((k) => bounds[3 + k]! - bounds[k]!) as Vec));
+    this.stand([0, 1, 2].map((k) => (bounds[k]! + bounds[3 + k]!) / 2) as Vec, Math.max(100, distanceForBox(this.camera, size)));
   }
 
   look(side: Side): void {
@@ -258,7 +264,8 @@ export class View {
     const along = through.sub(this.camera.position).normalize().toArray() as Vec;
     const ray: Ray = { from, along };
     const chosen = new Set(this.highlighted);
-    const limits: Limits = { min: this.shared.sectionMin.value.toArray() as Vec, max: this.shared.sectionMax.value.toArray() as Vec };
+    const slack = (PIXELS_BESIDE * 2 * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.max(1, this.canvas.clientHeight);
+    const limits: Limits = { slack, min: this.shared.sectionMin.value.toArray() as Vec, max: this.shared.sectionMax.value.toArray() as Vec };
     // One reaches through ghosts for the objects of the clash, and through nothing else.
     if (chosen.size > 0 && this.others_ !== 'solid') {
       const hit = pick(this.items, ray, { ...limits, visible: (object) => chosen.has(object) });
@@ -296,7 +303,10 @@ export class View {
       if (list.length === 0) continue;
       // The object itself is drawn apart, in its colour; in its batch it is left out.
       this.states.hide(object, true);
-      const mesh = meshOf(this.items, list);
+      const lines = list.filter((item) => isLine(this.items, item));
+      if (lines.length > 0) this.paintLines(lines, this.paintOf(colour));
+      if (lines.length === list.length) continue;
+      const mesh = meshOf(this.items, list.filter((item) => !isLine(this.items, item)));
       const geometry = new BufferGeometry();
       geometry.setAttribute('position', new BufferAttribute(mesh.position, 3));
       geometry.setIndex(new BufferAttribute(mesh.index, 1));
@@ -315,6 +325,17 @@ export class View {
     }
   }
 
+  private paintLines(lines: Uint32Array, paint: Paint): void {
+    const geometry = new BufferGeometry();
+    // Software rendering leaves out a line that begins behind the camera, as one through a clash does: it is drawn in pieces.
+    geometry.setAttribute('position', new BufferAttribute(linePieces(meshOf(this.items, lines), 200), 3));
+    for (const [scene, material] of [[this.pair, paint.line], [this.hiddenPair, paint.lineBehind]] as const) {
+      const drawn = new LineSegments(geometry, material);
+      drawn.frustumCulled = false;
+      scene.add(drawn);
+    }
+  }
+
   /** A colour's materials are made once: a new one costs more than drawing with it. */
   private paintOf(colour: number): Paint {
     let paint = this.paints.get(colour);
@@ -322,6 +343,8 @@ export class View {
       paint = {
         body: makeMaterial(this.shared, { colour }),
         behind: makeMaterial(this.shared, { colour, behind: true }),
+        line: makeMaterial(this.shared, { colour, lines: true }),
+        lineBehind: makeMaterial(this.shared, { colour, lines: true, behind: true }),
         rim: makeMaterial(this.shared, { colour: new Color(colour).multiplyScalar(0.45).getHex(), lines: true }),
       };
       this.paints.set(colour, paint);
@@ -389,9 +412,14 @@ export class View {
   }
 
   private goTo(target: Vec, radius: number): void {
+    this.stand(target, distanceFor(this.camera, radius));
+  }
+
+  /** Looks at a place from so far away, in the direction in which it looks already. */
+  private stand(target: Vec, away: number): void {
     const direction = this.camera.getWorldDirection(new Vector3());
     this.controls.target.set(...target);
-    this.camera.position.copy(this.controls.target).addScaledVector(direction, -distanceFor(this.camera, radius));
+    this.camera.position.copy(this.controls.target).addScaledVector(direction, -away);
     this.controls.update();
   }
 
@@ -458,7 +486,7 @@ export class View {
   private piece(): void {
     const materials = this.ghostly ? this.ghosts : this.solids;
     const started = performance.now();
-    const meshes: Mesh[] = [];
+    const meshes: Object3D[] = [];
     let left = !this.fresh ? this.budgets.next : this.moving ? this.budgets.moving : this.budgets.first;
     this.fresh = false;
     while (left > 0 && this.queue.length > 0) {

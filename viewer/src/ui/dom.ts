@@ -59,6 +59,13 @@ export function classMark(cls: number): HTMLElement {
 
 const END = 9;
 
+const TWO_LINES = 40;
+
+/** A name that takes two lines where it has to, or, where even these are too few, loses its middle. */
+export function wrappedName(name: string): HTMLElement {
+  return name.length > TWO_LINES ? shortName(name) : h('span', { class: 'object-name wrapped' }, name);
+}
+
 /** A name that loses its middle where there is no room: ends tell names apart. */
 export function shortName(name: string): HTMLElement {
   if (name.length < 2 * END) return h('span', { class: 'object-name' }, name);

@@ -271,6 +271,19 @@ test('a damaged page says so', async () => {
   }
 });
 
+test('a page that was cut short says so by itself', async () => {
+  const text = pageWith(payload(small.head, small.blocks));
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await page.goto(folder.write('cut.html', text.slice(0, text.indexOf('strake-results'))));
+  const late = page.locator('.late');
+  assert.equal(await late.isVisible(), false);
+  await late.evaluate((element) => element.getAnimations().forEach((animation) => animation.finish()));
+  assert.match((await late.textContent())!, /cut short/);
+  assert.ok(await late.isVisible());
+  await context.close();
+});
+
 test('a damaged model is told in its place, and the lists work', async () => {
   const lines = payload(small.head, small.blocks).trimEnd().split('\n').filter((l) => !l.includes('id="strake-shapes"') && !l.includes('id="strake-drawing-0"'));
   const { page } = await openPage(browser, folder.write('no-model.html', pageWith(lines.join('\n'))));
@@ -328,6 +341,50 @@ test('what is printed has the rows of the list', async () => {
   assert.equal(await page.locator('.print-sheet tbody tr').count(), hits);
   assert.ok(await page.locator('.print-sheet').isVisible());
   assert.equal(await page.locator('main').isVisible(), false);
+  await page.context().close();
+});
+
+test('a drawing that is looked at is printed, and a chosen clash before the list', async () => {
+  const { page } = await openPage(browser, url);
+  const print = (): Promise<boolean> => page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
+  await page.click('#tab-drawings');
+  await page.waitForSelector('.paper svg');
+  await page.click('[aria-label=Larger]');
+  await print();
+  assert.equal(await page.locator('.print-sheet').count(), 0);
+  const whole = await page.getAttribute('.drawings .paper svg', 'data-whole');
+  assert.equal(await page.getAttribute('.print-drawing svg', 'viewBox'), whole);
+  assert.ok((await page.locator('.print-drawing path').count()) > 0);
+  await page.click('#tab-list');
+  await page.click('#results-row-0');
+  await settle(page);
+  await print();
+  assert.equal(await page.locator('.print-drawing').count(), 0);
+  assert.equal(await page.locator('.print-chosen img').evaluate((img: HTMLImageElement) => img.decode().then(() => img.naturalWidth > 100)), true);
+  assert.ok((await page.textContent('.print-chosen'))!.includes(`${small.d[deepest[0]!]!} mm`));
+  await page.context().close();
+});
+
+test('a group that is chosen shows its worst clash in colour', async () => {
+  const { page, faults } = await openPage(browser, url);
+  await page.click('#tab-list');
+  await page.click('text=Groups');
+  await page.click('#groups-row-0');
+  await settle(page);
+  assert.ok(await page.locator('.legend-pair').isVisible());
+  const [a, b] = [await places(page, COLOUR_A_HEX), await places(page, COLOUR_B_HEX)];
+  assert.ok(a.count + b.count > 50, `${a.count} and ${b.count} pixels`);
+  assert.deepEqual(faults, []);
+  await page.context().close();
+});
+
+test('the place of a result is never cut', async () => {
+  const far = ship({ ...SIZES.small!, far: true });
+  const { page } = await openPage(browser, folder.write('far.html', pageWith(payload(far.head, far.blocks))), { viewport: { width: 1500, height: 900 } });
+  await page.click('#tab-list');
+  const cut = await page.locator('.table-results .rows .row > .right').evaluateAll((cells) => cells.filter((c) => c.scrollWidth > c.clientWidth).map((c) => c.textContent));
+  assert.deepEqual(cut, []);
+  assert.match((await page.textContent('#results-row-0 [aria-colindex="5"]'))!, /\d{8}/);
   await page.context().close();
 });
 

@@ -15,6 +15,8 @@ export interface Sizes {
   decisions?: boolean;
   drawings?: number;
   hostile?: boolean;
+  /** ten kilometres from the origin */
+  far?: boolean;
 }
 
 const DIGITS = '0123456789abcdefghjkmnpqrstvwxyz';
@@ -92,7 +94,7 @@ export function ship(sizes: Sizes): Ship {
   const all = objects + boxes;
   const groups = sizes.groups ?? 0;
   const side = Math.max(1, Math.ceil(Math.cbrt(all)));
-  const origin: [number, number, number] = [52000, -3000, 12500];
+  const origin: [number, number, number] = sizes.far ? [1e7, -1e7, 12500] : [52000, -3000, 12500];
   const centre = new Float64Array(3 * all);
   const size = new Float64Array(3 * all);
   const kind = new Uint8Array(all);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { noFilter, Rows, SEVERITY } from '../../src/data/filter.ts';
+import { noFilter, Rows, SEVERITY, worstOf } from '../../src/data/filter.ts';
 import { sortByValue } from '../../src/data/order.ts';
-import { type Report, shown } from '../../src/data/report.ts';
+import { objectName, type Report, shown } from '../../src/data/report.ts';
 import { sentence } from '../../src/data/words.ts';
 import { matrixCounts, runsOf } from '../../src/panels/overview.ts';
 import { decodeHead } from '../../src/payload/head.ts';
@@ -116,4 +116,21 @@ test('a result is told in a sentence', () => {
   assert.equal(sentence(2, 8, 0, 25), 'They are 8.0 mm apart. They have to keep 25 mm.');
   assert.equal(sentence(1, 0, 1, 25), 'They touch.');
   assert.equal(sentence(0, -20, 6, 25), 'The same body stands here twice (20.0 mm deep).');
+});
+
+test('a group stands for its severest result', () => {
+  const { report: r } = report({ objects: 300, results: 420, groups: 12 });
+  const { results, groups } = r;
+  for (let g = 0; g < groups!.count; ++g) {
+    const rows = [...results!.d.keys()].filter((i) => results!.group![i] === g);
+    rows.sort((p, q) => SEVERITY[results!.class[p]!]! - SEVERITY[results!.class[q]!]! || results!.d[p]! - results!.d[q]! || p - q);
+    assert.equal(worstOf(results!, g), rows[0]);
+  }
+  assert.equal(worstOf(results!, groups!.count), undefined);
+});
+
+test('no object is without words', () => {
+  const column = (...texts: string[]): any => ({ at: (i: number) => texts[i]! });
+  const objects = { flags: Uint8Array.of(0, 0, 2), names: column('pipe', ' \u2003', ''), id: column('p1', 'node 1', '  ') } as any;
+  assert.deepEqual([0, 1, 2].map((o) => objectName(objects, o)), ['pipe', 'node 1', '(no name)']);
 });

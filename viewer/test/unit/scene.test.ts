@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { distanceTo, makeBatches } from '../../src/scene/batches.ts';
-import { itemsOf, makeItems, meshOf, objectBox, type Items, type Vec } from '../../src/scene/items.ts';
-import { meets, pick, type Ray } from '../../src/scene/ray.ts';
+import { distanceForBox, LOOKS, makeCamera } from '../../src/scene/camera.ts';
+import { Vector3 } from 'three';
+import { distanceTo, LINES, makeBatches } from '../../src/scene/batches.ts';
+import { isLine, itemsOf, lineEnds, linePieces, makeItems, meshOf, objectBox, type Items, type Vec } from '../../src/scene/items.ts';
+import { meets, passes, pick, type Ray } from '../../src/scene/ray.ts';
 import { decodeHead } from '../../src/payload/head.ts';
 import { decodeBoxes, decodeInstances, decodeShapes } from '../../src/payload/payload.ts';
+import { block, col } from '../support/encode.ts';
 import { seeded, ship } from '../support/ship.ts';
 
 function scene(objects: number, boxes: number): Items {
@@ -79,4 +82,61 @@ test('what a section or a choice leaves out is not met', () => {
   assert.ok(top.point[2] >= only.point[2]);
   const cut = pick(items, ray, { min: [-1e9, -1e9, -1e9], max: [1e9, 1e9, only.point[2] - 1] });
   assert.ok(!cut || cut.point[2] <= only.point[2] - 1);
+});
+
+/** A square sheet and, a metre above it, a line of two pieces: objects 0 and 1. */
+function sheetAndLine(): Items {
+  const bytes = (...columns: Parameters<typeof block>[0]): Uint8Array<ArrayBuffer> => block(columns) as Uint8Array<ArrayBuffer>;
+  const shapes = decodeShapes(bytes(
+    col('vertices', 'u32', Uint32Array.of(4, 3)), col('triangles', 'u32', Uint32Array.of(2, 2)),
+    col('min_x', 'f32', Float32Array.of(0, 0)), col('min_y', 'f32', Float32Array.of(0, 0)), col('min_z', 'f32', Float32Array.of(0, 0)),
+    col('step', 'f32', Float32Array.of(1, 1)),
+    col('position', 'u16', Uint16Array.of(0, 0, 0, 1000, 0, 0, 1000, 1000, 0, 0, 1000, 0, 0, 500, 0, 500, 500, 0, 500, 1000, 0)),
+    col('index', 'u16', Uint16Array.of(0, 1, 2, 0, 2, 3, 0, 1, 1, 1, 2, 2))));
+  const head = { counts: { results: 0, groups: 0, objects: 2 } } as any;
+  const at = (z: number): number[] => [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, z];
+  const instances = decodeInstances(bytes(
+    col('shape', 'u32', Uint32Array.of(0, 1)), col('object', 'u32', Uint32Array.of(0, 1)), col('matrix', 'f32', Float32Array.of(...at(0), ...at(1000)))), head, shapes);
+  return makeItems({ shapes, instances, boxes: undefined }, {} as any, 2);
+}
+
+test('lines are told from triangles, drawn by their ends and picked from beside them', () => {
+  const items = sheetAndLine();
+  assert.deepEqual([isLine(items, 0), isLine(items, 1)], [false, true]);
+  assert.deepEqual([...lineEnds(meshOf(items, [1]))], [0, 1, 1, 2]);
+  assert.deepEqual([...linePieces(meshOf(items, [1]), 300)], [
+    0, 500, 1000, 250, 500, 1000, 250, 500, 1000, 500, 500, 1000, 500, 500, 1000, 500, 750, 1000, 500, 750, 1000, 500, 1000, 1000]);
+  assert.ok(makeBatches(items).some((batch) => batch.shape === LINES && batch.items.length === 1 && batch.items[0] === 1));
+  const down = (x: number, y: number): Ray => ({ from: [x, y, 3000], along: [0, 0, -1] });
+  // Two metres below the eye, a hundredth of that is 20 mm.
+  assert.equal(pick(items, down(200, 515), { slack: 0.01 })?.object, 1);
+  assert.equal(pick(items, down(200, 525), { slack: 0.01 })?.object, 0);
+  assert.equal(pick(items, down(485, 900), { slack: 0.01 })?.distance, 2000);
+  assert.equal(pick(items, down(500, 1015), { slack: 0.01 })?.object, 1);
+  assert.equal(pick(items, down(200, 515))?.object, 0);
+  const along: Ray = { from: [-100, 500, 1000], along: [1, 0, 0] };
+  assert.ok(passes(meshOf(items, [1]).position, 0, 3, along, 0.01) < Infinity, 'from its end');
+});
+
+test('a box fits into the picture, from every side and in every form', () => {
+  for (const size of [[30000, 8000, 12000], [10, 20000, 10], [500, 500, 500]] as Vec[]) {
+    for (const look of Object.values(LOOKS)) {
+      for (const aspect of [0.6, 1, 2.2]) {
+        const camera = makeCamera();
+        camera.aspect = aspect;
+        camera.far = 1e7;
+        camera.updateProjectionMatrix();
+        camera.lookAt(new Vector3(...look));
+        const direction = camera.getWorldDirection(new Vector3());
+        camera.position.copy(direction).multiplyScalar(-distanceForBox(camera, new Vector3(...size)));
+        camera.updateMatrixWorld();
+        let most = 0;
+        for (let i = 0; i < 8; ++i) {
+          const p = new Vector3(...(size.map((v, k) => ((i >> k) & 1 ? v : -v) / 2) as Vec)).project(camera);
+          most = Math.max(most, Math.abs(p.x), Math.abs(p.y));
+        }
+        assert.ok(most < 1 && most > 0.85, `${size} ${look} ${aspect}: ${most}`);
+      }
+    }
+  }
 });
