@@ -213,6 +213,11 @@ class Composer {
     auto places = place_views(what_, drawings_, room_, context_);
     if (!places) return places.error();
     places_ = std::move(*places);
+    for (std::size_t v = 0; v < what_.views.size(); ++v) {
+      const PaperBox& lines = places_[v].lines;
+      dimensioned_.push_back(with_margins(lines, dimension_margins(what_, what_.views[v])));
+      labelled_.push_back(with_margins(lines, label_margins(what_, what_.views[v])));
+    }
     if (const Status status = check_reach(); !status) return status;
     for (std::size_t v = 0; v < what_.views.size(); ++v) {
       const ViewSpec& spec = what_.views[v];
@@ -355,7 +360,8 @@ class Composer {
   void grid() {
     std::vector<bool> somewhere(what_.grid.planes.size());
     for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
-      GridMarks marks = grid_marks(what_.grid, what_.views[v], placement(v), places_[v].lines);
+      GridMarks marks =
+          grid_marks(what_.grid, what_.views[v], placement(v), places_[v].lines, dimensioned_[v]);
       for (std::size_t p = 0; p < somewhere.size(); ++p)
         somewhere[p] = somewhere[p] || marks.drawn[p];
       if (marks.unlabelled > 0)
@@ -380,17 +386,21 @@ class Composer {
     for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
       const ViewSpec& spec = what_.views[v];
       const drawing::Placement place = placement(v);
-      const MarkedView in{spec, place, places_[v].lines};
+      const MarkedView in{spec, place, places_[v].lines, labelled_[v]};
       Marks& marks = sheet_.views[v].notes;
-      const auto within = mark_levels(what_.levels, spec, place, places_[v].lines, marks);
+      const auto within =
+          mark_levels(what_.levels, spec, place, places_[v].lines, dimensioned_[v].right, marks);
       for (std::size_t i = 0; i < level.size(); ++i) level[i] = level[i] || within[i];
       for (std::size_t w = 0; w < sheet_.views.size(); ++w) {
         const ViewSpec& other = what_.views[w];
         if (w != v && !other.section_mark.empty())
           cut[w] = mark_section(other, in, letters, marks) || cut[w];
+      }
+      for (std::size_t w = 0; w < sheet_.views.size(); ++w) {
+        const ViewSpec& other = what_.views[w];
         if (std::ranges::find(spec.extents_of, other.name) == spec.extents_of.end()) continue;
         if (!mark_extent(extent_of(w), other.title.empty() ? other.name : other.title, in, letters,
-                         marks))
+                         sheet_.views[v].grid, marks))
           warn("extent-not-shown",
                "the view '" + spec.name + "' cannot show what '" + other.name +
                    "' shows: one of them is in perspective, or empty",
@@ -399,7 +409,8 @@ class Composer {
     }
     for (std::size_t i = 0; i < level.size(); ++i)
       if (!level[i])
-        warn("level-nowhere", "the level '" + what_.levels.all[i].label + "' shows in no view",
+        warn("level-nowhere",
+             "the level '" + level_text(what_.levels.all[i]) + "' shows in no view",
              what_.levels.where);
     for (std::size_t v = 0; v < cut.size(); ++v)
       if (!cut[v] && !what_.views[v].section_mark.empty())
@@ -413,8 +424,9 @@ class Composer {
       for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
         if (what_.views[v].name != spec.view) continue;
         const drawing::Placement place = placement(v);
-        const Status drawn = draw_dimension(spec, scene_, {what_.views[v], place, places_[v].lines},
-                                            sheet_.views[v].notes);
+        const Status drawn =
+            draw_dimension(spec, scene_, {what_.views[v], place, places_[v].lines, labelled_[v]},
+                           sheet_.views[v].notes);
         if (!drawn) warn("dimension-not-drawn", drawn.error().message, spec.where);
       }
   }
@@ -495,6 +507,8 @@ class Composer {
   std::vector<std::vector<model::ObjectId>> far_left_out_;  ///< of each view
   std::vector<hlr::Drawing> drawings_;
   std::vector<ViewPlace> places_;
+  std::vector<PaperBox> dimensioned_;  ///< the lines of each view, with its dimensions
+  std::vector<PaperBox> labelled_;     ///< and with the labels of its grid lines and levels
   Notes notes_;
   Sheet sheet_;
 };
