@@ -328,7 +328,7 @@ class Composer {
         warn("view-off-the-frame", name + " reaches beyond the frame", view.where);
       if (std::any_of(room_.keep_free.begin(), room_.keep_free.end(),
                       [&](const PaperBox& k) { return k.overlaps(box); }))
-        warn("view-on-title-block", name + " covers the title block", view.where);
+        warn("view-on-title-block", name + " covers the title block or a note", view.where);
       for (std::size_t w = 0; w < v; ++w)
         if (places_[w].whole.overlaps(box))
           warn("views-overlap", name + " overlaps '" + what_.views[w].name + "'", view.where);
