@@ -123,6 +123,27 @@ TEST(Notes, SectionsThatNobodySeesAreToldAndAMarkNeedsOne) {
             std::string::npos);
 }
 
+TEST(Notes, OneLetterForTwoSectionsIsTold) {
+  const auto twice = [](const std::string& front, const std::string& left) {
+    const Drawn d = with_notes("", "[arrangement.front]\nsections=\"y=1m\"\nsection_mark=\"" +
+                                       front + "\"\n[arrangement.left]\nsections=\"x=1m\"\n" +
+                                       "section_mark=\"" + left + "\"\n");
+    return d.sheet.diagnostics.count("section-mark-twice");
+  };
+  EXPECT_EQ(twice("A", "A"), 1U);
+  EXPECT_EQ(twice("A", "B"), 0U);
+}
+
+TEST(Notes, WhatLiesOffThePaperIsTold) {
+  const auto off = [](const std::string& more) {
+    return with_notes(more).sheet.diagnostics.count("note-off-the-sheet");
+  };
+  const std::string dimension = "[[dimension]]\nview=\"front\"\nfrom=[0,0,0]\n";
+  EXPECT_EQ(off(dimension + "to=[\"1m\",0,0]\n[scale_bar]\n"), 0U);
+  EXPECT_EQ(off(dimension + "to=[\"900km\",0,0]\n"), 1U);
+  EXPECT_EQ(off("[scale_bar]\nposition=[\"-9mm\",\"20mm\"]\n"), 1U);
+}
+
 TEST(Notes, LevelsStandAtTheirHeights) {
   const Drawn d = with_notes("[levels]\nz=[\"0m\",[\"DECK\",\"1m\"],\"1.01m\",[\"SKY\",\"9m\"]]\n");
   const PlacedView& front = view_named(d.sheet, "front");
