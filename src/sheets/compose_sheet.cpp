@@ -40,6 +40,17 @@ using drawing::LineState;
 using drawing::rounded_paper;
 using Picks = std::vector<std::vector<bool>>;
 
+/// Returns whether marks, from these on, reach beyond the paper.
+bool leaves_paper(const Marks& marks, std::size_t first_path, std::size_t first_text,
+                  const PaperBox& paper) {
+  const auto off = [&](const PaperPoint& p) { return !paper.holds({p.x, p.y, p.x, p.y}); };
+  for (std::size_t i = first_path; i < marks.paths.size(); ++i)
+    if (std::ranges::any_of(marks.paths[i].points, off)) return true;
+  for (std::size_t i = first_text; i < marks.texts.size(); ++i)
+    if (!paper.holds(box_of(marks.texts[i]))) return true;
+  return false;
+}
+
 class Composer {
  public:
   Composer(const SheetSpec& what, const model::Scene& scene, const ComposeOptions& options,
@@ -60,10 +71,14 @@ class Composer {
     const std::optional<double> scale = main_scale(what_, places_);
     for (std::size_t v = 0; v < what_.views.size(); ++v) caption(v, scale);
     grid();
+    check_section_marks();
     view_marks();
     dimensions();
     fill_frame(what_, scale, sheet_);
     draw_notes(notes_, what_, scale, sheet_);
+    if (leaves_paper(sheet_.notes, 0, 0, paper()))
+      warn("note-off-the-sheet", "a list, the scale bar or north reaches beyond the paper",
+           what_.file);
     if (const Status status = tags(); !status) return status.error();
     for (PlacedView& view : sheet_.views) view.drawing.lines = {};
     return std::move(sheet_);
@@ -213,6 +228,11 @@ class Composer {
     auto places = place_views(what_, drawings_, room_, context_);
     if (!places) return places.error();
     places_ = std::move(*places);
+    for (std::size_t v = 0; v < what_.views.size(); ++v) {
+      const PaperBox& lines = places_[v].lines;
+      dimensioned_.push_back(with_margins(lines, dimension_margins(what_, what_.views[v])));
+      labelled_.push_back(with_margins(lines, label_margins(what_, what_.views[v])));
+    }
     if (const Status status = check_reach(); !status) return status;
     for (std::size_t v = 0; v < what_.views.size(); ++v) {
       const ViewSpec& spec = what_.views[v];
@@ -310,20 +330,21 @@ class Composer {
     return {};
   }
 
+  [[nodiscard]] PaperBox paper() const { return {0, 0, what_.width_mm, what_.height_mm}; }
+
   void check_places() {
-    const PaperBox paper{0, 0, what_.width_mm, what_.height_mm};
     for (std::size_t v = 0; v < places_.size(); ++v) {
       const ViewSpec& view = what_.views[v];
       const PaperBox& box = places_[v].whole;
       const std::string name =
           "the view '" + view.name + "' at " + drawing::scale_text(places_[v].scale);
-      if (!paper.holds(box))
+      if (!paper().holds(box))
         warn("view-off-the-sheet", name + " reaches beyond the paper", view.where);
       else if (!room_.area.holds(box))
         warn("view-off-the-frame", name + " reaches beyond the frame", view.where);
       if (std::any_of(room_.keep_free.begin(), room_.keep_free.end(),
                       [&](const PaperBox& k) { return k.overlaps(box); }))
-        warn("view-on-title-block", name + " covers the title block", view.where);
+        warn("view-on-title-block", name + " covers the title block or a note", view.where);
       for (std::size_t w = 0; w < v; ++w)
         if (places_[w].whole.overlaps(box))
           warn("views-overlap", name + " overlaps '" + what_.views[w].name + "'", view.where);
@@ -355,7 +376,8 @@ class Composer {
   void grid() {
     std::vector<bool> somewhere(what_.grid.planes.size());
     for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
-      GridMarks marks = grid_marks(what_.grid, what_.views[v], placement(v), places_[v].lines);
+      GridMarks marks =
+          grid_marks(what_.grid, what_.views[v], placement(v), places_[v].lines, dimensioned_[v]);
       for (std::size_t p = 0; p < somewhere.size(); ++p)
         somewhere[p] = somewhere[p] || marks.drawn[p];
       if (marks.unlabelled > 0)
@@ -373,6 +395,21 @@ class Composer {
              what_.grid.where);
   }
 
+  /// Warns of views whose sections have one letter, so that nobody knows where each is cut.
+  void check_section_marks() {
+    std::map<std::string, const ViewSpec*> first;
+    for (const ViewSpec& view : what_.views) {
+      if (view.section_mark.empty()) continue;
+      const auto [it, is_new] = first.emplace(view.section_mark, &view);
+      if (!is_new && !std::ranges::equal(it->second->sections, view.sections, {},
+                                         &SectionSpec::text, &SectionSpec::text))
+        warn("section-mark-twice",
+             "the section mark " + view.section_mark + " is that of the view '" + it->second->name +
+                 "', too, which is cut elsewhere",
+             view.where);
+    }
+  }
+
   /// Marks levels, and where and what other views show.
   void view_marks() {
     std::vector<bool> level(what_.levels.all.size()), cut(what_.views.size());
@@ -380,17 +417,21 @@ class Composer {
     for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
       const ViewSpec& spec = what_.views[v];
       const drawing::Placement place = placement(v);
-      const MarkedView in{spec, place, places_[v].lines};
+      const MarkedView in{spec, place, places_[v].lines, labelled_[v]};
       Marks& marks = sheet_.views[v].notes;
-      const auto within = mark_levels(what_.levels, spec, place, places_[v].lines, marks);
+      const auto within =
+          mark_levels(what_.levels, spec, place, places_[v].lines, dimensioned_[v].right, marks);
       for (std::size_t i = 0; i < level.size(); ++i) level[i] = level[i] || within[i];
       for (std::size_t w = 0; w < sheet_.views.size(); ++w) {
         const ViewSpec& other = what_.views[w];
         if (w != v && !other.section_mark.empty())
           cut[w] = mark_section(other, in, letters, marks) || cut[w];
+      }
+      for (std::size_t w = 0; w < sheet_.views.size(); ++w) {
+        const ViewSpec& other = what_.views[w];
         if (std::ranges::find(spec.extents_of, other.name) == spec.extents_of.end()) continue;
         if (!mark_extent(extent_of(w), other.title.empty() ? other.name : other.title, in, letters,
-                         marks))
+                         sheet_.views[v].grid, marks))
           warn("extent-not-shown",
                "the view '" + spec.name + "' cannot show what '" + other.name +
                    "' shows: one of them is in perspective, or empty",
@@ -399,7 +440,8 @@ class Composer {
     }
     for (std::size_t i = 0; i < level.size(); ++i)
       if (!level[i])
-        warn("level-nowhere", "the level '" + what_.levels.all[i].label + "' shows in no view",
+        warn("level-nowhere",
+             "the level '" + level_text(what_.levels.all[i]) + "' shows in no view",
              what_.levels.where);
     for (std::size_t v = 0; v < cut.size(); ++v)
       if (!cut[v] && !what_.views[v].section_mark.empty())
@@ -413,9 +455,13 @@ class Composer {
       for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
         if (what_.views[v].name != spec.view) continue;
         const drawing::Placement place = placement(v);
-        const Status drawn = draw_dimension(spec, scene_, {what_.views[v], place, places_[v].lines},
-                                            sheet_.views[v].notes);
+        Marks& marks = sheet_.views[v].notes;
+        const std::size_t paths = marks.paths.size(), texts = marks.texts.size();
+        const Status drawn = draw_dimension(
+            spec, scene_, {what_.views[v], place, places_[v].lines, labelled_[v]}, marks);
         if (!drawn) warn("dimension-not-drawn", drawn.error().message, spec.where);
+        if (leaves_paper(marks, paths, texts, paper()))
+          warn("note-off-the-sheet", "the dimension reaches beyond the paper", spec.where);
       }
   }
 
@@ -495,6 +541,8 @@ class Composer {
   std::vector<std::vector<model::ObjectId>> far_left_out_;  ///< of each view
   std::vector<hlr::Drawing> drawings_;
   std::vector<ViewPlace> places_;
+  std::vector<PaperBox> dimensioned_;  ///< the lines of each view, with its dimensions
+  std::vector<PaperBox> labelled_;     ///< and with the labels of its grid lines and levels
   Notes notes_;
   Sheet sheet_;
 };

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "drawing/layout/view_plane.hpp"
+#include "sheets/annotation/paper_segments.hpp"
 #include "sheets/annotation/sheet_notes.hpp"
 
 namespace strake::sheets {
@@ -73,7 +74,8 @@ class NotePlanner {
   Notes take() { return std::move(notes_); }
 
  private:
-  void keep_free(const PaperBox& box) { room_.keep_free.push_back(box); }
+  /// Keeps views off a note, and a little farther: lines that touch it would look like its own.
+  void keep_free(const PaperBox& box) { room_.keep_free.push_back(widened(box, kApartMm)); }
 
   void place(NoteTable table, const PaperPoint& at) {
     const PaperPoint rounded{rounded_paper(at.x), rounded_paper(at.y)};

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "geometry/numeric/trig.hpp"
 #include "strake/geometry/primitive.hpp"
@@ -88,11 +89,40 @@ class AxisCover {
   std::vector<std::pair<double, double>> all_;
 };
 
+/// The lines of an object from left to right: an object may have ten thousand primitives, each of
+/// which asks for those beside it.
+class LinesAcross {
+ public:
+  explicit LinesAcross(std::span<const Line> lines) {
+    for (const Line& line : lines) {
+      by_left_.emplace_back(std::min(line.a_paper.x, line.b_paper.x), &line);
+      widest_ = std::max(widest_, std::fabs(line.b_paper.x - line.a_paper.x));
+    }
+    std::ranges::sort(by_left_, {}, &Place::first);
+  }
+
+  /// Calls `f` with all lines that reach between two places, and maybe with others.
+  template <class F>
+  void between(double left, double right, F&& f) const {
+    auto it = std::ranges::lower_bound(by_left_, left - widest_ - kBeside, {}, &Place::first);
+    for (; it != by_left_.end() && it->first <= right + kBeside; ++it) f(*it->second);
+  }
+
+ private:
+  using Place = std::pair<double, const Line*>;
+  std::vector<Place> by_left_;
+  double widest_ = 0;
+};
+
 class ObjectAxes {
  public:
   ObjectAxes(std::span<const Line> lines, const OrthographicPaper& paper, double least_diameter_mm,
              Axes2d& out)
-      : lines_(lines), paper_(paper), least_(least_diameter_mm), out_(out) {}
+      : lines_(lines),
+        object_(lines.front().object),
+        paper_(paper),
+        least_(least_diameter_mm),
+        out_(out) {}
 
   void add(const model::Body& body, const geometry::Primitive& primitive) {
     const geometry::Mat3d& m = body.placement.linear;
@@ -106,7 +136,7 @@ class ObjectAxes {
   }
 
  private:
-  [[nodiscard]] model::ObjectId object() const { return lines_.front().object; }
+  [[nodiscard]] model::ObjectId object() const { return object_; }
 
   void straight(const Vec3d& a, const Vec3d& b, double radius_mm) {
     const double radius = radius_mm / paper_.scale();
@@ -119,12 +149,7 @@ class ObjectAxes {
     // A rim reaches beyond the end of an axis that comes towards the viewer.
     const double rim = radius * std::fabs(dot(along, paper_.toward())) / length_mm;
     const PaperPoint unit{way.x / length, way.y / length};
-    AxisCover cover;
-    for (const Line& line : lines_) {
-      const auto [s, t] = beside(line.a_paper, from, unit);
-      const auto [u, v] = beside(line.b_paper, from, unit);
-      if (std::max(std::fabs(t), std::fabs(v)) <= radius + kBeside) cover.add(s, u);
-    }
+    AxisCover cover = cover_of(from, unit, length, radius);
     const double over = overhang_mm(2 * radius);
     for (const auto& [s, t] : cover.within(length, 2 * over + rim)) {
       const bool first = s <= rim + kBeside, last = t >= length - rim - kBeside;
@@ -137,6 +162,20 @@ class ObjectAxes {
                             object(),
                             false});
     }
+  }
+
+  /// Returns which parts of a straight axis have lines no farther off than the radius.
+  [[nodiscard]] AxisCover cover_of(const PaperPoint& from, const PaperPoint& unit, double length,
+                                   double radius) const {
+    const double end = from.x + unit.x * length, reach = radius + kBeside;
+    AxisCover cover;
+    lines_.between(std::min(from.x, end) - reach, std::max(from.x, end) + reach,
+                   [&](const Line& line) {
+                     const auto [s, t] = beside(line.a_paper, from, unit);
+                     const auto [u, v] = beside(line.b_paper, from, unit);
+                     if (std::max(std::fabs(t), std::fabs(v)) <= reach) cover.add(s, u);
+                   });
+    return cover;
   }
 
   /// Returns how far along an axis, and beside it, a point lies.
@@ -156,13 +195,14 @@ class ObjectAxes {
     if (!(std::fabs(area) > kEdgeOn * square)) return seen_edge_on(c, angle, tube);
     const double ring = tube / std::sqrt(square) * square / std::fabs(area);
     AxisCover cover;
-    for (const Line& line : lines_) {
+    const double reach = (std::fabs(c.u.x) + std::fabs(c.v.x)) * (1 + ring * 1.05);
+    lines_.between(c.centre.x - reach, c.centre.x + reach, [&](const Line& line) {
       const auto [s, r] = around(c, area, line.a_paper, angle);
       const auto [t, q] = around(c, area, line.b_paper, angle);
       if (std::max(std::fabs(r - 1), std::fabs(q - 1)) <= ring * 1.05 &&
           std::fabs(s - t) < geometry::kPi / 2)
         cover.add(s, t);
-    }
+    });
     const double gap = std::max(0.3, overhang_mm(2 * tube) / std::sqrt(square));
     for (const auto& [s, t] : cover.within(angle, gap)) {
       const double begin = s <= gap ? 0 : s, end = t >= angle - gap ? angle : t;
@@ -203,12 +243,7 @@ class ObjectAxes {
     const double x = b.x - a.x, y = b.y - a.y, length = std::sqrt(x * x + y * y);
     if (!(length > 1e-3)) return;
     const PaperPoint unit{x / length, y / length};
-    AxisCover cover;
-    for (const Line& line : lines_) {
-      const auto [s, t] = beside(line.a_paper, a, unit);
-      const auto [u, v] = beside(line.b_paper, a, unit);
-      if (std::max(std::fabs(t), std::fabs(v)) <= tube + kBeside) cover.add(s, u);
-    }
+    AxisCover cover = cover_of(a, unit, length, tube);
     for (const auto& [s, t] : cover.within(length, overhang_mm(2 * tube)))
       if (t - s > 1e-3)
         out_.parts.push_back({{a.x + unit.x * s, a.y + unit.y * s},
@@ -219,7 +254,8 @@ class ObjectAxes {
                               false});
   }
 
-  std::span<const Line> lines_;
+  LinesAcross lines_;
+  model::ObjectId object_;
   const OrthographicPaper& paper_;
   double least_;
   Axes2d& out_;

@@ -35,6 +35,15 @@ std::vector<std::vector<geometry::Ellipse>> circles_of_parts(const model::GridSh
   return circles;
 }
 
+/// Returns whether an edge stands for an arc of a curve: its ends lie on it, and its middle as near
+/// to it as triangles lie to their surface. The straight cut through a torus whose tube reaches its
+/// axis has its ends on the circle of the tube, too.
+bool is_chord(const geometry::Ellipse& curve, const geometry::Vec3d& a, const geometry::Vec3d& b,
+              double sag_mm) {
+  return curve.passes(a, kToleranceMm) && curve.passes(b, kToleranceMm) &&
+         curve.passes((a + b) * 0.5, sag_mm + kToleranceMm);
+}
+
 Result<ShapeCurves> curves_of(const ViewJob& job, const SectionedShape& seen,
                               const geometry::Mat3d& linear) {
   ShapeCurves result;
@@ -50,10 +59,10 @@ Result<ShapeCurves> curves_of(const ViewJob& job, const SectionedShape& seen,
   for (std::size_t p = 0; p < circles.size(); ++p) number[p].assign(circles[p].size(), kNone);
   for (std::uint32_t e = 0; e < edges.size(); ++e) {
     const auto& all = circles[edges[e].part];
+    const geometry::Vec3d a = placed(edges[e].a), b = placed(edges[e].b);
+    const double sag_mm = seen.source->parts[edges[e].part].sag / geometry::kGridPerMm;
     for (std::size_t c = 0; c < all.size(); ++c) {
-      if (!all[c].passes(placed(edges[e].a), kToleranceMm) ||
-          !all[c].passes(placed(edges[e].b), kToleranceMm))
-        continue;
+      if (!is_chord(all[c], a, b, sag_mm)) continue;
       std::uint32_t& n = number[edges[e].part][c];
       if (n == kNone) {
         n = static_cast<std::uint32_t>(result.circles.size());

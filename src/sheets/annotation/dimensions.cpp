@@ -115,12 +115,13 @@ Text text_of_dimension(const DimensionLine& line, const std::string& value, doub
     at = along(line.b, line.way, beyond + kValueMm);
   }
   at.y += level ? -kStandOffMm : kValueMm / 2;
-  return {LineClass::dimension, rounded(at), kValueMm, align, value, !level};
+  return {LineClass::dimension, rounded(at), kValueMm, align, value, true};
 }
 
 void draw_line(const DimensionLine& line, const std::string& value, Marks& marks) {
   const PaperPoint back{-line.way.x, -line.way.y};
-  const double height = std::fabs(line.way.y) < 1e-9 ? 0 : 2 * kValueMm;
+  const bool level = std::fabs(line.way.y) < 1e-9;
+  const double height = level ? 0 : 2 * kValueMm;
   const bool narrow = line.length < 2 * kArrowLengthMm + 1 + height;
   const double beyond = narrow ? 2 * kArrowLengthMm : 0;
   const PaperPoint a = along(line.a, back, beyond), b = along(line.b, line.way, beyond);
@@ -128,8 +129,8 @@ void draw_line(const DimensionLine& line, const std::string& value, Marks& marks
     marks.paths.push_back({LineClass::dimension, {rounded(from), rounded(to)}, false});
   };
   Text text = text_of_dimension(line, value, beyond);
-  // A text that clears the paper clears the view's lines; this one is cut here.
-  const auto gap = text.clears ? clipped({a, b}, widened(box_of(text), 0.5)) : std::nullopt;
+  // The text clears the lines of the view and its grid; this one is cut here.
+  const auto gap = !level ? clipped({a, b}, widened(box_of(text), 0.5)) : std::nullopt;
   if (gap) {
     stroke(a, gap->a);
     stroke(gap->b, b);

@@ -11,7 +11,8 @@ namespace strake::sheets {
 
 /// Appends a dimension to a view (ISO 129-1): extension lines, the line with filled arrows, which
 /// point inwards where there is no room between them, and the value in millimetres of the model:
-/// above a level line, and elsewhere in a gap of it, always to be read from below.
+/// above a level line, and elsewhere in a gap of it, always to be read from below (ISO 129:1985,
+/// method 2).
 ///
 /// Errors: input, where the view is in perspective, an object is not there or one of several of
 /// its name, sides of objects are asked for in a view that looks along no axis of the model, or the

@@ -46,7 +46,8 @@ void write_cell(const std::string& text, const PaperPoint& at, double width, Mar
                   false};
   Text shrunk = shrunk_to_width(full, width - 2 * kPaddingMm, kLeastLettersMm);
   shrunk.height_mm = rounded_paper(shrunk.height_mm);
-  marks.texts.push_back(std::move(shrunk));
+  // Heights and widths are rounded, which is not to cost a text its end.
+  marks.texts.push_back(cut_to_width(std::move(shrunk), width - 2 * kPaddingMm + 0.1));
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/annotation/paper_segments.hpp"
+#include "sheets/arrangement/view_margins.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/geometry/grid.hpp"
 
@@ -18,9 +20,8 @@ namespace {
 using drawing::rounded_paper;
 using geometry::Vec3d;
 
-/// How far a cutting plane goes beyond the lines of a view, how long its wide ends and its arrows
-/// are, mm.
-constexpr double kBeyondMm = 8, kWideEndMm = 6, kArrowMm = 9, kHeadMm = 3;
+/// How long the arrows of a cutting plane are and their heads, mm.
+constexpr double kArrowMm = 9, kHeadMm = 3;
 
 /// Draws an end of a cutting plane: its wide part, its arrow and its letter. `out` points away from
 /// the view along the plane, `look` in the direction of viewing.
@@ -40,12 +41,51 @@ void end_of_plane(const PaperPoint& end, const PaperPoint& out, const PaperPoint
                          letters_mm, Align::middle, letter, true});
 }
 
+/// The box in which a cutting plane is drawn, and that of its thin part: on sides with labels it
+/// has a gap for them.
+struct PlaneReach {
+  PaperBox whole, thin;
+};
+
+PlaneReach plane_reach(const MarkedView& in) {
+  const ViewMargins labels{in.lines.left - in.labelled.left, in.lines.top - in.labelled.top,
+                           in.labelled.right - in.lines.right,
+                           in.labelled.bottom - in.lines.bottom};
+  ViewMargins whole, thin;
+  for (const auto side : {&ViewMargins::left_mm, &ViewMargins::top_mm, &ViewMargins::right_mm,
+                          &ViewMargins::bottom_mm}) {
+    constexpr double kThinMm = 4;
+    whole.*side = reach_of_plane(labels.*side);
+    thin.*side = labels.*side > kThinMm ? kThinMm : whole.*side;
+  }
+  return {with_margins(in.lines, whole), with_margins(in.lines, thin)};
+}
+
+/// Returns the boxes of what is already drawn beside a view: texts, bubbles, and the wide ends and
+/// arrows of cutting planes, with a little paper round them.
+std::vector<PaperBox> taken_boxes(const Marks& marks) {
+  std::vector<PaperBox> boxes;
+  for (const Text& text : marks.texts) boxes.push_back(box_of(text));
+  for (const Circle& c : marks.circles)
+    boxes.push_back(widened({c.center.x, c.center.y, c.center.x, c.center.y}, c.radius_mm));
+  for (const Path& path : marks.paths) {
+    if (path.line != LineClass::note && path.line != LineClass::section) continue;
+    PaperBox box{path.points[0].x, path.points[0].y, path.points[0].x, path.points[0].y};
+    for (const PaperPoint& p : path.points)
+      box = {std::min(box.left, p.x), std::min(box.top, p.y), std::max(box.right, p.x),
+             std::max(box.bottom, p.y)};
+    boxes.push_back(widened(box, 0.5));
+  }
+  return boxes;
+}
+
 }  // namespace
 
 bool mark_section(const ViewSpec& cut, const MarkedView& in, double letters_mm, Marks& marks) {
   const ViewPaper paper(in);
   if (!paper.good()) return false;
   bool any = false;
+  const PlaneReach reach = plane_reach(in);
   for (const hlr::Section& section : cut.view.sections) {
     const Vec3d normal = section.normal.as<double>();
     const double length = std::sqrt(dot(normal, normal));
@@ -58,10 +98,10 @@ bool mark_section(const ViewSpec& cut, const MarkedView& in, double letters_mm, 
     constexpr double kFar = 1e5;
     const PaperSegment plane{along(on, way, -kFar), along(on, way, kFar)};
     if (!clipped(plane, in.lines)) continue;
-    const auto line = clipped(plane, widened(in.lines, kBeyondMm));
-    if (!line) continue;
+    const auto line = clipped(plane, reach.whole), thin = clipped(plane, reach.thin);
+    if (!line || !thin) continue;
     any = true;
-    marks.paths.push_back({LineClass::cutting_plane, {rounded(line->a), rounded(line->b)}, false});
+    marks.paths.push_back({LineClass::cutting_plane, {rounded(thin->a), rounded(thin->b)}, false});
     end_of_plane(line->a, {-way.x, -way.y}, look, cut.section_mark, letters_mm, marks);
     end_of_plane(line->b, way, look, cut.section_mark, letters_mm, marks);
   }
@@ -69,7 +109,7 @@ bool mark_section(const ViewSpec& cut, const MarkedView& in, double letters_mm, 
 }
 
 bool mark_extent(const geometry::Box3d& extent, const std::string& name, const MarkedView& in,
-                 double letters_mm, Marks& marks) {
+                 double letters_mm, const Marks& grid, Marks& marks) {
   const ViewPaper paper(in);
   if (!paper.good() || extent.empty()) return false;
   std::optional<PaperBox> box;
@@ -86,9 +126,12 @@ bool mark_extent(const geometry::Box3d& extent, const std::string& name, const M
   Text text{LineClass::extent, {a.x, rounded_paper(a.y - 1)},
             letters_mm,        Align::start,
             on_one_line(name), true};
-  // Extents that begin at one corner have their names one above the other.
-  const auto covers = [&](const Text& other) { return box_of(other).overlaps(box_of(text)); };
-  while (std::ranges::any_of(marks.texts, covers))
+  // Extents that begin at one corner have their names one above the other, and above all labels.
+  std::vector<PaperBox> taken = taken_boxes(marks);
+  const std::vector<PaperBox> labels = taken_boxes(grid);
+  taken.insert(taken.end(), labels.begin(), labels.end());
+  const auto covers = [&](const PaperBox& other) { return other.overlaps(box_of(text)); };
+  while (std::ranges::any_of(taken, covers))
     text.at.y = rounded_paper(text.at.y - 1.5 * letters_mm);
   marks.texts.push_back(std::move(text));
   return true;

@@ -48,12 +48,13 @@ class AxisLines {
     return upright() ? kLettersMm + 1 : widest_ + 1;
   }
 
-  void draw(const drawing::Placement& placement, const PaperBox& box, GridMarks& out) const {
+  void draw(const drawing::Placement& placement, const PaperBox& box, const PaperBox& dimensioned,
+            GridMarks& out) const {
     std::vector<Line> lines;
     std::size_t number = 0;
     for (std::size_t p = 0; p < grid_.planes.size(); ++p) {
       if (grid_.planes[p].axis != axis_) continue;
-      if (auto line = line_of(grid_.planes[p], placement, box)) {
+      if (auto line = line_of(grid_.planes[p], placement, box, dimensioned)) {
         line->number = number;
         out.drawn[p] = true;
         lines.push_back(std::move(*line));
@@ -77,10 +78,12 @@ class AxisLines {
     std::size_t number = 0;
   };
 
-  /// Returns the part of the line within the box and its overhang; nothing where it misses the box.
+  /// Returns the part of the line within the larger box and its overhang; nothing where it misses
+  /// the box of the view's lines.
   [[nodiscard]] std::optional<Line> line_of(const GridPlane& plane,
                                             const drawing::Placement& placement,
-                                            const PaperBox& box) const {
+                                            const PaperBox& box,
+                                            const PaperBox& dimensioned) const {
     const auto at = geometry::snap(plane.at_mm);
     if (!at) return std::nullopt;
     const auto steps = static_cast<double>(*at - placement.anchor[axis_]);
@@ -91,7 +94,7 @@ class AxisLines {
     if (upright() ? way.y > 0 : way.x > 0) way = {-way.x, -way.y};
     const double little = 0.01;
     if (!clipped(on, way, box, little)) return std::nullopt;
-    const auto ends = clipped(on, way, box, kOverhang);
+    const auto ends = clipped(on, way, dimensioned, kOverhang);
     if (!ends) return std::nullopt;
     const auto point = [&](double t) {
       return PaperPoint{rounded_paper(on.x + way.x * t), rounded_paper(on.y + way.y * t)};
@@ -213,10 +216,12 @@ GridMargin grid_margin(const GridSpec& grid, const ViewSpec& view) {
 }
 
 GridMarks grid_marks(const GridSpec& grid, const ViewSpec& view,
-                     const drawing::Placement& placement, const PaperBox& box) {
+                     const drawing::Placement& placement, const PaperBox& lines,
+                     const PaperBox& dimensioned) {
   GridMarks out{{}, std::vector<bool>(grid.planes.size()), 0};
   for (std::uint8_t axis = 0; axis < 3; ++axis)
-    if (shows_grid(grid, view, axis)) AxisLines(grid, axis, view.view).draw(placement, box, out);
+    if (shows_grid(grid, view, axis))
+      AxisLines(grid, axis, view.view).draw(placement, lines, dimensioned, out);
   return out;
 }
 

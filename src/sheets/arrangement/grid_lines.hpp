@@ -25,9 +25,11 @@ struct GridMarks {
   std::size_t unlabelled = 0;  ///< lines that are drawn without a label, for want of room
 };
 
-/// Returns the grid lines of a view: they run across its lines and a little beyond, with labels at
-/// the upper or the left end. Where labels would touch, every second, fifth, tenth … is kept.
+/// Returns the grid lines of a view: those that meet the box of its lines. They run across a box
+/// round that, with its dimensions, and a little beyond, with labels at the upper or the left end.
+/// Where labels would touch, every second, fifth, tenth … is kept.
 [[nodiscard]] GridMarks grid_marks(const GridSpec& grid, const ViewSpec& view,
-                                   const drawing::Placement& placement, const PaperBox& box);
+                                   const drawing::Placement& placement, const PaperBox& lines,
+                                   const PaperBox& dimensioned);
 
 }  // namespace strake::sheets

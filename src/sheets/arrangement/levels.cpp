@@ -25,19 +25,18 @@ bool is_elevation(const hlr::View& view) {
          view.up.z > 0;
 }
 
-/// Returns "TT +1.800", in metres; a height of nothing is ±0.000.
-std::string text_of(const LevelSpec& level) {
+/// Returns how wide the line and the text of a level are.
+double width_of(const LevelSpec& level) {
+  return 2 * kTriangleMm + text_width(level_text(level)) * kLevelLettersMm;
+}
+
+}  // namespace
+
+std::string level_text(const LevelSpec& level) {
   const std::string metres = fixed(std::fabs(level.at_mm) / 1000, 3);
   const std::string_view sign = metres == "0.000" ? "\xC2\xB1" : level.at_mm < 0 ? "-" : "+";
   return (level.label.empty() ? "" : level.label + " ") + std::string(sign) + metres;
 }
-
-/// Returns how wide the line and the text of a level are.
-double width_of(const LevelSpec& level) {
-  return 2 * kTriangleMm + text_width(text_of(level)) * kLevelLettersMm;
-}
-
-}  // namespace
 
 double level_margin(const LevelsSpec& levels, const ViewSpec& view) {
   const bool named =
@@ -50,7 +49,7 @@ double level_margin(const LevelsSpec& levels, const ViewSpec& view) {
 
 std::vector<bool> mark_levels(const LevelsSpec& levels, const ViewSpec& view,
                               const drawing::Placement& placement, const PaperBox& box,
-                              Marks& marks) {
+                              double right_mm, Marks& marks) {
   std::vector<bool> within(levels.all.size());
   if (level_margin(levels, view) == 0) return within;
   std::vector<std::size_t> upwards(levels.all.size());
@@ -68,7 +67,7 @@ std::vector<bool> mark_levels(const LevelsSpec& levels, const ViewSpec& view,
     within[i] = true;
     if (y > lowest - kTriangleMm - kLevelLettersMm) continue;
     lowest = y;
-    const double left = rounded_paper(box.right + kGapMm),
+    const double left = rounded_paper(right_mm + kGapMm),
                  right = rounded_paper(left + width_of(level));
     const double tip = rounded_paper(left + kTriangleMm);
     const double half = rounded_paper(kTriangleMm / 2);
@@ -83,7 +82,7 @@ std::vector<bool> mark_levels(const LevelsSpec& levels, const ViewSpec& view,
                            {rounded_paper(left + 2 * kTriangleMm), rounded_paper(y - 0.8)},
                            kLevelLettersMm,
                            Align::start,
-                           on_one_line(text_of(level)),
+                           on_one_line(level_text(level)),
                            false});
   }
   return within;

@@ -6,15 +6,17 @@
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/arrangement/grid_lines.hpp"
 #include "sheets/arrangement/levels.hpp"
+#include "sheets/arrangement/view_paper.hpp"
 
 namespace strake::sheets {
 
 namespace {
 
-/// What a cutting plane with its arrows and letters needs on all sides.
-constexpr double kCuttingPlaneMarginMm = 12;
-/// The paper beyond the line of a dimension, for extension lines and half a text.
-constexpr double kDimensionMarginMm = 5;
+/// What the letter at the end of a cutting plane needs beyond that end.
+constexpr double kLetterMarginMm = 4;
+/// The paper beyond the line of a dimension: for its text above a level line, and for half of the
+/// text in a gap of an upright one.
+constexpr double kAboveLineMm = 5, kBesideLineMm = 8;
 
 /// Returns whether a view shows where others are cut: it sees a plane of one with a mark edge-on.
 bool shows_cutting_planes(const SheetSpec& what, const ViewSpec& view) {
@@ -35,20 +37,35 @@ double& side_of(const DimensionSpec& dimension, ViewMargins& margins) {
 
 }  // namespace
 
-ViewMargins margins_of(const SheetSpec& what, const ViewSpec& view) {
-  constexpr double kGap = drawing::kFrameGapMm;
-  const GridMargin rim =
-      view.view.perspective ? GridMargin{kGap, kGap, kGap} : grid_margin(what.grid, view);
-  ViewMargins margins{std::max(rim.left_mm, rim.other_mm), std::max(rim.top_mm, rim.other_mm),
-                      std::max(rim.other_mm, level_margin(what.levels, view)), rim.other_mm};
-  if (shows_cutting_planes(what, view))
-    for (double* const side :
-         {&margins.left_mm, &margins.top_mm, &margins.right_mm, &margins.bottom_mm})
-      *side = std::max(*side, kCuttingPlaneMarginMm);
+ViewMargins dimension_margins(const SheetSpec& what, const ViewSpec& view) {
+  ViewMargins margins;
   for (const DimensionSpec& dimension : what.dimensions) {
     if (dimension.view != view.name || dimension.along == DimensionSpec::Along::aligned) continue;
+    const bool upright = dimension.along == DimensionSpec::Along::vertical;
     double& side = side_of(dimension, margins);
-    side = std::max(side, dimension.offset_mm + kDimensionMarginMm);
+    side = std::max(side, dimension.offset_mm + (upright ? kBesideLineMm : kAboveLineMm));
+  }
+  return margins;
+}
+
+ViewMargins label_margins(const SheetSpec& what, const ViewSpec& view) {
+  ViewMargins margins = dimension_margins(what, view);
+  if (view.view.perspective) return margins;
+  const GridMargin grid = grid_margin(what.grid, view);
+  margins.left_mm += std::max(grid.left_mm, grid.other_mm);
+  margins.top_mm += std::max(grid.top_mm, grid.other_mm);
+  margins.right_mm += std::max(grid.other_mm, level_margin(what.levels, view));
+  margins.bottom_mm += grid.other_mm;
+  return margins;
+}
+
+ViewMargins margins_of(const SheetSpec& what, const ViewSpec& view) {
+  ViewMargins margins = label_margins(what, view);
+  const bool cut = shows_cutting_planes(what, view);
+  for (double* const side :
+       {&margins.left_mm, &margins.top_mm, &margins.right_mm, &margins.bottom_mm}) {
+    if (cut) *side = reach_of_plane(*side) + kLetterMarginMm;
+    if (view.view.perspective) *side = std::max(*side, drawing::kFrameGapMm);
   }
   return margins;
 }

@@ -2,6 +2,7 @@
 // Where the model lies on the paper of a view, for what is drawn beside its lines.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "drawing/layout/view_plane.hpp"
@@ -17,8 +18,19 @@ namespace strake::sheets {
 struct MarkedView {
   const ViewSpec& spec;
   const drawing::Placement& placement;
-  const PaperBox& lines;  ///< box of all its lines
+  const PaperBox& lines;     ///< box of all its lines
+  const PaperBox& labelled;  ///< that with its dimensions, and the labels of its grid and levels
 };
+
+/// The wide end of a cutting plane.
+inline constexpr double kWideEndMm = 6;
+
+/// Returns how far a cutting plane goes beyond the lines of a view where labels take so much of the
+/// paper beside them: its wide end lies beyond the labels.
+[[nodiscard]] inline double reach_of_plane(double labels_mm) {
+  constexpr double kLeastMm = 8, kApartMm = 1;
+  return std::max(labels_mm + kApartMm + kWideEndMm, kLeastMm);
+}
 
 [[nodiscard]] inline PaperPoint rounded(const PaperPoint& p) {
   return {drawing::rounded_paper(p.x), drawing::rounded_paper(p.y)};

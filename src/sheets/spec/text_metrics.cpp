@@ -58,4 +58,20 @@ Text shrunk_to_width(Text text, double width_mm, double least_height) {
   return text;
 }
 
+Text cut_to_width(Text text, double width_mm) {
+  if (text_width(text.text) * text.height_mm <= width_mm) return text;
+  constexpr std::string_view kEllipsis = "\xE2\x80\xA6";
+  const double room = width_mm / text.height_mm - text_width(kEllipsis);
+  std::string_view rest = text.text;
+  double width = 0;
+  std::size_t kept = 0;
+  while (!rest.empty()) {
+    width += advance(take_character(rest)) * kFontSize;
+    if (width > room) break;
+    kept = text.text.size() - rest.size();
+  }
+  text.text = text.text.substr(0, kept) + std::string(kEllipsis);
+  return text;
+}
+
 }  // namespace strake::sheets

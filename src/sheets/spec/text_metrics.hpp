@@ -27,4 +27,7 @@ inline constexpr double kFontSize = 1.4;
 /// `least_height`.
 [[nodiscard]] Text shrunk_to_width(Text text, double width_mm, double least_height);
 
+/// Returns the text with its end replaced by "…", where it would be wider than `width_mm`.
+[[nodiscard]] Text cut_to_width(Text text, double width_mm);
+
 }  // namespace strake::sheets

@@ -104,7 +104,7 @@ class Sheet(Scenario):
             got = (self.folder / 's.svg').read_bytes()
             expected = expected or got
             self.assertEqual(got, expected, threads)
-        self.assertRegex(done.stderr, r"warning level-nowhere: s.toml, line \d+: \[levels\]: the level 'SKY' shows in no view")
+        self.assertRegex(done.stderr, r"warning level-nowhere: s.toml, line \d+: \[levels\]: the level 'SKY \+9.000' shows in no view")
         root = self.root()
         texts = [text.text for text in root.iter(f'{SVG}text')]
         for wanted in ('SECTION A-A', 'A', '\u00b10.000', 'N', 'POS', 'a', 'b', '<script>alert(1)</script>'):

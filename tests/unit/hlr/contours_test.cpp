@@ -243,6 +243,24 @@ TEST(ContourLines, KnowTheCirclesThatTheyAreChordsOf) {
   EXPECT_GT(curved, 80U);
 }
 
+TEST(ContourLines, ThatCutATorusAtItsAxisAreStraight) {
+  Plant plant;
+  // The tube reaches over the axis: each end face is the outer part of a circle and a straight cut.
+  plant.object(geometry::CircularTorusPrimitive{200, 300, 1.2});
+  const hlr::Drawing drawing = drawn(plant.scene(), {1, 2, 3}, {.stage = hlr::Stage::none});
+  std::size_t cuts = 0;
+  for (const EdgePiece& p : drawing.pieces) {
+    const auto on_axis = [](const Vec3l& v) { return v.x == 0 && v.y == 0; };
+    if (!on_axis(p.a) || !on_axis(p.b)) continue;
+    ++cuts;
+    EXPECT_TRUE(std::ranges::none_of(drawing.curves.edges, [&](const auto& e) {
+      return e.object == p.object && e.edge == p.edge;
+    }));
+  }
+  EXPECT_GT(cuts, 0U);
+  EXPECT_GT(drawing.curves.edges.size(), 10U);
+}
+
 TEST(SceneOfAView, ChangesNothingWhereNothingIsRound) {
   Plant plant;
   plant.object(geometry::BoxPrimitive{10, 20, 30});

@@ -104,6 +104,26 @@ TEST(Artwork, ShapesAreFilledBlackUnlessTheySayOtherwise) {
   EXPECT_TRUE(Artwork("<rect width='10' height='10' rx='2'></rect>").has(" c\n"));
 }
 
+TEST(Artwork, LinesHaveNoInside) {
+  // Filled, each would be a hair of black in the middle of its pen.
+  for (const char* element :
+       {"<line x2='9' stroke='red'></line>", "<path d='M0 0L9 0zM1 1h3' stroke='red'></path>",
+        "<polyline points='0,0 9,0' stroke='red'></polyline>"}) {
+    const Artwork drawn(element);
+    EXPECT_TRUE(drawn.has("\nS\nQ\n")) << element << drawn.operators;
+    EXPECT_FALSE(drawn.has("rg")) << element;
+  }
+  EXPECT_EQ(Artwork("<line x2='9'></line>").operators, "");
+  EXPECT_TRUE(Artwork("<path d='M0 0L1 0M0 0A9 9 0 0 1 5 5'></path>").has("f\n"));
+}
+
+TEST(Artwork, WhatIsLargerThanAnyPaperTakesNoTime) {
+  std::string transform;
+  for (int i = 0; i < 40; ++i) transform += "scale(1e9) ";
+  EXPECT_LT(Artwork("<circle r='5' transform='" + transform + "'></circle>").operators.size(),
+            500'000U);
+}
+
 TEST(Artwork, StylesHoldByTheirWeight) {
   const std::string styles =
       "<style>rect { fill: #010101 } .a, .b { fill: #020202; } #c { fill: #030303 } "
@@ -131,7 +151,7 @@ TEST(Artwork, GroupsUsesAndTheViewBoxMoveWhatTheyHold) {
   EXPECT_TRUE(drawn.has("2.5 2.5 m\n3 2.5 l\n"));
   EXPECT_TRUE(drawn.told.counts().empty());
   // A box of another shape lies in the middle of the paper.
-  EXPECT_TRUE(Artwork("<path d='M0 0L1 0'></path>", "0 0 50 50").has("25 0 m\n"));
+  EXPECT_TRUE(Artwork("<path d='M0 0L1 0 1 1'></path>", "0 0 50 50").has("25 0 m\n"));
 }
 
 TEST(Artwork, TextsStandAtTheirAnchors) {

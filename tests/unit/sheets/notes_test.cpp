@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "sheets/annotation/note_table.hpp"
+#include "sheets/annotation/paper_segments.hpp"
 #include "sheets/annotation/sheet_notes.hpp"
+#include "sheets/spec/text_metrics.hpp"
 #include "support/sheet_models.hpp"
 
 namespace strake::sheets {
@@ -75,6 +77,40 @@ TEST(Notes, SectionMarksTouchNoTitle) {
           EXPECT_LT(p.y, title.at.y - title.height_mm) << view.name;
 }
 
+TEST(Notes, MarksCoverNoLabelsOfTheGrid) {
+  // The grid lines stand where the view is cut, where a dimension begins, and along its way.
+  const Drawn d = with_notes(
+      "[grid]\nx=[[\"FR 0\",\"0m\"],[\"1\",\"1m\"],[\"2\",\"2m\"]]\ny=[[\"CL\",\"1m\"]]\n"
+      "[levels]\nz=[\"0m\",[\"DECK\",\"1m\"]]\n"
+      "[[dimension]]\nview=\"top\"\nfrom=[0,0,0]\nto=[\"2m\",0,0]\n"
+      "[[dimension]]\nview=\"front\"\nfrom=[0,0,0]\nto=[0,0,\"1m\"]\nalong=\"vertical\"\n"
+      "place=\"right\"\n",
+      "[arrangement.front]\nsections=\"y=1m\"\nsection_mark=\"B\"\n"
+      "[arrangement.left]\nsections=\"x=1m\"\nsection_mark=\"A\"\n"
+      "[arrangement.top]\nextents_of=[\"front\",\"left\",\"top\"]\n");
+  for (const PlacedView& view : d.sheet.views) {
+    std::vector<PaperBox> boxes;
+    for (const Text& text : view.notes.texts) boxes.push_back(box_of(text));
+    for (const Circle& c : view.grid.circles)
+      boxes.push_back(widened({c.center.x, c.center.y, c.center.x, c.center.y}, c.radius_mm));
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        EXPECT_FALSE(boxes[i].overlaps(boxes[k])) << view.name << ' ' << k << ' ' << i;
+    for (const Path& path : view.notes.paths) {
+      if (path.line == LineClass::extent) continue;
+      for (std::size_t p = 1; p < path.points.size(); ++p)
+        for (const Circle& c : view.grid.circles)
+          EXPECT_FALSE(
+              clipped({path.points[p - 1], path.points[p]},
+                      widened({c.center.x, c.center.y, c.center.x, c.center.y}, 0.9 * c.radius_mm)))
+              << view.name;
+    }
+  }
+  const PlacedView& top = view_named(d.sheet, "top");
+  EXPECT_EQ(top.notes.texts.size(), 2 + 2 + 3 + 1U);
+  EXPECT_EQ(top.grid.circles.size(), 4U);
+}
+
 TEST(Notes, SectionsThatNobodySeesAreToldAndAMarkNeedsOne) {
   const auto d = test::drawn(
       "[[view]]\nname=\"v\"\ndirection=\"front\"\nsections=\"y=1m\"\nsection_mark=\"A\"\n");
@@ -85,6 +121,27 @@ TEST(Notes, SectionsThatNobodySeesAreToldAndAMarkNeedsOne) {
       std::string::npos);
   EXPECT_NE(fault_of("[[view]]\nname=\"v\"\nsection_mark=\"\"\n").find("is no letter"),
             std::string::npos);
+}
+
+TEST(Notes, OneLetterForTwoSectionsIsTold) {
+  const auto twice = [](const std::string& front, const std::string& left) {
+    const Drawn d = with_notes("", "[arrangement.front]\nsections=\"y=1m\"\nsection_mark=\"" +
+                                       front + "\"\n[arrangement.left]\nsections=\"x=1m\"\n" +
+                                       "section_mark=\"" + left + "\"\n");
+    return d.sheet.diagnostics.count("section-mark-twice");
+  };
+  EXPECT_EQ(twice("A", "A"), 1U);
+  EXPECT_EQ(twice("A", "B"), 0U);
+}
+
+TEST(Notes, WhatLiesOffThePaperIsTold) {
+  const auto off = [](const std::string& more) {
+    return with_notes(more).sheet.diagnostics.count("note-off-the-sheet");
+  };
+  const std::string dimension = "[[dimension]]\nview=\"front\"\nfrom=[0,0,0]\n";
+  EXPECT_EQ(off(dimension + "to=[\"1m\",0,0]\n[scale_bar]\n"), 0U);
+  EXPECT_EQ(off(dimension + "to=[\"900km\",0,0]\n"), 1U);
+  EXPECT_EQ(off("[scale_bar]\nposition=[\"-9mm\",\"20mm\"]\n"), 1U);
 }
 
 TEST(Notes, LevelsStandAtTheirHeights) {
@@ -167,6 +224,20 @@ TEST(Notes, PartsAreListedOnceForEqualTexts) {
   const Drawn d = with_notes("[[parts_list]]\nselect=\"*\"\ncolumns=[[\"TYPE\",\"{{type}}\"]]\n");
   const auto texts = texts_of(d.sheet.notes);
   EXPECT_EQ(texts, (std::vector<std::string>{"POS", "TYPE", "QTY", "1", "mesh", "3"}));
+}
+
+TEST(Notes, TextsOfTablesStayInTheirCells) {
+  std::string greek;
+  for (int i = 0; i < 3000; ++i) greek += "\xCE\xA9";
+  const NoteTable table{"T", {"A", "B"}, {{std::string(20'000, 'W'), greek}, {"short", "1"}}, 0};
+  Marks marks;
+  draw_table(table, {10, 20}, marks);
+  const PaperBox within = extent_of(table).moved(10, 20);
+  for (const Text& text : marks.texts) EXPECT_TRUE(within.holds(box_of(text))) << text.text.size();
+  EXPECT_TRUE(marks.texts[3].text.ends_with("W\xE2\x80\xA6"));
+  EXPECT_TRUE(marks.texts[4].text.ends_with("\xCE\xA9\xE2\x80\xA6"));
+  EXPECT_LE(box_of(marks.texts[3]).right, box_of(marks.texts[4]).left);
+  EXPECT_EQ(marks.texts[5].text, "short");
 }
 
 TEST(Notes, RowsWithoutRoomAreTold) {

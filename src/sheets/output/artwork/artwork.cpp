@@ -87,7 +87,7 @@ class ArtworkDrawer {
     if (element.name == "text") return draw_text(element, own, style);
     PathBuilder path(own);
     if (!build(element, path)) return void(left_out_.insert("<" + element.name + ">"));
-    paint(path.operators(), style, own.scale());
+    paint(path, style, own.scale());
   }
 
   void draw_used(const SvgElement& element, const Affine& to_paper, const SvgStyle& style) {
@@ -163,15 +163,16 @@ class ArtworkDrawer {
     path.close();
   }
 
-  void paint(const std::string& path, const SvgStyle& style, double scale) {
+  void paint(const PathBuilder& path, const SvgStyle& style, double scale) {
     const bool stroked = style.stroke && style.stroke_width > 0;
-    if (path.empty() || (!stroked && !style.fill)) return;
+    const bool filled = style.fill && path.has_inside();
+    if (path.operators().empty() || (!stroked && !filled)) return;
     out_ += "q\n";
-    if (style.fill) out_ += drawing::pdf_color(*style.fill) + "rg\n";
+    if (filled) out_ += drawing::pdf_color(*style.fill) + "rg\n";
     if (stroked) append_pen(style, scale);
-    out_ += path;
-    out_ += style.fill ? (stroked ? "B" : "f") : "S";
-    out_ += style.fill && style.even_odd ? "*\nQ\n" : "\nQ\n";
+    out_ += path.operators();
+    out_ += filled ? (stroked ? "B" : "f") : "S";
+    out_ += filled && style.even_odd ? "*\nQ\n" : "\nQ\n";
   }
 
   void append_pen(const SvgStyle& style, double scale) {

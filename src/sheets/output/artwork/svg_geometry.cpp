@@ -276,16 +276,19 @@ void PathBuilder::move(double x, double y) {
   drawing::append_pdf_point(out_, to_paper_(x, y));
   out_ += "m\n";
   start_x_ = x, start_y_ = y;
+  lines_ = 0;
   go_to(x, y);
 }
 
 void PathBuilder::line(double x, double y) {
+  has_inside_ = has_inside_ || ++lines_ > 1;
   drawing::append_pdf_point(out_, to_paper_(x, y));
   out_ += "l\n";
   go_to(x, y);
 }
 
 void PathBuilder::curve(double x1, double y1, double x2, double y2, double x, double y) {
+  has_inside_ = true;
   drawing::append_pdf_point(out_, to_paper_(x1, y1));
   drawing::append_pdf_point(out_, to_paper_(x2, y2));
   drawing::append_pdf_point(out_, to_paper_(x, y));
@@ -296,6 +299,7 @@ void PathBuilder::curve(double x1, double y1, double x2, double y2, double x, do
 void PathBuilder::arc(const Arc& arc, double x, double y) {
   if (x == x_ && y == y_) return;
   if (arc.rx == 0 || arc.ry == 0) return line(x, y);
+  has_inside_ = true;
   // In units of the half axes, turned upright, the arc is one of a circle of radius 1.
   const geometry::SinCos t = geometry::sin_cos(std::fmod(arc.turn_deg, 360) * kPi / 180);
   const double hx = (x - x_) / 2, hy = (y - y_) / 2;
@@ -324,6 +328,7 @@ void PathBuilder::arc(const Arc& arc, double x, double y) {
 
 void PathBuilder::ellipse(double cx, double cy, double rx, double ry) {
   move(cx + rx, cy);
+  has_inside_ = true;
   const Affine to_paper = to_paper_.after({rx, 0, 0, ry, cx, cy});
   drawing::append_pdf_arc(out_,
                           {to_paper(0, 0), {to_paper.a, to_paper.b}, {to_paper.c, to_paper.d}}, 0,
@@ -333,6 +338,7 @@ void PathBuilder::ellipse(double cx, double cy, double rx, double ry) {
 
 void PathBuilder::close() {
   out_ += "h\n";
+  lines_ = 0;
   go_to(start_x_, start_y_);
 }
 

@@ -57,6 +57,9 @@ class PathBuilder {
   bool add(std::string_view d);
 
   [[nodiscard]] const std::string& operators() const { return out_; }
+  /// Whether there is more than straight lines from one point to another, which have no inside:
+  /// filling one would paint a hair of it.
+  [[nodiscard]] bool has_inside() const { return has_inside_; }
   [[nodiscard]] double x() const { return x_; }
   [[nodiscard]] double y() const { return y_; }
 
@@ -65,6 +68,8 @@ class PathBuilder {
 
   Affine to_paper_;
   std::string out_;
+  bool has_inside_ = false;
+  int lines_ = 0;                     ///< of the part of the path
   double x_ = 0, y_ = 0;              ///< where the pen is
   double start_x_ = 0, start_y_ = 0;  ///< where the part of the path began
 };
