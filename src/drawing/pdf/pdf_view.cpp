@@ -15,6 +15,8 @@
 #include "drawing/buffered_writer.hpp"
 #include "drawing/pdf/pdf_path.hpp"
 #include "drawing/pdf/pdf_syntax.hpp"
+#include "drawing/strokes/dash_runs.hpp"
+#include "drawing/strokes/dashed_paths.hpp"
 #include "drawing/strokes/strokes.hpp"
 
 namespace strake::drawing {
@@ -28,6 +30,7 @@ constexpr std::size_t kLinesOfStream = 4096;
 struct LayerContents {
   std::string begin, end;
   std::vector<const Line*> lines;
+  std::vector<double> dash_mm;
 };
 
 struct Stream {
@@ -49,15 +52,41 @@ std::string mark_text(std::string_view name) {
   return pdf_text(cut + "\xE2\x80\xA6");
 }
 
+/// Appends the operator that chooses dashes; none: continuous.
+void append_dashes(std::string& out, std::span<const double> dash_mm) {
+  out += '[';
+  for (const double dash : dash_mm) {
+    append_pdf_number(out, dash, 4);
+    out += ' ';
+  }
+  out += "]0 d\n";
+}
+
+void append_paths(std::string& out, const DashedPaths& paths) {
+  paths.for_each([&](std::span<const double> pattern, const std::string& commands) {
+    append_dashes(out, pattern);
+    out += commands + "S\n";
+  });
+}
+
 void append_object(std::string& out, std::span<const Line* const> lines, const PaperCurves& curves,
-                   const model::Model& model) {
+                   const model::Model& model, std::span<const double> dash_mm) {
   const std::vector<JoinedLines> chains = join_lines(lines);
   if (chains.empty()) return;
   const model::Object& object = model.object(lines.front()->object);
   out += "/Strake<</Id" + mark_text(object.id) + "/Name" + mark_text(object.name) + "/File" +
          mark_text(model.files[object.file].label) + ">>BDC\n";
-  for (const JoinedLines& chain : chains) append_pdf_stroke(out, stroke_of(chain, curves));
-  out += "S\nEMC\n";
+  if (dash_mm.empty()) {
+    for (const JoinedLines& chain : chains) append_pdf_stroke(out, stroke_of(chain, curves));
+    out += "S\n";
+  } else {
+    DashedPaths paths(dash_mm);
+    for (const JoinedLines& chain : chains)
+      for (const DashRun& run : dash_runs(chain, curves, dash_mm))
+        append_pdf_stroke(paths.of(run.stretch), stroke_of(run.chain, curves));
+    append_paths(out, paths);
+  }
+  out += "EMC\n";
 }
 
 std::vector<Stream> streams_of(const std::vector<LayerContents>& layers) {
@@ -92,7 +121,7 @@ class LayerMaker {
   LayerMaker(PdfDocument& document, std::optional<PdfLayerId> parent, const Ink& ink)
       : document_(document), parent_(parent), ink_(ink) {}
 
-  std::vector<LayerContents> make(parallel::FunctionRef<PdfPen(const Layer&)> pen) {
+  std::vector<LayerContents> make(const PdfPens& pens) {
     for (std::size_t c = 0; c < kCauses.size(); ++c)
       if (std::ranges::any_of(ink_.lines,
                               [&](const Line& line) { return line.state == kCauses.at(c).state; }))
@@ -101,27 +130,29 @@ class LayerMaker {
       const std::vector<const Line*> lines = lines_of(layer, ink_);
       if (lines.empty()) continue;
       const PdfLayerId id = document_.add_layer(layer.label, parent_);
-      const std::string style = "q\n" + pdf_pen(pen(layer));
       if (!layer.hidden) {
-        layers_.push_back({document_.open(id) + style, "Q\n" + document_.close(id), lines});
+        const PdfPen pen = pens.of(layer, LineState::visible);
+        layers_.push_back({document_.open(id) + "q\n" + pdf_pen(pen), "Q\n" + document_.close(id),
+                           lines, pen.dash_mm});
         continue;
       }
-      for (std::size_t c = 0; c < kCauses.size(); ++c) add_hidden(id, style, lines, c);
+      for (std::size_t c = 0; c < kCauses.size(); ++c)
+        add_hidden(id, pens.of(layer, kCauses.at(c).state), lines, c);
     }
     return std::move(layers_);
   }
 
  private:
   /// Adds the lines of a layer that are hidden by one cause: they lie in its layer too.
-  void add_hidden(PdfLayerId id, const std::string& style, const std::vector<const Line*>& lines,
+  void add_hidden(PdfLayerId id, const PdfPen& pen, const std::vector<const Line*>& lines,
                   std::size_t cause) {
     std::vector<const Line*> chosen;
     std::ranges::copy_if(lines, std::back_inserter(chosen),
                          [&](const Line* line) { return line->state == kCauses.at(cause).state; });
     if (chosen.empty()) return;
     const PdfLayerId by = *causes_.at(cause);
-    layers_.push_back({document_.open(id) + PdfDocument::open_alone(by) + style,
-                       "Q\nEMC\n" + document_.close(id), std::move(chosen)});
+    layers_.push_back({document_.open(id) + PdfDocument::open_alone(by) + "q\n" + pdf_pen(pen),
+                       "Q\nEMC\n" + document_.close(id), std::move(chosen), pen.dash_mm});
   }
 
   PdfDocument& document_;
@@ -130,6 +161,18 @@ class LayerMaker {
   std::array<std::optional<PdfLayerId>, kCauses.size()> causes_;
   std::vector<LayerContents> layers_;
 };
+
+void add_centre_lines(PdfDocument& document, std::optional<PdfLayerId> parent, const Ink& ink,
+                      const PdfPen& pen) {
+  if (ink.centre_lines.empty()) return;
+  const PdfLayerId layer = document.add_layer("Centre lines", parent);
+  DashedPaths paths(pen.dash_mm);
+  for (const CentreLine& line : ink.centre_lines)
+    append_pdf_chain(paths.of(stretch_of(line, pen.dash_mm)), line.points);
+  std::string out = document.open(layer) + "q\n" + pdf_pen(pen);
+  append_paths(out, paths);
+  document.add(out + "Q\n" + document.close(layer));
+}
 
 std::string with_commas(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
@@ -140,27 +183,23 @@ std::string pdf_pen(const PdfPen& pen) {
   append_pdf_number(out, pen.width_mm, 4);
   out += " w\n";
   if (pen.dash_mm.empty()) return out;
-  out += "0 J [";
-  for (const double dash : pen.dash_mm) {
-    append_pdf_number(out, dash, 4);
-    out += ' ';
-  }
-  return out + "] 0 d\n";
+  out += "0 J ";
+  append_dashes(out, pen.dash_mm);
+  return out;
 }
 
 Status add_pdf_view(PdfDocument& document, std::optional<PdfLayerId> parent,
                     const PaperCurves& curves, const Ink& ink, const model::Model& model,
-                    parallel::FunctionRef<PdfPen(const Layer&)> pen,
-                    const parallel::Context& context) {
-  const std::vector<LayerContents> layers = LayerMaker(document, parent, ink).make(pen);
+                    const PdfPens& pens, const parallel::Context& context) {
+  const std::vector<LayerContents> layers = LayerMaker(document, parent, ink).make(pens);
   const std::vector<Stream> streams = streams_of(layers);
   const parallel::ProgressPhase phase(context.progress, "PDF", ink.lines.size());
-  return make_in_order(
+  const Status status = make_in_order(
       "PDF", streams.size(),
       [&](std::size_t i) {
         std::string out = streams[i].layer->begin;
         for_each_object(streams[i].lines, [&](std::span<const Line* const> object) {
-          append_object(out, object, curves, model);
+          append_object(out, object, curves, model, streams[i].layer->dash_mm);
         });
         return deflated(out + streams[i].layer->end);
       },
@@ -169,6 +208,8 @@ Status add_pdf_view(PdfDocument& document, std::optional<PdfLayerId> parent,
         phase.add(streams[i].lines.size());
       },
       context);
+  if (status) add_centre_lines(document, parent, ink, pens.centre_lines);
+  return status;
 }
 
 std::string pdf_facts(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model) {
