@@ -9,7 +9,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-from scenario import Scenario, cube, gltf, main
+from scenario import Scenario, cube, gltf, main, rvm_of_round_things, sheet_with_all_notes
 
 EXAMPLES = None
 SVG = '{http://www.w3.org/2000/svg}'
@@ -113,6 +113,8 @@ class Pdf(Scenario):
                 yield from flat(item) if isinstance(item, list) else [item]
         if root.find(f".//{SVG}svg[@id='sheet-frame']") is not None:
             labels.append('Frame')  # a template, which is one layer here
+        # What hides lines is within their layers in SVG, and beside them in PDF.
+        labels = [label for label in labels if not label.endswith((', by others', ', by the object itself'))]
         self.assertEqual(sorted(name for name in flat(self.layers('d.pdf')) if name not in CAUSES), sorted(labels))
         self.same_picture('d.svg', 'd.pdf', DASHED_TOLERANCE if any('Hidden' in name for name in labels) else TOLERANCE)
         return done
@@ -133,6 +135,7 @@ class Pdf(Scenario):
                             (['--view', 'top', '--smooth', 'on'], None), (['--view', 'iso', '--stage', 'none'], None),
                             (['--view', 'top', '--select', "name = 'TNK*'", '--hidden', 'dashed'], None),
                             (['--view', 'right', '--intersections', 'off', '--scale', '1:200'], None),
+                            (['--view', 'top', '--hidden', 'all', '--hidden-layers', 'two'], None),
                             (['--view', 'bottom', '--paper', '900mmx420mm'], (900, 420))):
             with self.subTest(more=more):
                 self.both('ship.glb', *more, paper=paper)
@@ -166,6 +169,25 @@ class Pdf(Scenario):
         self.write('s.toml', sheets['template'])
         self.both('ship.glb', '--sheet', 's.toml', paper=(210, 297))
         self.assertIn('No. ÄÖ-1 Ω', self.text_of('d.pdf'))
+
+    def test_a_sheet_with_all_notes_is_the_picture_that_svg_is(self):
+        self.write_rvm('round.rvm', rvm_of_round_things())
+        self.write('s.toml', sheet_with_all_notes())
+        self.both('round.rvm', '--sheet', 's.toml')
+        order = self.layers('d.pdf')
+        self.assertEqual(order[:2], ['Frame', 'Notes'])
+        below = order[order.index('top') + 1]
+        for layer in ('Centre lines', 'Grid', 'Notes', 'Tags', 'Title', *CAUSES):
+            self.assertIn(layer, below if layer != 'Hidden by the object itself' else order[order.index('front') + 1])
+        whole = self.ink_without('d.pdf')
+        for layer in ('Centre lines', 'Notes'):
+            self.assertLess(self.ink_without('d.pdf', layer), .99 * whole, layer)
+        words = self.text_of('d.pdf')
+        for word in ('SECTION A-A', 'ROOF +0.600', '750', 'PARTS', 'Nozzle moved'):
+            self.assertIn(word, words)
+        for view in ('front', 'top', 'iso'):
+            self.both('round.rvm', '--view', view, '--hidden', 'all', '--centre-lines', 'on')
+            self.assertIn('Centre lines', self.layers('d.pdf'))
 
     def test_the_example_has_its_layers_below_its_views(self):
         done = self.run_strake('generate', 'ship', '--objects', 1200, '--seed', 1, '-o', 'ship.glb')

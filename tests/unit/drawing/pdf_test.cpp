@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "drawing/ink/dash_fit.hpp"
+#include "drawing/ink/hidden_ink.hpp"
 #include "drawing/lettering/font_data.hpp"
 #include "drawing/lettering/lettering.hpp"
 #include "drawing/pdf/pdf_document.hpp"
@@ -231,6 +233,42 @@ TEST(Pdf, IsAFileWhoseObjectsAreWhereItsTableSays) {
   };
   EXPECT_EQ(count("BDC\n"), count("EMC\n"));
   EXPECT_EQ(count("q\n"), count("Q\n"));
+}
+
+/// Dashes as the operator that chooses them.
+std::string dashes(const std::vector<double>& lengths, double stretch) {
+  std::string out = "[";
+  for (const double length : lengths) out += number(length * stretch, 4) + ' ';
+  return out + "]0 d\n";
+}
+
+TEST(Pdf, DashesFitHiddenLinesAndCentreLines) {
+  Example example(0);
+  const auto add = [&](double y, double length) {
+    Line line;
+    line.kind = hlr::EdgeKind::sharp;
+    line.state = LineState::hidden_by_self;
+    line.a_paper = {10, y};
+    line.b_paper = {10 + length, y};
+    example.ink.lines.push_back(line);
+  };
+  add(20, 10.7);
+  add(30, 1);
+  example.ink.centre_lines.push_back({model::ObjectId{0}, {{10, 50}, {47, 50}}, true});
+  const test::PdfObjects pdf = test::read_pdf(example.pdf());
+  ASSERT_EQ(pdf.fault, "");
+  EXPECT_TRUE(pdf.has("/OCG/Name(Centre lines)"));
+  const std::string contents = pdf.contents();
+  const std::vector<double> hidden = pen_dashes(kHiddenDashes, example.ink.pens.thin),
+                            centre = pen_dashes(kCentreDashes, example.ink.pens.thin);
+  const double fits = fitted_stretch(10.7, DashEnds::open, hidden),
+               crosses = fitted_stretch(37, DashEnds::centred, centre);
+  ASSERT_NE(fits, 1);
+  ASSERT_NE(crosses, fitted_stretch(37, DashEnds::open, centre));
+  for (const std::string& path : {dashes(hidden, fits) + "10 20 m\n20.7 20 l\nS\n",
+                                  std::string("[]0 d\n10 30 m\n11 30 l\nS\n"),
+                                  dashes(centre, crosses) + "10 50 m\n47 50 l\nS\n"})
+    EXPECT_NE(contents.find(path), std::string::npos) << path;
 }
 
 TEST(Pdf, HasTheSameBytesForAnyTeamAndOthersForOtherLines) {
