@@ -254,7 +254,7 @@ TEST(Pdf, DashesFitHiddenLinesAndCentreLines) {
   };
   add(20, 10.7);
   add(30, 1);
-  example.ink.centre_lines.push_back({model::ObjectId{0}, {{10, 50}, {47, 50}}, true});
+  example.ink.centre_lines.push_back({model::ObjectId{0}, {{10, 50}, {39, 50}}, true});
   const test::PdfObjects pdf = test::read_pdf(example.pdf());
   ASSERT_EQ(pdf.fault, "");
   EXPECT_TRUE(pdf.has("/OCG/Name(Centre lines)"));
@@ -262,12 +262,12 @@ TEST(Pdf, DashesFitHiddenLinesAndCentreLines) {
   const std::vector<double> hidden = pen_dashes(kHiddenDashes, example.ink.pens.thin),
                             centre = pen_dashes(kCentreDashes, example.ink.pens.thin);
   const double fits = fitted_stretch(10.7, DashEnds::open, hidden),
-               crosses = fitted_stretch(37, DashEnds::centred, centre);
+               crosses = fitted_stretch(29, DashEnds::centred, centre);
   ASSERT_NE(fits, 1);
-  ASSERT_NE(crosses, fitted_stretch(37, DashEnds::open, centre));
+  ASSERT_NE(crosses, fitted_stretch(29, DashEnds::open, centre));
   for (const std::string& path : {dashes(hidden, fits) + "10 20 m\n20.7 20 l\nS\n",
                                   std::string("[]0 d\n10 30 m\n11 30 l\nS\n"),
-                                  dashes(centre, crosses) + "10 50 m\n47 50 l\nS\n"})
+                                  dashes(centre, crosses) + "10 50 m\n39 50 l\nS\n"})
     EXPECT_NE(contents.find(path), std::string::npos) << path;
 }
 
