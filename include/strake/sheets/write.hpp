@@ -18,10 +18,10 @@ namespace strake::sheets {
 void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink);
 
 /// Writes sheets of one model as PDF 1.7, a page each, of exactly its size: per view a layer that
-/// holds those of drawing::write_pdf and its marks; bookmarks of sheets and views. Of a template the
-/// elements that title blocks are made of are drawn; what is left out, and characters that the font
-/// lacks, are returned ("template-part-left-out", "text-character-missing"). The same sheets give
-/// the same bytes. Errors: usage where there is no sheet; cancelled, out of memory.
+/// holds those of drawing::write_pdf and its marks; bookmarks of sheets and views. Of a template
+/// the elements that title blocks are made of are drawn; what is left out, and characters that the
+/// font lacks, are returned ("template-part-left-out", "text-character-missing"). The same sheets
+/// give the same bytes. Errors: usage where there is no sheet; cancelled, out of memory.
 [[nodiscard]] Result<Diagnostics> write_pdf(std::span<const Sheet> sheets,
                                             const model::Model& model, drawing::Sink sink,
                                             const parallel::Context& context);

@@ -126,6 +126,19 @@ class Dxf(Scenario):
         self.text('draw', '-p', 'p.strake', '--stored', 'all', '-o', 'stored.dxf', '--quiet')
         self.assertEqual((self.folder / 'stored.dxf').read_bytes(), (self.folder / 'saved.dxf').read_bytes())
 
+    def check_windows(self, document):
+        """Each line of model space is seen in one window; returns what these see."""
+        seen = []
+        for window in document.layouts.get('Sheet').query('VIEWPORT')[1:]:
+            half = window.dxf.view_height / 2, window.dxf.view_height / window.dxf.height * window.dxf.width / 2
+            x, y, *_ = window.dxf.view_center_point
+            seen.append((x - half[1], y - half[0], x + half[1], y + half[0]))
+        for entity in document.modelspace().query('LINE'):
+            for p in (entity.dxf.start, entity.dxf.end):
+                within = [box for box in seen if box[0] <= p.x <= box[2] and box[1] <= p.y <= box[3]]
+                self.assertEqual(len(within), 1, p)
+        return seen
+
     def test_views_of_a_sheet_lie_side_by_side_and_its_windows_show_them(self):
         self.models()
         self.text('draw', 'ship.glb', '--sheet', EXAMPLES / 'ship_sheet.toml', '-o', 's.dxf', '--quiet')
@@ -133,19 +146,10 @@ class Dxf(Scenario):
         self.assertEqual(faults, [])
         sheet = document.layouts.get('Sheet')
         self.assertEqual((sheet.dxf.paper_width, sheet.dxf.paper_height), (594, 420))
-        windows = sheet.query('VIEWPORT')[1:]
-        self.assertEqual(len(windows), 4)
-        seen = []
-        for window in windows:
-            half = window.dxf.view_height / 2, window.dxf.view_height / window.dxf.height * window.dxf.width / 2
-            x, y, *_ = window.dxf.view_center_point
-            seen.append((x - half[1], y - half[0], x + half[1], y + half[0]))
+        seen = self.check_windows(document)
+        self.assertEqual(len(seen), 4)
         front, top = seen[:2]
         self.assertAlmostEqual(front[0], top[0], 2, 'a view below another is in line with it')
-        for entity in document.modelspace().query('LINE'):
-            for p in (entity.dxf.start, entity.dxf.end):
-                within = [box for box in seen if box[0] <= p.x <= box[2] and box[1] <= p.y <= box[3]]
-                self.assertEqual(len(within), 1, p)
         texts = [text.dxf.text for text in sheet.query('TEXT')]
         for wanted in ('STR-1200-001', 'DECK 1', 'CL', 'A2'):
             self.assertIn(wanted, texts)
@@ -172,6 +176,7 @@ class Dxf(Scenario):
         for layer, lines, count in (('AM_10', 'CENTER_AM_7', 3), ('AM_11', 'PHANTOM_AM_11', 2), ('AM_7_GRID', 'CENTER_AM_7', 11)):
             self.assertEqual(layers[layer].dxf.linetype, lines)
             self.assertEqual(len([e for e in sheet if e.dxf.layer == layer and e.dxftype() in ('LINE', 'LWPOLYLINE')]), count)
+        self.assertEqual(len(self.check_windows(document)), 4)
         # As long as SVG has them on paper, which is 1:10, or 1:50 in the key plan.
         self.assertEqual((document.header['$LTSCALE'], document.header['$PSLTSCALE']), (1, 1))
         self.assertEqual([layers[name].rgb for name in ('AM_3', 'AM_3_SELF', 'AM_7')], [(160, 0, 0), (0, 160, 0), (0, 0, 192)])
