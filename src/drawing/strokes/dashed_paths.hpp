@@ -22,14 +22,20 @@ class DashedPaths {
     return path->commands;
   }
 
-  /// Calls `f` with the pattern of each path, mm, empty where it is continuous, and its commands.
+  /// Returns the pattern stretched so, mm; empty: continuous.
+  [[nodiscard]] std::vector<double> pattern(double stretch) const {
+    std::vector<double> lengths;
+    for (const double dash : dash_mm_)
+      if (stretch != 0) lengths.push_back(rounded(dash * stretch));
+    return lengths;
+  }
+
+  /// Calls `f` with the pattern of each path and its commands.
   template <class F>
   void for_each(F&& f) const {
     for (const Path& path : paths_) {
-      std::vector<double> pattern;
-      for (const double dash : dash_mm_)
-        if (path.stretch != 0) pattern.push_back(rounded(dash * path.stretch));
-      f(std::span<const double>(pattern), path.commands);
+      const std::vector<double> lengths = pattern(path.stretch);
+      f(std::span<const double>(lengths), path.commands);
     }
   }
 

@@ -271,6 +271,33 @@ TEST(Pdf, DashesFitHiddenLinesAndCentreLines) {
     EXPECT_NE(contents.find(path), std::string::npos) << path;
 }
 
+/// A line that an object hides in part itself is one line: its dashes go on where the layer
+/// changes, unless the two parts have styles of their own.
+TEST(Pdf, DashesGoOnWhereAnotherObjectHidesTheRest) {
+  Example example(0);
+  for (const double x : {10.0, 20.7}) {
+    Line line;
+    line.kind = hlr::EdgeKind::sharp;
+    line.state = x == 10 ? LineState::hidden_by_self : LineState::hidden_by_other;
+    line.a_paper = {x, 20};
+    line.b_paper = {x == 10 ? 20.7 : 29, 20};
+    example.ink.lines.push_back(line);
+  }
+  const std::vector<double> hidden = pen_dashes(kHiddenDashes, example.ink.pens.thin);
+  const std::string whole = dashes(hidden, fitted_stretch(19, DashEnds::open, hidden));
+  const std::string contents = test::read_pdf(example.pdf()).contents();
+  const std::string amid = whole.substr(0, whole.find(']') + 1) + "10.7 d\n";
+  for (const std::string& path :
+       {whole + "10 20 m\n20.7 20 l\nS\n", amid + "20.7 20 m\n29 20 l\nS\n"})
+    EXPECT_NE(contents.find(path), std::string::npos) << path;
+  example.ink.split_hidden = true;
+  const std::string apart = test::read_pdf(example.pdf()).contents();
+  EXPECT_EQ(apart.find("10.7 d"), std::string::npos);
+  for (const double length : {10.7, 8.3})
+    EXPECT_NE(apart.find(dashes(hidden, fitted_stretch(length, DashEnds::open, hidden))),
+              std::string::npos);
+}
+
 TEST(Pdf, HasTheSameBytesForAnyTeamAndOthersForOtherLines) {
   const Example example(5000);
   const std::string expected = example.pdf();
