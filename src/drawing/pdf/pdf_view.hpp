@@ -38,7 +38,8 @@ struct PdfPens {
 /// Adds the lines of a view to the page: a layer for each kind of line, below `parent` if there is
 /// one, two more by which hidden lines are switched by what hides them, and one of centre lines. In
 /// a layer the path of each object is marked with the object's id, name and file. Dashes fit each
-/// line (dash_runs). Errors: cancelled, out of memory.
+/// line (dash_runs); those of hidden lines that are not kept apart go on from what one cause hides
+/// to what the other does. Errors: cancelled, out of memory.
 [[nodiscard]] Status add_pdf_view(PdfDocument& document, std::optional<PdfLayerId> parent,
                                   const PaperCurves& curves, const Ink& ink,
                                   const model::Model& model, const PdfPens& pens,
