@@ -175,14 +175,12 @@ std::vector<std::size_t> shares_of(const std::vector<SortedLines::OfObject>& obj
   return begins;
 }
 
-/// Returns the dashes of each layer, in mm of model space.
-std::vector<std::vector<double>> dashes_in_model(const ModelPlane& plane,
-                                                 std::span<const LayerStyle> layers) {
-  std::vector<std::vector<double>> dashes;
-  for (const LayerStyle& layer : layers) {
-    dashes.push_back(layer.dash_mm);
-    for (double& dash : dashes.back()) dash *= plane.scale();
-  }
+/// Returns the dashes that are fitted to each line of a layer, in mm of model space: those of
+/// hidden lines.
+std::vector<double> fitted_dashes(ViewLayer layer, const LayerStyle& style, double scale) {
+  std::vector<double> dashes;
+  if (layer != ViewLayer::hidden_by_other && layer != ViewLayer::hidden_by_self) return dashes;
+  for (const double dash : style.dash_mm) dashes.push_back(dash * scale);
   return dashes;
 }
 
@@ -193,7 +191,6 @@ Status write_view_lines(const ViewLines& view, const model::Model& model,
                         const parallel::Context& context) {
   const SortedLines sorted = sorted_lines(view.ink);
   const PaperCurves curves = view.plane.curves(view.curves);
-  const std::vector<std::vector<double>> dash_of = dashes_in_model(view.plane, layers);
   const auto append_object = [&](const SortedLines::OfObject& of_object, std::string& out) {
     std::vector<Line> placed;
     std::vector<const Line*> lines;
@@ -207,12 +204,13 @@ Status write_view_lines(const ViewLines& view, const model::Model& model,
     for (const Line& line : placed) lines.push_back(&line);
     const std::string data = object_data(model.object(placed.front().object), model);
     const LayerStyle& layer = layers[static_cast<std::size_t>(of_object.layer)];
-    const std::vector<double>& dash = dash_of[static_cast<std::size_t>(of_object.layer)];
+    const std::vector<double> dash = fitted_dashes(of_object.layer, layer, view.plane.scale());
     Handle handle = first + of_object.begin;
     const auto append_stroke = [&](const Stroke& stroke) {
       for (const StrokeRun& run : stroke.runs) {
         const double stretch = dash.empty() ? 1 : stretch_of_run(stroke, run, dash);
-        append_run(out, {Space::model, handle++, layer.name, stretch}, stroke, run, !dash.empty());
+        append_run(out, {Space::model, handle++, layer.name, stretch}, stroke, run,
+                   !layer.dash_mm.empty());
         out += data;
       }
     };

@@ -31,7 +31,7 @@ struct LayerContents {
   std::string begin, end;
   std::vector<const Line*> lines;  ///< those of `state`, and others that are dashed with them
   LineState state = LineState::visible;
-  std::vector<double> dash_mm;
+  std::vector<double> dash_mm;  ///< to be fitted to each line; empty: the pen of `begin` says all
 };
 
 struct Stream {
@@ -173,9 +173,11 @@ class LayerMaker {
       if (lines.empty()) continue;
       const PdfLayerId id = document_.add_layer(layer.label, parent_);
       if (!layer.hidden) {
-        const PdfPen pen = pens.of(layer, LineState::visible);
-        layers_.push_back({document_.open(id) + "q\n" + pdf_pen(pen), "Q\n" + document_.close(id),
-                           lines, LineState::visible, pen.dash_mm});
+        layers_.push_back({document_.open(id) + "q\n" + pdf_pen(pens.of(layer, LineState::visible)),
+                           "Q\n" + document_.close(id),
+                           lines,
+                           LineState::visible,
+                           {}});
         continue;
       }
       for (std::size_t c = 0; c < kCauses.size(); ++c)

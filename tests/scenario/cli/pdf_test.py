@@ -157,7 +157,7 @@ class Pdf(Scenario):
                   'no frame': '[sheet]\nframe = false\nsize = ["500mm", "300mm"]\n' + views,
                   'tags': views + '[[tag]]\nselect = "name = \'TNK*\'"\ntext = "{{name}}"\n[grid]\nx = [["A", "1m"], ["B", "5m"]]\n',
                   'styles': views + '[styles]\noutline = { width = "1mm", color = "#a00000" }\n'
-                                    'hidden = { dash = ["3mm", "1mm"], color = "#0000ff" }\n',
+                                    'edge = { dash = ["5mm", "2mm"] }\nhidden = { dash = ["3mm", "1mm"], color = "#0000ff" }\n',
                   'template': '[sheet]\ntemplate = "frame.svg"\n[fields]\nnumber = "ÄÖ-1"\n' + views,
                   'perspective': '[[view]]\nname = "seen"\neye = ["2m", "-9m", "6m"]\ntarget = ["9m", 0, "3m"]\n',
                   'portrait': '[sheet]\nsize = "A3"\norientation = "portrait"\nscale = "1:200"\n' + views}
