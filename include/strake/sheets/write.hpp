@@ -13,24 +13,23 @@
 namespace strake::sheets {
 
 /// Writes a sheet as SVG in millimetres of paper: a group per view with the layers of
-/// drawing::write_svg, its caption, grid lines and tags, and the frame. Styles are written once;
-/// neither time nor path of this run is.
+/// drawing::write_svg and its marks, and the marks of the sheet. Styles are written once; neither
+/// time nor path of this run is.
 void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink);
 
 /// Writes sheets of one model as PDF 1.7, a page each, of exactly its size: per view a layer that
-/// holds those of drawing::write_pdf, its caption, grid lines and tags; bookmarks of sheets and
-/// views. Of a template the elements that title blocks are made of are drawn; what is left out, and
-/// characters that the font lacks, are returned ("template-part-left-out",
-/// "text-character-missing"). The same sheets give the same bytes. Errors: usage where there is no
-/// sheet; cancelled, out of memory.
+/// holds those of drawing::write_pdf and its marks; bookmarks of sheets and views. Of a template
+/// the elements that title blocks are made of are drawn; what is left out, and characters that the
+/// font lacks, are returned ("template-part-left-out", "text-character-missing"). The same sheets
+/// give the same bytes. Errors: usage where there is no sheet; cancelled, out of memory.
 [[nodiscard]] Result<Diagnostics> write_pdf(std::span<const Sheet> sheets,
                                             const model::Model& model, drawing::Sink sink,
                                             const parallel::Context& context);
 
 /// Writes a sheet as DXF (drawing::write_dxf): views at true size in model space, one beside the
-/// other as on the sheet; the sheet as a layout of its size, with a viewport for each view, frame,
-/// captions, grid lines and tags. Returns that a template was left out ("template-left-out"), where
-/// there is one. Errors: cancelled, out of memory.
+/// other as on the sheet; the sheet as a layout of its size, with a viewport for each view and all
+/// marks, each class on its layer. Returns that a template was left out ("template-left-out"),
+/// where there is one. Errors: cancelled, out of memory.
 [[nodiscard]] Result<Diagnostics> write_dxf(const Sheet& sheet, const model::Model& model,
                                             drawing::Sink sink, const parallel::Context& context);
 

@@ -15,6 +15,10 @@ Groups begin(std::string& out, std::string_view type, const EntityHead& head,
   groups.handle(330, on_paper ? kPaperSpace : kModelSpace).text(100, "AcDbEntity");
   if (on_paper) groups.whole(67, 1);
   groups.text(8, head.layer);
+  if (head.dash_stretch == 0)
+    groups.text(6, "Continuous");
+  else if (head.dash_stretch != 1)
+    groups.number(48, head.dash_stretch);
   return groups.text(100, subclass);
 }
 

@@ -20,6 +20,7 @@ struct EntityHead {
   Space space = Space::model;
   Handle handle = 0;
   std::string_view layer;
+  double dash_stretch = 1;  ///< factor of the layer's dashes; 0: continuous
 };
 
 void append_line(std::string& out, const EntityHead& head, const PaperPoint& a,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drawing/ink/dash_fit.hpp"
 #include "drawing/ink/hidden_ink.hpp"
 #include "drawing/layout/duplicates.hpp"
 
@@ -22,6 +23,7 @@ constexpr std::array<LayerName, kViewLayers> kNames{{
     {"AM_0_INTERSECTION", "Intersections of bodies"},
     {"AM_0", "Visible outlines"},
     {"AM_0_SECTION", "Outlines of sections"},
+    {"AM_7", "Centre lines"},
 }};
 
 LayerStyle style_of_view(ViewLayer layer, const Pens& pens) {
@@ -30,7 +32,7 @@ LayerStyle style_of_view(ViewLayer layer, const Pens& pens) {
     case ViewLayer::hidden_by_other:
     case ViewLayer::hidden_by_self:
       style.width_mm = pens.thin;
-      style.dash_mm = {pens.thin * kDash, pens.thin * kDashGap};
+      style.dash_mm = pen_dashes(kHiddenDashes, pens.thin);
       style.color = {0x44, 0x44, 0x44, 255};
       break;
     case ViewLayer::polyline:
@@ -51,6 +53,10 @@ LayerStyle style_of_view(ViewLayer layer, const Pens& pens) {
       break;
     case ViewLayer::section:
       style.width_mm = pens.section;
+      break;
+    case ViewLayer::centre:
+      style.width_mm = pens.thin;
+      style.dash_mm = pen_dashes(kCentreDashes, pens.thin);
       break;
   }
   return style;

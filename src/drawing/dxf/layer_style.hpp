@@ -36,8 +36,9 @@ enum class ViewLayer : std::uint8_t {
   intersection,
   outline,
   section,
+  centre,
 };
-inline constexpr std::size_t kViewLayers = 10;
+inline constexpr std::size_t kViewLayers = 11;
 
 /// Returns the layer of a line that is visible or hidden.
 [[nodiscard]] ViewLayer layer_of(const Line& line);

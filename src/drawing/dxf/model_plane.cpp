@@ -19,12 +19,12 @@ std::array<End, 2> ends_of(const Line& line) {
 
 }  // namespace
 
-ModelPlane::ModelPlane(const NeutralDrawing& drawing, std::span<const Line> lines)
+ModelPlane::ModelPlane(const NeutralDrawing& drawing, const Ink& ink)
     : there_{0, drawing.sheet.height_mm} {
+  const std::vector<Line>& lines = ink.lines;
   if (!drawing.view.perspective) axes_ = paper_axes(drawing.view);
   if (axes_) scale_ = drawing.sheet.scale;
-  if (lines.empty()) return;
-  if (axes_) {
+  if (axes_ && !lines.empty()) {
     // Ends are rounded on paper: their mean is known much better than any of them.
     paper_ = lines.front().a_paper;
     there_ = true_place(lines.front().a_mm);
@@ -38,15 +38,18 @@ ModelPlane::ModelPlane(const NeutralDrawing& drawing, std::span<const Line> line
     const double ends = 2 * static_cast<double>(lines.size());
     paper_ = {paper_.x + x / ends, paper_.y + y / ends};
   }
-  on_paper_ = {kFarthestPaperMm, kFarthestPaperMm, -kFarthestPaperMm, -kFarthestPaperMm};
   for (const Line& line : lines)
-    for (const End& end : ends_of(line)) {
-      extent_.include(place(end.mm, end.paper));
-      on_paper_.left = std::min(on_paper_.left, end.paper.x);
-      on_paper_.top = std::min(on_paper_.top, end.paper.y);
-      on_paper_.right = std::max(on_paper_.right, end.paper.x);
-      on_paper_.bottom = std::max(on_paper_.bottom, end.paper.y);
-    }
+    for (const End& end : ends_of(line)) include(end.paper, place(end.mm, end.paper));
+  for (const CentreLine& line : ink.centre_lines)
+    for (const PaperPoint& point : line.points) include(point, place(point));
+}
+
+void ModelPlane::include(const PaperPoint& paper, const PaperPoint& there) {
+  extent_.include(there);
+  on_paper_.left = std::min(on_paper_.left, paper.x);
+  on_paper_.top = std::min(on_paper_.top, paper.y);
+  on_paper_.right = std::max(on_paper_.right, paper.x);
+  on_paper_.bottom = std::max(on_paper_.bottom, paper.y);
 }
 
 PaperPoint ModelPlane::true_place(const geometry::Vec3d& mm) const {
@@ -59,12 +62,14 @@ PaperPoint ModelPlane::from_paper(const PaperPoint& paper) const {
 }
 
 PaperPoint ModelPlane::place(const geometry::Vec3d& mm, const PaperPoint& paper) const {
-  if (!axes_) {
-    const PaperPoint there = from_paper(paper);
-    return {rounded_paper(there.x), rounded_paper(there.y)};
-  }
+  if (!axes_) return place(paper);
   const PaperPoint there = true_place(mm);
   return {rounded_paper(there.x + moved_.x), rounded_paper(there.y + moved_.y)};
+}
+
+PaperPoint ModelPlane::place(const PaperPoint& paper) const {
+  const PaperPoint there = from_paper(paper);
+  return {rounded_paper(there.x), rounded_paper(there.y)};
 }
 
 PaperCurves ModelPlane::curves(const PaperCurves& on_paper) const {

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "drawing/dxf/document.hpp"
 #include "drawing/layout/view_plane.hpp"
 #include "strake/drawing/drawing.hpp"
+#include "strake/drawing/ink.hpp"
 #include "strake/geometry/vec.hpp"
 
 namespace strake::drawing::dxf {
@@ -16,23 +16,27 @@ namespace strake::drawing::dxf {
 /// paper from the lower left corner of its sheet.
 class ModelPlane {
  public:
-  /// `lines` are those that are drawn; from their places it finds where curves lie.
-  ModelPlane(const NeutralDrawing& drawing, std::span<const Line> lines);
+  /// From the places of the lines that are drawn it finds where curves and centre lines lie.
+  ModelPlane(const NeutralDrawing& drawing, const Ink& ink);
 
   /// How many mm a mm of paper is.
   [[nodiscard]] double scale() const { return scale_; }
-  /// What the lines fill, in model space and on paper.
+  /// What the lines and centre lines fill, in model space and on paper.
   [[nodiscard]] const Extent& extent() const { return extent_; }
   [[nodiscard]] const PaperFrame& on_paper() const { return on_paper_; }
 
   [[nodiscard]] PaperPoint from_paper(const PaperPoint& paper) const;
   /// Returns an end of a line, to a whole micrometre.
   [[nodiscard]] PaperPoint place(const geometry::Vec3d& mm, const PaperPoint& paper) const;
+  /// Returns a point of paper, to a whole micrometre.
+  [[nodiscard]] PaperPoint place(const PaperPoint& paper) const;
   [[nodiscard]] PaperCurves curves(const PaperCurves& on_paper) const;
 
   void move(double x, double y);
 
  private:
+  /// Makes the extents hold a point, which lies there in model space.
+  void include(const PaperPoint& paper, const PaperPoint& there);
   [[nodiscard]] PaperPoint true_place(const geometry::Vec3d& mm) const;
 
   std::optional<PaperAxes> axes_;  ///< nothing: mm of paper
@@ -40,7 +44,7 @@ class ModelPlane {
   PaperPoint paper_, there_;  ///< a point on paper, and where it lies in model space before a move
   PaperPoint moved_;
   Extent extent_;
-  PaperFrame on_paper_;
+  PaperFrame on_paper_{kFarthestPaperMm, kFarthestPaperMm, -kFarthestPaperMm, -kFarthestPaperMm};
 };
 
 }  // namespace strake::drawing::dxf

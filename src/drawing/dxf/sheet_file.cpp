@@ -73,8 +73,8 @@ void arrange(std::vector<PlacedView>& views, double height_mm) {
 std::vector<PlacedView> placed_views(const SheetFile& sheet) {
   std::vector<PlacedView> views;
   for (const SheetView& view : sheet.views) {
-    if (view.ink.lines.empty()) continue;
-    ModelPlane plane(view.drawing, view.ink.lines);
+    if (entities_at_most(view.ink) == 0) continue;
+    ModelPlane plane(view.drawing, view.ink);
     const PaperFrame window = window_of(plane);
     views.push_back({&view, std::move(plane), window});
   }
@@ -102,7 +102,7 @@ Status write_sheet_file(const SheetFile& sheet, parallel::FunctionRef<void(Paper
   }
   add_marks(paper);
   document.next = paper.next();
-  for (const PlacedView& view : views) document.next += view.view->ink.lines.size();
+  for (const PlacedView& view : views) document.next += entities_at_most(view.view->ink);
   std::string text;
   append_front(text, document);
   sink(text);
@@ -112,7 +112,7 @@ Status write_sheet_file(const SheetFile& sheet, parallel::FunctionRef<void(Paper
     const Status status = write_view_lines({view.view->drawing.curves, ink, view.plane}, model,
                                            sheet.layers, first, sink, context);
     if (!status) return status;
-    first += ink.lines.size();
+    first += entities_at_most(ink);
   }
   sink(paper.text());
   text.clear();

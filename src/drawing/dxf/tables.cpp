@@ -101,7 +101,10 @@ LineTypes line_types(const std::vector<LayerStyle>& layers) {
     const std::vector<double> dashes = even(layer.dash_mm);
     auto found = std::ranges::find(types.all, dashes, &LineType::dash_mm);
     if (found == types.all.end()) {
-      const std::string_view kind = dashes.size() == 2 ? "DASHED_" : "CHAIN_";
+      // The usual names with the layer's: these dashes are not those of a program's own CENTER.
+      const std::string_view kind = dashes.size() == 2   ? "DASHED_"
+                                    : dashes.size() == 4 ? "CENTER_"
+                                                         : "PHANTOM_";
       types.all.push_back({std::string(kind) + layer.name, dashes});
       found = types.all.end() - 1;
     }

@@ -11,6 +11,8 @@
 #include "drawing/buffered_writer.hpp"
 #include "drawing/dxf/entities.hpp"
 #include "drawing/dxf/handles.hpp"
+#include "drawing/ink/dash_fit.hpp"
+#include "drawing/strokes/dash_runs.hpp"
 #include "drawing/strokes/layers.hpp"
 #include "drawing/strokes/strokes.hpp"
 #include "geometry/numeric/trig.hpp"
@@ -80,6 +82,17 @@ void append_curve(std::string& out, const EntityHead& head, const Arc& arc) {
                  arc.full ? 2 * kPi : rounded(arc.to, 1e10));
 }
 
+/// Returns by what factor dashes are stretched for a run, which is an entity and begins with a dash
+/// of its own.
+double stretch_of_run(const Stroke& stroke, const StrokeRun& run, std::span<const double> dash) {
+  double length = 0;
+  for (std::size_t i = run.first; i < run.last; ++i)
+    length += length_along(run.curve, stroke.points[i], stroke.points[i + 1]);
+  const bool closed =
+      run.last > run.first + 2 && stroke.points[run.first] == stroke.points[run.last];
+  return fitted_stretch(length, closed ? DashEnds::closed : DashEnds::open, dash);
+}
+
 /// Appends the entity of a run of a stroke.
 void append_run(std::string& out, const EntityHead& head, const Stroke& stroke,
                 const StrokeRun& run, bool dashed) {
@@ -104,6 +117,25 @@ std::string object_data(const model::Object& object, const model::Model& model) 
                                        std::string_view(model.files[object.file].label)})
     groups.text(1000, value_text(value, kMostOfData));
   return data;
+}
+
+/// Returns the entities of the centre lines of a view.
+std::string centre_lines_of(const ViewLines& view, const model::Model& model,
+                            const LayerStyle& layer, Handle first) {
+  const bool dashed = !layer.dash_mm.empty();
+  std::string out;
+  for (const CentreLine& line : view.ink.centre_lines) {
+    Chain points;
+    for (const PaperPoint& point : line.points) points.push_back(view.plane.place(point));
+    const double stretch = dashed ? stretch_of(line, layer.dash_mm) : 1;
+    const EntityHead head{Space::model, first++, layer.name, stretch};
+    if (points.size() == 2)
+      append_line(out, head, points.front(), points.back());
+    else
+      append_polyline(out, head, points, dashed);
+    out += object_data(model.object(line.object), model);
+  }
+  return out;
 }
 
 /// The lines of a view by layers, those of an object side by side.
@@ -143,6 +175,15 @@ std::vector<std::size_t> shares_of(const std::vector<SortedLines::OfObject>& obj
   return begins;
 }
 
+/// Returns the dashes that are fitted to each line of a layer, in mm of model space: those of
+/// hidden lines.
+std::vector<double> fitted_dashes(ViewLayer layer, const LayerStyle& style, double scale) {
+  std::vector<double> dashes;
+  if (layer != ViewLayer::hidden_by_other && layer != ViewLayer::hidden_by_self) return dashes;
+  for (const double dash : style.dash_mm) dashes.push_back(dash * scale);
+  return dashes;
+}
+
 }  // namespace
 
 Status write_view_lines(const ViewLines& view, const model::Model& model,
@@ -163,18 +204,27 @@ Status write_view_lines(const ViewLines& view, const model::Model& model,
     for (const Line& line : placed) lines.push_back(&line);
     const std::string data = object_data(model.object(placed.front().object), model);
     const LayerStyle& layer = layers[static_cast<std::size_t>(of_object.layer)];
+    const std::vector<double> dash = fitted_dashes(of_object.layer, layer, view.plane.scale());
     Handle handle = first + of_object.begin;
-    for (const JoinedLines& chain : join_lines(lines)) {
-      const Stroke stroke = stroke_of(chain, curves);
+    const auto append_stroke = [&](const Stroke& stroke) {
       for (const StrokeRun& run : stroke.runs) {
-        append_run(out, {Space::model, handle++, layer.name}, stroke, run, !layer.dash_mm.empty());
+        const double stretch = dash.empty() ? 1 : stretch_of_run(stroke, run, dash);
+        append_run(out, {Space::model, handle++, layer.name, stretch}, stroke, run,
+                   !layer.dash_mm.empty());
         out += data;
       }
+    };
+    for (const JoinedLines& chain : join_lines(lines)) {
+      if (dash.empty())
+        append_stroke(stroke_of(chain, curves));
+      else
+        for (const DashRun& run : dash_runs(chain, curves, dash))
+          append_stroke(stroke_of(run.chain, curves));
     }
   };
   const std::vector<std::size_t> shares = shares_of(sorted.objects);
   const parallel::ProgressPhase phase(context.progress, "dxf", sorted.lines.size());
-  return make_in_order(
+  const Status status = make_in_order(
       "dxf", shares.size() - 1,
       [&](std::size_t share) {
         std::string text;
@@ -187,6 +237,10 @@ Status write_view_lines(const ViewLines& view, const model::Model& model,
         phase.add(sorted.objects[shares[share + 1] - 1].end - sorted.objects[shares[share]].begin);
       },
       context);
+  if (status)
+    sink(centre_lines_of(view, model, layers[static_cast<std::size_t>(ViewLayer::centre)],
+                         first + sorted.lines.size()));
+  return status;
 }
 
 }  // namespace strake::drawing::dxf

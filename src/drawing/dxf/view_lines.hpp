@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 
 #include "drawing/dxf/groups.hpp"
@@ -22,10 +23,15 @@ struct ViewLines {
   const ModelPlane& plane;
 };
 
-/// Writes the lines of a view as entities of model space, layer by layer and object by object. Each
-/// entity says whose it is: id, name and file of the object (decision 0078). No line takes more
-/// than one handle, from `first` on. `layers` begin with those of ViewLayer. Errors: cancelled, out
-/// of memory.
+/// Returns as many handles as the entities of a view need at most: one for a line.
+[[nodiscard]] inline std::size_t entities_at_most(const Ink& ink) {
+  return ink.lines.size() + ink.centre_lines.size();
+}
+
+/// Writes the lines of a view as entities of model space, layer by layer and object by object, and
+/// its centre lines. Each entity says whose it is: id, name and file of the object (decision 0078),
+/// and by what factor the dashes of its layer fit it. Handles count from `first`. `layers` begin
+/// with those of ViewLayer. Errors: cancelled, out of memory.
 [[nodiscard]] Status write_view_lines(const ViewLines& view, const model::Model& model,
                                       std::span<const LayerStyle> layers, Handle first, Sink sink,
                                       const parallel::Context& context);

@@ -27,6 +27,13 @@ double rounded_within(double stretch, double error) {
 
 }  // namespace
 
+std::vector<double> pen_dashes(std::span<const double> widths, double pen_mm) {
+  std::vector<double> lengths;
+  for (const double width : widths)
+    lengths.push_back(std::max(std::round(width * pen_mm * 100) / 100, 0.01));
+  return lengths;
+}
+
 double shortest_dashed(std::span<const double> dash_mm) {
   return dash_mm.empty() ? 0 : kLeastStretch * (period_of(dash_mm) + dash_mm.front());
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace strake::drawing {
 
@@ -23,6 +24,10 @@ enum class DashEnds : std::uint8_t {
 /// The dashes of centre lines in widths of their pen, ISO 128-2 type 04; a dot is as long as it is
 /// wide, or else it is not seen in print.
 inline constexpr std::array<double, 4> kCentreDashes{24, 3, 1, 3};
+
+/// Returns the dashes of a pen, mm, by their lengths in widths of the pen: rounded to hundredths of
+/// a millimetre, which are as fine as any pen, and no shorter than one.
+[[nodiscard]] std::vector<double> pen_dashes(std::span<const double> widths, double pen_mm);
 
 /// Returns by what factor a pattern (lengths of ink and gap by turns, mm) is stretched for one
 /// stroke, so that the stroke begins and ends with the whole first dash, or, where it is closed,

@@ -4,6 +4,7 @@
 
 // Decision 0052 says why equal things get equal ink.
 
+#include <array>
 #include <cstdint>
 #include <stop_token>
 #include <vector>
@@ -14,6 +15,7 @@ namespace strake::drawing {
 
 /// The dash and the gap of a dashed line in widths of its pen (ISO 128-20).
 inline constexpr double kDash = 12, kDashGap = 3;
+inline constexpr std::array<double, 2> kHiddenDashes{kDash, kDashGap};
 
 struct HiddenInkRule {
   OverlapRule overlap;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // PDF of a drawing: one page with the layers of its view.
-#include <cmath>
 #include <string>
 
+#include "drawing/ink/dash_fit.hpp"
 #include "drawing/ink/hidden_ink.hpp"
 #include "drawing/pdf/pdf_document.hpp"
 #include "drawing/pdf/pdf_path.hpp"
@@ -18,8 +18,7 @@ PdfPen pen_of(const Layer& layer, const Pens& pens) {
   const bool polyline = layer.kind == hlr::EdgeKind::polyline;
   PdfPen pen{pens.thin, {}, {0, 0, 0, 255}};
   if (layer.hidden) {
-    for (const double widths : {kDash, kDashGap})
-      pen.dash_mm.push_back(std::round(pens.thin * widths * 100) / 100);
+    pen.dash_mm = pen_dashes(kHiddenDashes, pens.thin);
     pen.color =
         polyline ? model::Color{0x66, 0x88, 0xAA, 255} : model::Color{0x44, 0x44, 0x44, 255};
   } else if (layer.kind == hlr::EdgeKind::contour) {
@@ -68,9 +67,11 @@ Result<Diagnostics> write_pdf(const NeutralDrawing& drawing, const Ink& ink,
                               const parallel::Context& context) {
   PdfDocument document(sink, title_of(drawing), pdf_facts(drawing, ink, model));
   document.begin_page({drawing.sheet.width_mm, drawing.sheet.height_mm}, title_of(drawing));
-  const Status status = add_pdf_view(
-      document, std::nullopt, drawing.curves, ink, model,
-      [&](const Layer& layer) { return pen_of(layer, ink.pens); }, context);
+  const Status status =
+      add_pdf_view(document, std::nullopt, drawing.curves, ink, model,
+                   {[&](const Layer& layer, LineState) { return pen_of(layer, ink.pens); },
+                    {ink.pens.thin, pen_dashes(kCentreDashes, ink.pens.thin), {0, 0, 0, 255}}},
+                   context);
   if (!status) return status.error();
   if (drawing.frame) {
     const auto& [left, top, right, bottom] = *drawing.frame;

@@ -15,6 +15,8 @@
 #include "drawing/buffered_writer.hpp"
 #include "drawing/pdf/pdf_path.hpp"
 #include "drawing/pdf/pdf_syntax.hpp"
+#include "drawing/strokes/dash_runs.hpp"
+#include "drawing/strokes/dashed_paths.hpp"
 #include "drawing/strokes/strokes.hpp"
 
 namespace strake::drawing {
@@ -27,7 +29,9 @@ constexpr std::size_t kLinesOfStream = 4096;
 /// The contents of a layer: lines, and what stands before and after them in each stream.
 struct LayerContents {
   std::string begin, end;
-  std::vector<const Line*> lines;
+  std::vector<const Line*> lines;  ///< those of `state`, and others that are dashed with them
+  LineState state = LineState::visible;
+  std::vector<double> dash_mm;  ///< to be fitted to each line; empty: the pen of `begin` says all
 };
 
 struct Stream {
@@ -49,15 +53,82 @@ std::string mark_text(std::string_view name) {
   return pdf_text(cut + "\xE2\x80\xA6");
 }
 
+/// Appends the operator that chooses dashes, as they go on from that length; none: continuous.
+void append_dashes(std::string& out, std::span<const double> dash_mm, double from_mm = 0) {
+  out += '[';
+  for (const double dash : dash_mm) {
+    append_pdf_number(out, dash, 4);
+    out += ' ';
+  }
+  out += ']';
+  append_pdf_number(out, from_mm, 4);
+  out += " d\n";
+}
+
+void append_paths(std::string& out, const DashedPaths& paths) {
+  paths.for_each([&](std::span<const double> pattern, const std::string& commands) {
+    append_dashes(out, pattern);
+    out += commands + "S\n";
+  });
+}
+
+/// A part of a stroke, and how far from the stroke's beginning it begins, mm.
+struct StrokePart {
+  JoinedLines chain;
+  double from_mm = 0;
+};
+
+/// Returns the parts of a stroke whose lines are of one state.
+std::vector<StrokePart> parts_of(const JoinedLines& stroke, LineState state,
+                                 const PaperCurves& curves) {
+  std::vector<StrokePart> parts;
+  double along = 0;
+  bool goes_on = false;
+  for (std::size_t i = 0; i < stroke.lines.size(); ++i) {
+    const Line* line = stroke.lines[i];
+    if (line->state == state) {
+      if (!goes_on) parts.push_back({{{stroke.points[i]}, {}}, along});
+      parts.back().chain.points.push_back(stroke.points[i + 1]);
+      parts.back().chain.lines.push_back(line);
+    }
+    goes_on = line->state == state;
+    along += length_along(curves.of(*line), stroke.points[i], stroke.points[i + 1]);
+  }
+  return parts;
+}
+
+/// Appends dashed lines of one state. Where a stroke comes from a line of another state, its dashes
+/// go on.
+void append_dashed(std::string& out, const std::vector<JoinedLines>& chains, LineState state,
+                   const PaperCurves& curves, std::span<const double> dash_mm) {
+  DashedPaths paths(dash_mm);
+  std::string amid;
+  for (const JoinedLines& chain : chains)
+    for (const DashRun& run : dash_runs(chain, curves, dash_mm))
+      for (const StrokePart& part : parts_of(run.chain, state, curves)) {
+        const bool begins = part.from_mm == 0 || run.stretch == 0;
+        if (!begins) append_dashes(amid, paths.pattern(run.stretch), part.from_mm);
+        append_pdf_stroke(begins ? paths.of(run.stretch) : amid, stroke_of(part.chain, curves));
+        if (!begins) amid += "S\n";
+      }
+  append_paths(out, paths);
+  out += amid;
+}
+
 void append_object(std::string& out, std::span<const Line* const> lines, const PaperCurves& curves,
-                   const model::Model& model) {
+                   const model::Model& model, const LayerContents& layer) {
   const std::vector<JoinedLines> chains = join_lines(lines);
   if (chains.empty()) return;
   const model::Object& object = model.object(lines.front()->object);
   out += "/Strake<</Id" + mark_text(object.id) + "/Name" + mark_text(object.name) + "/File" +
          mark_text(model.files[object.file].label) + ">>BDC\n";
-  for (const JoinedLines& chain : chains) append_pdf_stroke(out, stroke_of(chain, curves));
-  out += "S\nEMC\n";
+  if (layer.dash_mm.empty()) {
+    for (const JoinedLines& chain : chains) append_pdf_stroke(out, stroke_of(chain, curves));
+    out += "S\n";
+  } else {
+    append_dashed(out, chains, layer.state, curves, layer.dash_mm);
+  }
+  out += "EMC\n";
 }
 
 std::vector<Stream> streams_of(const std::vector<LayerContents>& layers) {
@@ -92,7 +163,7 @@ class LayerMaker {
   LayerMaker(PdfDocument& document, std::optional<PdfLayerId> parent, const Ink& ink)
       : document_(document), parent_(parent), ink_(ink) {}
 
-  std::vector<LayerContents> make(parallel::FunctionRef<PdfPen(const Layer&)> pen) {
+  std::vector<LayerContents> make(const PdfPens& pens) {
     for (std::size_t c = 0; c < kCauses.size(); ++c)
       if (std::ranges::any_of(ink_.lines,
                               [&](const Line& line) { return line.state == kCauses.at(c).state; }))
@@ -101,27 +172,38 @@ class LayerMaker {
       const std::vector<const Line*> lines = lines_of(layer, ink_);
       if (lines.empty()) continue;
       const PdfLayerId id = document_.add_layer(layer.label, parent_);
-      const std::string style = "q\n" + pdf_pen(pen(layer));
       if (!layer.hidden) {
-        layers_.push_back({document_.open(id) + style, "Q\n" + document_.close(id), lines});
+        layers_.push_back({document_.open(id) + "q\n" + pdf_pen(pens.of(layer, LineState::visible)),
+                           "Q\n" + document_.close(id),
+                           lines,
+                           LineState::visible,
+                           {}});
         continue;
       }
-      for (std::size_t c = 0; c < kCauses.size(); ++c) add_hidden(id, style, lines, c);
+      for (std::size_t c = 0; c < kCauses.size(); ++c)
+        add_hidden(id, pens.of(layer, kCauses.at(c).state), lines, c);
     }
     return std::move(layers_);
   }
 
  private:
   /// Adds the lines of a layer that are hidden by one cause: they lie in its layer too.
-  void add_hidden(PdfLayerId id, const std::string& style, const std::vector<const Line*>& lines,
+  void add_hidden(PdfLayerId id, const PdfPen& pen, const std::vector<const Line*>& lines,
                   std::size_t cause) {
+    const LineState state = kCauses.at(cause).state;
+    const bool dashed_as_one = !ink_.split_hidden && !pen.dash_mm.empty();
+    const auto of_state = [&](const Line* line) { return line->state == state; };
     std::vector<const Line*> chosen;
-    std::ranges::copy_if(lines, std::back_inserter(chosen),
-                         [&](const Line* line) { return line->state == kCauses.at(cause).state; });
+    for_each_object(lines, [&](std::span<const Line* const> object) {
+      if (dashed_as_one && std::ranges::any_of(object, of_state))
+        chosen.insert(chosen.end(), object.begin(), object.end());
+      else
+        std::ranges::copy_if(object, std::back_inserter(chosen), of_state);
+    });
     if (chosen.empty()) return;
     const PdfLayerId by = *causes_.at(cause);
-    layers_.push_back({document_.open(id) + PdfDocument::open_alone(by) + style,
-                       "Q\nEMC\n" + document_.close(id), std::move(chosen)});
+    layers_.push_back({document_.open(id) + PdfDocument::open_alone(by) + "q\n" + pdf_pen(pen),
+                       "Q\nEMC\n" + document_.close(id), std::move(chosen), state, pen.dash_mm});
   }
 
   PdfDocument& document_;
@@ -130,6 +212,18 @@ class LayerMaker {
   std::array<std::optional<PdfLayerId>, kCauses.size()> causes_;
   std::vector<LayerContents> layers_;
 };
+
+void add_centre_lines(PdfDocument& document, std::optional<PdfLayerId> parent, const Ink& ink,
+                      const PdfPen& pen) {
+  if (ink.centre_lines.empty()) return;
+  const PdfLayerId layer = document.add_layer("Centre lines", parent);
+  DashedPaths paths(pen.dash_mm);
+  for (const CentreLine& line : ink.centre_lines)
+    append_pdf_chain(paths.of(stretch_of(line, pen.dash_mm)), line.points);
+  std::string out = document.open(layer) + "q\n" + pdf_pen(pen);
+  append_paths(out, paths);
+  document.add(out + "Q\n" + document.close(layer));
+}
 
 std::string with_commas(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
@@ -140,27 +234,25 @@ std::string pdf_pen(const PdfPen& pen) {
   append_pdf_number(out, pen.width_mm, 4);
   out += " w\n";
   if (pen.dash_mm.empty()) return out;
-  out += "0 J [";
-  for (const double dash : pen.dash_mm) {
-    append_pdf_number(out, dash, 4);
-    out += ' ';
-  }
-  return out + "] 0 d\n";
+  out += "0 J ";
+  append_dashes(out, pen.dash_mm);
+  return out;
 }
 
 Status add_pdf_view(PdfDocument& document, std::optional<PdfLayerId> parent,
                     const PaperCurves& curves, const Ink& ink, const model::Model& model,
-                    parallel::FunctionRef<PdfPen(const Layer&)> pen,
-                    const parallel::Context& context) {
-  const std::vector<LayerContents> layers = LayerMaker(document, parent, ink).make(pen);
+                    const PdfPens& pens, const parallel::Context& context) {
+  const std::vector<LayerContents> layers = LayerMaker(document, parent, ink).make(pens);
   const std::vector<Stream> streams = streams_of(layers);
-  const parallel::ProgressPhase phase(context.progress, "PDF", ink.lines.size());
-  return make_in_order(
+  std::size_t lines = 0;
+  for (const Stream& stream : streams) lines += stream.lines.size();
+  const parallel::ProgressPhase phase(context.progress, "PDF", lines);
+  const Status status = make_in_order(
       "PDF", streams.size(),
       [&](std::size_t i) {
         std::string out = streams[i].layer->begin;
         for_each_object(streams[i].lines, [&](std::span<const Line* const> object) {
-          append_object(out, object, curves, model);
+          append_object(out, object, curves, model, *streams[i].layer);
         });
         return deflated(out + streams[i].layer->end);
       },
@@ -169,6 +261,8 @@ Status add_pdf_view(PdfDocument& document, std::optional<PdfLayerId> parent,
         phase.add(streams[i].lines.size());
       },
       context);
+  if (status) add_centre_lines(document, parent, ink, pens.centre_lines);
+  return status;
 }
 
 std::string pdf_facts(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model) {

@@ -28,13 +28,21 @@ struct PdfPen {
 /// Returns the operators that choose a pen.
 [[nodiscard]] std::string pdf_pen(const PdfPen& pen);
 
+/// The pens of a view.
+struct PdfPens {
+  /// The pen of a layer; of a hidden one, for the lines that are hidden in this way.
+  parallel::FunctionRef<PdfPen(const Layer&, LineState)> of;
+  PdfPen centre_lines;
+};
+
 /// Adds the lines of a view to the page: a layer for each kind of line, below `parent` if there is
-/// one, and two more by which hidden lines are switched by what hides them. In a layer the path of
-/// each object is marked with the object's id, name and file. Errors: cancelled, out of memory.
+/// one, two more by which hidden lines are switched by what hides them, and one of centre lines. In
+/// a layer the path of each object is marked with the object's id, name and file. Dashes fit each
+/// line (dash_runs); those of hidden lines that are not kept apart go on from what one cause hides
+/// to what the other does. Errors: cancelled, out of memory.
 [[nodiscard]] Status add_pdf_view(PdfDocument& document, std::optional<PdfLayerId> parent,
                                   const PaperCurves& curves, const Ink& ink,
-                                  const model::Model& model,
-                                  parallel::FunctionRef<PdfPen(const Layer&)> pen,
+                                  const model::Model& model, const PdfPens& pens,
                                   const parallel::Context& context);
 
 /// Returns what the metadata of a document say of a view: the facts that SVG states, as XML.

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <numeric>
-#include <optional>
 #include <utility>
 
 #include "drawing/ink/dash_fit.hpp"
+#include "drawing/strokes/strokes.hpp"
 
 namespace strake::drawing {
 
@@ -16,25 +16,6 @@ namespace {
 
 /// Lines that turn by more make a corner. Meshes stand for circles with as few as ten sides.
 constexpr double kCosineOfCorner = 0.8;
-
-/// Returns the point of the curve halfway between two of its points; none for opposite ones.
-std::optional<PaperPoint> halfway(const PaperCurve& c, const PaperPoint& a, const PaperPoint& b) {
-  const double area = c.u.x * c.v.y - c.u.y * c.v.x;
-  const double x = a.x + b.x - 2 * c.centre.x, y = a.y + b.y - 2 * c.centre.y;
-  const double s = (x * c.v.y - y * c.v.x) / area, t = (c.u.x * y - c.u.y * x) / area;
-  const double length = std::sqrt(s * s + t * t);
-  if (!(length > 1e-6)) return std::nullopt;
-  return PaperPoint{c.centre.x + (c.u.x * s + c.v.x * t) / length,
-                    c.centre.y + (c.u.y * s + c.v.y * t) / length};
-}
-
-/// Returns the length of a segment, or of the arc that it is the chord of.
-double length_of(const PaperCurve* curve, const PaperPoint& a, const PaperPoint& b) {
-  const double chord = distance(a, b);
-  const auto middle = curve != nullptr ? halfway(*curve, a, b) : std::nullopt;
-  // Richardson's step from one chord to two leaves an error of the fourth order.
-  return middle ? (4 * (distance(a, *middle) + distance(*middle, b)) - chord) / 3 : chord;
-}
 
 class ChainCutter {
  public:
@@ -45,7 +26,7 @@ class ChainCutter {
         closed_(chain.points.size() > 3 && chain.points.front() == chain.points.back()) {
     for (std::size_t i = 0; i < chain.lines.size(); ++i) {
       curve_.push_back(curves.of(*chain.lines[i]));
-      length_.push_back(length_of(curve_[i], chain.points[i], chain.points[i + 1]));
+      length_.push_back(length_along(curve_[i], chain.points[i], chain.points[i + 1]));
     }
   }
 
@@ -128,6 +109,13 @@ class ChainCutter {
 std::vector<DashRun> dash_runs(const JoinedLines& chain, const PaperCurves& curves,
                                std::span<const double> dash_mm) {
   return ChainCutter(chain, curves, dash_mm).cut();
+}
+
+double stretch_of(const CentreLine& line, std::span<const double> dash_mm) {
+  double length = 0;
+  for (std::size_t i = 1; i < line.points.size(); ++i)
+    length += distance(line.points[i - 1], line.points[i]);
+  return fitted_stretch(length, line.cross ? DashEnds::centred : DashEnds::open, dash_mm);
 }
 
 }  // namespace strake::drawing

@@ -7,6 +7,7 @@
 
 #include "drawing/strokes/join_lines.hpp"
 #include "strake/drawing/drawing.hpp"
+#include "strake/drawing/ink.hpp"
 
 namespace strake::drawing {
 
@@ -23,5 +24,8 @@ struct DashRun {
 /// corners, and count with the lengths of their arcs.
 [[nodiscard]] std::vector<DashRun> dash_runs(const JoinedLines& chain, const PaperCurves& curves,
                                              std::span<const double> dash_mm);
+
+/// Returns by what factor the pattern is stretched for a centre line, mm of paper; 0: continuous.
+[[nodiscard]] double stretch_of(const CentreLine& line, std::span<const double> dash_mm);
 
 }  // namespace strake::drawing

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "geometry/numeric/trig.hpp"
@@ -15,6 +16,17 @@ using geometry::kPi;
 
 /// An ellipse narrower than this, mm, is drawn as the straight lines that it is on paper.
 constexpr double kNarrowest = 0.01;
+
+/// Returns the point of the curve halfway between two of its points; none for opposite ones.
+std::optional<PaperPoint> halfway(const PaperCurve& c, const PaperPoint& a, const PaperPoint& b) {
+  const double area = c.u.x * c.v.y - c.u.y * c.v.x;
+  const double x = a.x + b.x - 2 * c.centre.x, y = a.y + b.y - 2 * c.centre.y;
+  const double s = (x * c.v.y - y * c.v.x) / area, t = (c.u.x * y - c.u.y * x) / area;
+  const double length = std::sqrt(s * s + t * t);
+  if (!(length > 1e-6)) return std::nullopt;
+  return PaperPoint{c.centre.x + (c.u.x * s + c.v.x * t) / length,
+                    c.centre.y + (c.u.y * s + c.v.y * t) / length};
+}
 
 class StrokeFinder {
  public:
@@ -96,6 +108,13 @@ double curve_parameter(const PaperCurve& c, const PaperPoint& p) {
 double turn_between(const PaperCurve& c, const PaperPoint& from, const PaperPoint& to) {
   const double turn = curve_parameter(c, to) - curve_parameter(c, from);
   return turn > kPi ? turn - 2 * kPi : turn <= -kPi ? turn + 2 * kPi : turn;
+}
+
+double length_along(const PaperCurve* curve, const PaperPoint& a, const PaperPoint& b) {
+  const double chord = distance(a, b);
+  const auto middle = curve != nullptr ? halfway(*curve, a, b) : std::nullopt;
+  // Richardson's step from one chord to two leaves an error of the fourth order.
+  return middle ? (4 * (distance(a, *middle) + distance(*middle, b)) - chord) / 3 : chord;
 }
 
 double turn_of(const Stroke& stroke, const StrokeRun& arc) {

@@ -49,6 +49,11 @@ struct EllipseAxes {
 [[nodiscard]] double turn_between(const PaperCurve& curve, const PaperPoint& from,
                                   const PaperPoint& to);
 
+/// Returns the length of the shorter arc of a curve between two of its points, to the fourth order
+/// of their distance; where the curve is null, that of the straight line.
+[[nodiscard]] double length_along(const PaperCurve* curve, const PaperPoint& a,
+                                  const PaperPoint& b);
+
 /// Returns how far the parameter goes along an arc of a stroke, chord by chord: 2π for a full turn,
 /// negative backwards.
 [[nodiscard]] double turn_of(const Stroke& stroke, const StrokeRun& arc);

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <span>
@@ -16,6 +14,7 @@
 #include "drawing/ink/dash_fit.hpp"
 #include "drawing/ink/hidden_ink.hpp"
 #include "drawing/strokes/dash_runs.hpp"
+#include "drawing/strokes/dashed_paths.hpp"
 #include "drawing/strokes/layers.hpp"
 #include "drawing/strokes/strokes.hpp"
 #include "drawing/svg/svg_layers.hpp"
@@ -26,40 +25,15 @@ namespace strake::drawing {
 
 namespace {
 
-/// Collects paths by their patterns, in the order in which these come first.
-class DashedPaths {
- public:
-  explicit DashedPaths(std::span<const double> dash_mm) : dash_mm_(dash_mm) {}
-
-  /// Returns the commands of the path that has this pattern.
-  std::string& of(double stretch) {
-    auto path = std::ranges::find(paths_, stretch, &Path::stretch);
-    if (path == paths_.end()) path = paths_.insert(path, {stretch, {}});
-    return path->commands;
-  }
-
-  void write(BufferedWriter& out) const {
-    for (const Path& path : paths_) {
-      out << "<path style=\"stroke-dasharray:";
-      if (path.stretch == 0) out << "none";
-      for (std::size_t k = 0; path.stretch != 0 && k < dash_mm_.size(); ++k)
-        out << (k == 0 ? "" : " ") << shortest(rounded(dash_mm_[k] * path.stretch));
-      out << "\" d=\"" << path.commands << "\"/>";
-    }
-  }
-
- private:
-  struct Path {
-    double stretch;
-    std::string commands;
-  };
-
-  /// Tenths of a micrometre add up to no visible length on the longest lines.
-  static double rounded(double mm) { return std::round(mm * 1e4) / 1e4; }
-
-  std::span<const double> dash_mm_;
-  std::vector<Path> paths_;
-};
+void write_paths(BufferedWriter& out, const DashedPaths& paths) {
+  paths.for_each([&](std::span<const double> pattern, const std::string& commands) {
+    out << "<path style=\"stroke-dasharray:";
+    if (pattern.empty()) out << "none";
+    for (std::size_t k = 0; k < pattern.size(); ++k)
+      out << (k == 0 ? "" : " ") << shortest(pattern[k]);
+    out << "\" d=\"" << commands << "\"/>";
+  });
+}
 
 void write_object(BufferedWriter& out, const PaperCurves& curves, const model::Model& model,
                   std::span<const Line* const> lines, std::span<const double> dash_mm) {
@@ -80,7 +54,7 @@ void write_object(BufferedWriter& out, const PaperCurves& curves, const model::M
     for (const JoinedLines& chain : chains)
       for (const DashRun& run : dash_runs(chain, curves, dash_mm))
         append_svg_path(paths.of(run.stretch), stroke_of(run.chain, curves));
-    paths.write(out);
+    write_paths(out, paths);
   }
   out << "</g>\n";
 }
@@ -150,23 +124,17 @@ void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view pr
   if (ink.centre_lines.empty()) return;
   begin_layer(out, "Centre lines", fmt::format("{}centre-lines", prefix), "centre");
   DashedPaths paths(dash_mm);
-  for (const CentreLine& line : ink.centre_lines) {
-    double length = 0;
-    for (std::size_t i = 1; i < line.points.size(); ++i)
-      length += distance(line.points[i - 1], line.points[i]);
-    const DashEnds ends = line.cross ? DashEnds::centred : DashEnds::open;
-    append_svg_chain(paths.of(fitted_stretch(length, ends, dash_mm)), line.points);
-  }
-  paths.write(out);
+  for (const CentreLine& line : ink.centre_lines)
+    append_svg_chain(paths.of(stretch_of(line, dash_mm)), line.points);
+  write_paths(out, paths);
   out << "\n</g>\n";
 }
-
-double rounded_dash(double mm) { return std::round(mm * 100) / 100; }
 
 namespace {
 
 void write_style(BufferedWriter& out, const Ink& ink, bool sections) {
   const Pens& pens = ink.pens;
+  const std::vector<double> dashes = pen_dashes(kHiddenDashes, pens.thin);
   // A dash of 12 line widths and a gap of 3; long dash, gap, dot for centre lines (ISO 128-20).
   out << fmt::format(
       "<style>\n"
@@ -181,8 +149,7 @@ void write_style(BufferedWriter& out, const Ink& ink, bool sections) {
       ".sheet {{ fill: #fff; stroke: none; }}\n"
       "text {{ font-family: sans-serif; font-size: 3.5px; }}\n"
       ".frame path {{ stroke-width: {2}; }}\n",
-      pens.outline, pens.edge, pens.thin, shortest(rounded_dash(pens.thin * kDash)),
-      shortest(rounded_dash(pens.thin * kDashGap)));
+      pens.outline, pens.edge, pens.thin, shortest(dashes[0]), shortest(dashes[1]));
   if (sections)
     out << fmt::format(
         ".visible.section path {{ stroke-width: {}; }}\n"
@@ -266,13 +233,9 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
                      shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
-  const std::vector<double> dashes{rounded_dash(ink.pens.thin * kDash),
-                                   rounded_dash(ink.pens.thin * kDashGap)};
+  const std::vector<double> dashes = pen_dashes(kHiddenDashes, ink.pens.thin);
   write_layers(out, drawing.curves, ink, model, "", {dashes, dashes});
-  std::array<double, kCentreDashes.size()> centre{};
-  std::ranges::transform(kCentreDashes, centre.begin(),
-                         [&](double widths) { return rounded_dash(widths * ink.pens.thin); });
-  write_centre_lines(out, ink, "", centre);
+  write_centre_lines(out, ink, "", pen_dashes(kCentreDashes, ink.pens.thin));
   write_frame(out, drawing);
   out << "</g>\n";
   write_title(out, drawing);

@@ -31,9 +31,6 @@ void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink
 void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix,
                         std::span<const double> dash_mm);
 
-/// Returns a length of a dash as style sheets have it, rounded to hundredths of a millimetre.
-[[nodiscard]] double rounded_dash(double mm);
-
 /// Writes an element of metadata for each object that was left out because it lies far from all
 /// others.
 void write_far_objects(BufferedWriter& out, const NeutralDrawing& drawing,

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // DXF of a sheet: its views in model space, and on paper windows that show them, with all marks.
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -26,19 +28,24 @@ struct DxfMarkLayer {
   LayerName name;
 };
 constexpr std::array kDxfMarkLayers{
-    DxfMarkLayer{LineClass::grid, {"AM_7", "Grid lines"}},
+    DxfMarkLayer{LineClass::grid, {"AM_7_GRID", "Grid lines"}},
     DxfMarkLayer{LineClass::grid_label, {"AM_7_TEXT", "Labels of grid lines"}},
-    DxfMarkLayer{LineClass::leader, {"AM_5", "Leaders of tags"}},
+    DxfMarkLayer{LineClass::dimension, {"AM_5", "Dimensions"}},
+    DxfMarkLayer{LineClass::leader, {"AM_5_TAG", "Tags and their leaders"}},
+    DxfMarkLayer{LineClass::note, {"AM_5_NOTE", "Levels, scale bar, north, lists"}},
+    DxfMarkLayer{LineClass::cutting_plane, {"AM_10", "Where other views are cut"}},
+    DxfMarkLayer{LineClass::extent, {"AM_11", "What other views show"}},
     DxfMarkLayer{LineClass::title, drawing::dxf::kTitleLayer},
     DxfMarkLayer{LineClass::frame, {"AM_BOR", "Frame and title block"}},
     DxfMarkLayer{LineClass::frame_thin, drawing::dxf::kThinFrameLayer},
 };
 
-LineClass class_of_view_layer(ViewLayer layer) {
+LineClass class_of_view_layer(ViewLayer layer, bool split_hidden) {
   switch (layer) {
     case ViewLayer::hidden_by_other:
+      return split_hidden ? LineClass::hidden_other : LineClass::hidden;
     case ViewLayer::hidden_by_self:
-      return LineClass::hidden;
+      return split_hidden ? LineClass::hidden_self : LineClass::hidden;
     case ViewLayer::hatch:
       return LineClass::hatch;
     case ViewLayer::smooth:
@@ -55,6 +62,8 @@ LineClass class_of_view_layer(ViewLayer layer) {
       return LineClass::outline;
     case ViewLayer::section:
       return LineClass::section;
+    case ViewLayer::centre:
+      return LineClass::centre;
   }
   return LineClass::edge;
 }
@@ -67,27 +76,76 @@ drawing::dxf::LayerStyle dxf_layer_style(const LayerName& name, const LineStyle&
           .color = style.color};
 }
 
-std::vector<drawing::dxf::LayerStyle> dxf_layers_of(const LineStyles& styles) {
+std::vector<drawing::dxf::LayerStyle> dxf_layers_of(const Sheet& sheet) {
+  const bool split_hidden = std::ranges::any_of(
+      sheet.views, [](const PlacedView& view) { return view.ink.split_hidden; });
   std::vector<drawing::dxf::LayerStyle> layers;
   for (std::size_t i = 0; i < drawing::dxf::kViewLayers; ++i) {
     const auto layer = static_cast<ViewLayer>(i);
-    layers.push_back(dxf_layer_style(drawing::dxf::name_of(layer),
-                                     style_of(styles, class_of_view_layer(layer))));
+    layers.push_back(
+        dxf_layer_style(drawing::dxf::name_of(layer),
+                        style_of(sheet.styles, class_of_view_layer(layer, split_hidden))));
   }
   for (const DxfMarkLayer& layer : kDxfMarkLayers)
-    layers.push_back(dxf_layer_style(layer.name, style_of(styles, layer.line)));
+    layers.push_back(dxf_layer_style(layer.name, style_of(sheet.styles, layer.line)));
   layers.push_back(drawing::dxf::viewport_layer());
   return layers;
 }
 
-/// Returns the number of the layer that marks of a class lie on.
-std::size_t dxf_layer_of(LineClass line) {
-  for (std::size_t i = 0; i < kDxfMarkLayers.size(); ++i)
-    if (kDxfMarkLayers.at(i).line == line) return drawing::dxf::kViewLayers + i;
-  for (std::size_t i = 0; i < drawing::dxf::kViewLayers; ++i)
-    if (class_of_view_layer(static_cast<ViewLayer>(i)) == line) return i;
-  return static_cast<std::size_t>(ViewLayer::edge);
+/// Returns the layer of views that lines of a class lie on; none: marks have one of their own.
+constexpr std::optional<ViewLayer> view_layer_of(LineClass line) {
+  switch (line) {
+    case LineClass::outline:
+      return ViewLayer::outline;
+    case LineClass::edge:
+      return ViewLayer::edge;
+    case LineClass::boundary:
+      return ViewLayer::boundary;
+    case LineClass::intersection:
+      return ViewLayer::intersection;
+    case LineClass::section:
+      return ViewLayer::section;
+    case LineClass::hatch:
+      return ViewLayer::hatch;
+    case LineClass::polyline:
+      return ViewLayer::polyline;
+    case LineClass::smooth:
+      return ViewLayer::smooth;
+    case LineClass::hidden:
+    case LineClass::hidden_other:
+      return ViewLayer::hidden_by_other;
+    case LineClass::hidden_self:
+      return ViewLayer::hidden_by_self;
+    case LineClass::centre:
+      return ViewLayer::centre;
+    case LineClass::grid:
+    case LineClass::grid_label:
+    case LineClass::leader:
+    case LineClass::title:
+    case LineClass::frame:
+    case LineClass::frame_thin:
+    case LineClass::cutting_plane:
+    case LineClass::extent:
+    case LineClass::note:
+    case LineClass::dimension:
+      break;
+  }
+  return std::nullopt;
 }
+
+/// Returns the number of the layer that marks of a class lie on.
+constexpr std::size_t dxf_layer_of(LineClass line) {
+  if (const auto layer = view_layer_of(line)) return static_cast<std::size_t>(*layer);
+  std::size_t i = 0;
+  while (kDxfMarkLayers.at(i).line != line) ++i;
+  return drawing::dxf::kViewLayers + i;
+}
+
+// Each class has a layer: one without would reach beyond the list here.
+static_assert([] {
+  for (std::size_t c = 0; c < kLineClasses; ++c) (void)dxf_layer_of(static_cast<LineClass>(c));
+  return true;
+}());
 
 drawing::dxf::TextAlign dxf_align_of(Align align) {
   return align == Align::start    ? drawing::dxf::TextAlign::start
@@ -121,14 +179,15 @@ Result<Diagnostics> write_dxf(const Sheet& sheet, const model::Model& model, dra
   drawing::dxf::SheetFile file{.width_mm = sheet.width_mm,
                                .height_mm = sheet.height_mm,
                                .opens_on_paper = true,
-                               .layers = dxf_layers_of(sheet.styles),
+                               .layers = dxf_layers_of(sheet),
                                .viewport_layer = drawing::dxf::kViewLayers + kDxfMarkLayers.size(),
                                .views = {}};
   for (const PlacedView& view : sheet.views) file.views.push_back({view.drawing, view.ink});
   const auto add_all_marks = [&](PaperSpace& paper) {
     add_dxf_marks(paper, sheet.frame);
+    add_dxf_marks(paper, sheet.notes);
     for (const PlacedView& view : sheet.views)
-      for (const Marks* marks : {&view.frame, &view.grid, &view.tags, &view.caption})
+      for (const Marks* marks : {&view.frame, &view.grid, &view.notes, &view.tags, &view.caption})
         add_dxf_marks(paper, *marks);
   };
   const Status status = write_sheet_file(file, add_all_marks, model, sink, context);

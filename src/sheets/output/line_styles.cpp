@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sheets/output/line_styles.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <span>
 
 #include "drawing/ink/dash_fit.hpp"
 #include "drawing/ink/hidden_ink.hpp"
@@ -13,24 +12,15 @@ namespace strake::sheets {
 
 namespace {
 
-/// Rounds to hundredths of a millimetre, which are as fine as any pen.
-double rounded(double mm) { return std::round(mm * 100) / 100; }
-
-std::vector<double> in_widths(std::span<const double> dashes, double width) {
-  std::vector<double> lengths;
-  for (const double dash : dashes) lengths.push_back(std::max(rounded(dash * width), 0.01));
-  return lengths;
-}
-
 /// Returns the dashes of a class in widths of its pen, ISO 128-2 types 02 and 04. A dot is as long
 /// as it is wide, or else it is not seen in print.
 std::vector<double> usual_dashes(LineClass line, double width) {
-  if (line == LineClass::hidden)
-    return in_widths(std::array{drawing::kDash, drawing::kDashGap}, width);
+  if (line == LineClass::hidden) return drawing::pen_dashes(drawing::kHiddenDashes, width);
   if (line == LineClass::grid || line == LineClass::centre || line == LineClass::cutting_plane)
-    return in_widths(drawing::kCentreDashes, width);
+    return drawing::pen_dashes(drawing::kCentreDashes, width);
   // Long dash and two dots, type 05.
-  if (line == LineClass::extent) return in_widths(std::array{24.0, 3.0, 1.0, 3.0, 1.0, 3.0}, width);
+  if (line == LineClass::extent)
+    return drawing::pen_dashes(std::array{24.0, 3.0, 1.0, 3.0, 1.0, 3.0}, width);
   return {};
 }
 

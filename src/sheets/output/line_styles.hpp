@@ -13,6 +13,14 @@ namespace strake::sheets {
 [[nodiscard]] LineStyles styles_of(const std::array<StyleSpec, kLineClasses>& specs,
                                    const drawing::Pens& pens);
 
+/// Returns the class of a hidden line: that of all, or where the ink keeps apart what hides them,
+/// one of two.
+[[nodiscard]] inline LineClass hidden_class(const drawing::Ink& ink, drawing::LineState state) {
+  if (!ink.split_hidden) return LineClass::hidden;
+  return state == drawing::LineState::hidden_by_self ? LineClass::hidden_self
+                                                     : LineClass::hidden_other;
+}
+
 /// Returns the widths that the lines of views have in these styles.
 [[nodiscard]] drawing::Pens pens_of(const LineStyles& styles);
 

@@ -39,6 +39,7 @@ class PageWriter {
     document_.begin_page({sheet.width_mm, sheet.height_mm}, sheet.title);
     if (const Status status = write_artwork(); !status) return status;
     write_layer(sheet.frame, "Frame", std::nullopt);
+    write_layer(sheet.notes, "Notes", std::nullopt);
     for (const PlacedView& view : sheet.views)
       if (const Status status = write_view(view); !status) return status;
     return {};
@@ -62,14 +63,18 @@ class PageWriter {
     const PdfLayerId layer = document_.add_layer(view.name);
     document_.add_bookmark(view.title.empty() ? view.name : view.title,
                            {view.box.left, view.box.top, view.box.right, view.box.bottom});
-    const auto pen = [&](const drawing::Layer& of) {
-      return pen_of(style_of(sheet_->styles, class_of(of.kind, of.hidden)));
+    const auto pen = [&](const drawing::Layer& of, drawing::LineState state) {
+      const LineClass line =
+          of.hidden ? hidden_class(view.ink, state) : class_of(of.kind, of.hidden);
+      return pen_of(style_of(sheet_->styles, line));
     };
-    const Status status = drawing::add_pdf_view(document_, layer, view.drawing.curves, view.ink,
-                                                model_, pen, context_);
+    const Status status =
+        drawing::add_pdf_view(document_, layer, view.drawing.curves, view.ink, model_,
+                              {pen, pen_of(style_of(sheet_->styles, LineClass::centre))}, context_);
     if (!status) return status;
     write_layer(view.frame, "Frame", layer);
     write_layer(view.grid, "Grid", layer);
+    write_layer(view.notes, "Notes", layer);
     write_layer(view.tags, "Tags", layer);
     write_layer(view.caption, "Title", layer);
     return {};

@@ -190,10 +190,12 @@ void write_view(BufferedWriter& out, const PlacedView& view, const LineStyles& s
   out << "<g class=\"view\" id=\"" << id << "\" inkscape:groupmode=\"layer\" inkscape:label=\""
       << xml_escaped(view.name) << "\" data-view=\"" << xml_escaped(view.name) << "\" data-scale=\""
       << view.drawing.sheet.scale_text << "\">\n";
-  const LineClass self = view.ink.split_hidden ? LineClass::hidden_self : LineClass::hidden;
+  const auto dash_mm = [&](drawing::LineState state) {
+    return style_of(styles, hidden_class(view.ink, state)).dash_mm;
+  };
   drawing::write_layers(
       out, view.drawing.curves, view.ink, model, id + "-",
-      {style_of(styles, self).dash_mm, style_of(styles, LineClass::hidden_other).dash_mm});
+      {dash_mm(drawing::LineState::hidden_by_self), dash_mm(drawing::LineState::hidden_by_other)});
   drawing::write_centre_lines(out, view.ink, id + "-", style_of(styles, LineClass::centre).dash_mm);
   write_layer(out, view.frame, id + "-frame", "Frame");
   write_layer(out, view.grid, id + "-grid", "Grid");

@@ -5,9 +5,10 @@
 Without ezdxf the script ends with 77: skipped."""
 import json
 import sys
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-from scenario import Scenario, cube, gltf, main, rvm_of_round_things
+from scenario import Scenario, cube, gltf, main, rvm_of_round_things, sheet_with_all_notes
 
 try:
     from dxf_file import View, differences, object_of, read
@@ -125,6 +126,19 @@ class Dxf(Scenario):
         self.text('draw', '-p', 'p.strake', '--stored', 'all', '-o', 'stored.dxf', '--quiet')
         self.assertEqual((self.folder / 'stored.dxf').read_bytes(), (self.folder / 'saved.dxf').read_bytes())
 
+    def check_windows(self, document):
+        """Each line of model space is seen in one window; returns what these see."""
+        seen = []
+        for window in document.layouts.get('Sheet').query('VIEWPORT')[1:]:
+            half = window.dxf.view_height / 2, window.dxf.view_height / window.dxf.height * window.dxf.width / 2
+            x, y, *_ = window.dxf.view_center_point
+            seen.append((x - half[1], y - half[0], x + half[1], y + half[0]))
+        for entity in document.modelspace().query('LINE'):
+            for p in (entity.dxf.start, entity.dxf.end):
+                within = [box for box in seen if box[0] <= p.x <= box[2] and box[1] <= p.y <= box[3]]
+                self.assertEqual(len(within), 1, p)
+        return seen
+
     def test_views_of_a_sheet_lie_side_by_side_and_its_windows_show_them(self):
         self.models()
         self.text('draw', 'ship.glb', '--sheet', EXAMPLES / 'ship_sheet.toml', '-o', 's.dxf', '--quiet')
@@ -132,19 +146,10 @@ class Dxf(Scenario):
         self.assertEqual(faults, [])
         sheet = document.layouts.get('Sheet')
         self.assertEqual((sheet.dxf.paper_width, sheet.dxf.paper_height), (594, 420))
-        windows = sheet.query('VIEWPORT')[1:]
-        self.assertEqual(len(windows), 4)
-        seen = []
-        for window in windows:
-            half = window.dxf.view_height / 2, window.dxf.view_height / window.dxf.height * window.dxf.width / 2
-            x, y, *_ = window.dxf.view_center_point
-            seen.append((x - half[1], y - half[0], x + half[1], y + half[0]))
+        seen = self.check_windows(document)
+        self.assertEqual(len(seen), 4)
         front, top = seen[:2]
         self.assertAlmostEqual(front[0], top[0], 2, 'a view below another is in line with it')
-        for entity in document.modelspace().query('LINE'):
-            for p in (entity.dxf.start, entity.dxf.end):
-                within = [box for box in seen if box[0] <= p.x <= box[2] and box[1] <= p.y <= box[3]]
-                self.assertEqual(len(within), 1, p)
         texts = [text.dxf.text for text in sheet.query('TEXT')]
         for wanted in ('STR-1200-001', 'DECK 1', 'CL', 'A2'):
             self.assertIn(wanted, texts)
@@ -152,6 +157,56 @@ class Dxf(Scenario):
         for text in sheet.query('TEXT'):
             self.assertGreaterEqual(text.dxf.height, 1.8)
             self.assertEqual(text.dxf.style, 'STRAKE')
+
+    def test_a_sheet_with_all_notes_has_each_on_a_layer_of_its_own(self):
+        self.models()
+        self.write('s.toml', sheet_with_all_notes())
+        self.text('draw', 'round.rvm', '--sheet', 's.toml', '-o', 's.dxf', '-o', 's.svg', '--quiet')
+        document, faults = read(self.folder / 's.dxf')
+        self.assertEqual(faults, [])
+        sheet = document.layouts.get('Sheet')
+        layers = {layer.dxf.name: layer for layer in document.layers}
+        texts = {text.dxf.text: text.dxf.layer for text in sheet.query('TEXT')}
+        for text, layer in (('\u00b10.000', 'AM_5_NOTE'), ('N', 'AM_5_NOTE'), ('500 mm', 'AM_5_NOTE'), ('PARTS', 'AM_5_NOTE'),
+                            ('750', 'AM_5'), ('/CAP', 'AM_5_TAG'), ('BL', 'AM_7_TEXT'), ('TOP VIEW', 'AM_6'), ('FRONT VIEW', 'AM_11')):
+            self.assertEqual(texts.get(text), layer, text)
+        svg = ElementTree.parse(self.folder / 's.svg').getroot()
+        self.assertEqual(sorted(text.text for text in svg.iter() if text.tag.endswith('}text')),
+                         sorted(text.dxf.text for text in sheet.query('TEXT')))
+        for layer, lines, count in (('AM_10', 'CENTER_AM_7', 3), ('AM_11', 'PHANTOM_AM_11', 2), ('AM_7_GRID', 'CENTER_AM_7', 11)):
+            self.assertEqual(layers[layer].dxf.linetype, lines)
+            self.assertEqual(len([e for e in sheet if e.dxf.layer == layer and e.dxftype() in ('LINE', 'LWPOLYLINE')]), count)
+        self.assertEqual(len(self.check_windows(document)), 4)
+        # As long as SVG has them on paper, which is 1:10, or 1:50 in the key plan.
+        self.assertEqual((document.header['$LTSCALE'], document.header['$PSLTSCALE']), (1, 1))
+        self.assertEqual([layers[name].rgb for name in ('AM_3', 'AM_3_SELF', 'AM_7')], [(160, 0, 0), (0, 160, 0), (0, 0, 192)])
+        for layer, class_ in (('AM_7', 'centre'), ('AM_3', 'by-other'), ('AM_3_SELF', 'by-self')):
+            pattern = document.linetypes.get(layers[layer].dxf.linetype).pattern_tags.tags
+            first = next(tag.value for tag in pattern if tag.code == 49)
+            ours = {0 if e.dxf.linetype == 'Continuous' else round(first * e.dxf.ltscale, 3)
+                    for e in document.modelspace() if e.dxf.layer == layer}
+            groups = [group for group in svg.iter() if class_ in group.get('class', '').split()]
+            styles = [path.get('style') for group in groups for path in group.iter() if path.get('style')]
+            theirs = {0 if style.endswith('none') else round(float(style.split(':')[1].split()[0]), 3) for style in styles}
+            self.assertGreater(len(theirs), 2)
+            # Hidden lines of all kinds are joined on one layer, and an arc is an entity of its own: few have other dashes.
+            self.assertLess(len(ours ^ theirs), 1 if layer == 'AM_7' else len(ours & theirs), layer)
+
+    def test_centre_lines_lie_where_the_parts_are(self):
+        self.models()
+        self.text('draw', 'round.rvm', '--view', 'top', '--centre-lines', 'on', '-o', 'c.dxf', '--quiet')
+        document, faults = read(self.folder / 'c.dxf')
+        self.assertEqual(faults, [])
+        lines = [e for e in document.modelspace().query('LINE') if e.dxf.layer == 'AM_7']
+        for name, centre in (('/BALL', (800, 0)), ('/PIPE', (400, 50))):
+            of_part = [line for line in lines if object_of(line)[1] == name]
+            self.assertEqual(len(of_part), 2, name)
+            for line in of_part:
+                middle = (line.dxf.start + line.dxf.end) / 2
+                self.assertLess(max(abs(middle.x - centre[0]), abs(middle.y - centre[1])), .01, name)
+        window = document.layouts.get('Sheet').query('VIEWPORT')[1]
+        half = window.dxf.view_height / window.dxf.height * window.dxf.width / 2
+        self.assertLess(max(line.dxf.end.x for line in lines), window.dxf.view_center_point.x + half)
 
 
 if __name__ == '__main__':

@@ -92,6 +92,65 @@ def rvm_of_round_things():
             ('/BOX', (300, -200, 0))]
 
 
+def sheet_with_all_notes():
+    """A sheet of rvm_of_round_things() with every note that there is, centre lines, and hidden lines in two layers."""
+    return '''[sheet]
+size = "A2"
+hidden_layers = "two"
+scale = "1:10"
+[fields]
+title = "ALL NOTES"
+[arrangement]
+projection = "first-angle"
+views = ["front", "top", "left"]
+hidden = "all"
+centre_lines = "on"
+[arrangement.left]
+sections = "x=100mm"
+section_mark = "A"
+[[view]]
+name = "key"
+direction = "top"
+scale = "1:50"
+position = ["530mm", "250mm"]
+extents_of = ["front", "left"]
+[levels]
+z = ["0m", ["ROOF", "0.6m"]]
+[[dimension]]
+view = "front"
+from = ["-0.5m", "0m", "0m"]
+to = ["0.25m", "0m", "0.3m"]
+[[dimension]]
+view = "top"
+from = ["0m", "0m", "0m"]
+to = ["0.4m", "0.5m", "0m"]
+along = "aligned"
+[scale_bar]
+[north]
+[[parts_list]]
+title = "PARTS"
+select = "name = '*'"
+columns = [["NAME", "{{name}}"]]
+[[revision]]
+revision = "B"
+date = "2026-02-11"
+text = "Nozzle moved"
+by = "NN"
+[[tag]]
+views = ["top"]
+select = "name = '*P*'"
+text = "{{name}}"
+[grid]
+x = [["1", "0m"], ["2", "0.4m"]]
+z = [["BL", "0m"]]
+[styles]
+hidden_self = { dash = ["1.5mm", "0.75mm"], color = "#00a000" }
+hidden_other = { width = "0.18mm", dash = ["3mm", "1mm"], color = "#a00000" }
+centre = { color = "#0000c0" }
+dimension = { width = "0.25mm" }
+'''
+
+
 def gltf(tree):
     """A glTF file of cubes of 100 mm: a tree is (name, extras, place in m along x or None, children)."""
     corners = b''.join(struct.pack('<3f', *(x / 10 for x in (i & 1, i >> 1 & 1, i >> 2 & 1))) for i in range(8))

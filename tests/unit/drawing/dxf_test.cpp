@@ -16,6 +16,8 @@
 
 #include "drawing/dxf/groups.hpp"
 #include "drawing/dxf/layer_style.hpp"
+#include "drawing/ink/dash_fit.hpp"
+#include "drawing/ink/hidden_ink.hpp"
 #include "strake/drawing/write.hpp"
 #include "strake/parallel/context.hpp"
 #include "strake/parallel/team.hpp"
@@ -291,6 +293,57 @@ TEST(Dxf, HiddenLinesLieOnALayerByWhatHidesThem) {
   const auto types = of_type(records, "LTYPE");
   EXPECT_TRUE(std::ranges::any_of(
       types, [&](const Record& type) { return type.of(2) == line_type["AM_3"]; }));
+}
+
+/// At 1:10, dashes are fitted to a tenth of the length at true size.
+TEST(Dxf, DashesFitLinesAsLongAsTheyAreOnPaper) {
+  Drawn drawn;
+  for (const double length : {107.0, 10.0})
+    drawn.add(0, length, length, length).state = LineState::hidden_by_other;
+  drawn.add_arc(500, 500, 40, 40, 0, kTurn, 24);
+  for (Line& line : drawn.ink.lines) line.state = LineState::hidden_by_other;
+  const std::vector<Record> records = records_of(drawn.text());
+  const auto lines = of_type(records, "LINE"), circles = of_type(records, "CIRCLE");
+  ASSERT_EQ(lines.size(), 3U);
+  ASSERT_EQ(circles.size(), 1U);
+  const std::vector<double> dash = pen_dashes(kHiddenDashes, drawn.ink.pens.thin);
+  ASSERT_NE(fitted_stretch(10.7, DashEnds::open, dash), 1);
+  EXPECT_DOUBLE_EQ(lines[0].number(48), fitted_stretch(10.7, DashEnds::open, dash));
+  EXPECT_EQ(lines[0].of(6), "") << "that of the layer";
+  EXPECT_EQ(lines[1].of(6), "Continuous") << "too short for a gap";
+  EXPECT_EQ(lines[1].of(48), "");
+  EXPECT_EQ(lines[2].of(48) + lines[2].of(6), "") << "the line above the title";
+  EXPECT_DOUBLE_EQ(circles[0].number(48), fitted_stretch(4 * kTurn, DashEnds::closed, dash));
+}
+
+TEST(Dxf, CentreLinesLieAtTrueSizeWithinTheirWindow) {
+  Drawn drawn;
+  drawn.add(1000, 500, 1400, 500);
+  drawn.ink.centre_lines.push_back(
+      {model::ObjectId{1}, {Drawn::on_paper(700, 600), Drawn::on_paper(1700, 600)}, true});
+  drawn.ink.centre_lines.push_back(
+      {model::ObjectId{0},
+       {Drawn::on_paper(700, 600), Drawn::on_paper(900, 700), Drawn::on_paper(1000, 900)},
+       false});
+  const std::vector<Record> records = records_of(drawn.text());
+  const auto lines = of_type(records, "LINE"), bent = of_type(records, "LWPOLYLINE");
+  ASSERT_EQ(lines.size(), 3U);
+  const Record& line = lines[1];
+  EXPECT_EQ(line.of(8), "AM_7");
+  EXPECT_EQ(line.of(1000), "two");
+  EXPECT_EQ(line.of(10) + ' ' + line.of(20) + ' ' + line.of(11), "700 600 1700");
+  const std::vector<double> dash = pen_dashes(kCentreDashes, drawn.ink.pens.thin);
+  EXPECT_DOUBLE_EQ(line.number(48), fitted_stretch(100, DashEnds::centred, dash));
+  ASSERT_EQ(bent.size(), 1U);
+  EXPECT_EQ(bent[0].of(8), "AM_7");
+  const auto layers = of_type(records, "LAYER");
+  const auto layer = std::ranges::find(layers, "AM_7", [](const Record& r) { return r.of(2); });
+  ASSERT_NE(layer, layers.end());
+  EXPECT_EQ(layer->of(6), "CENTER_AM_7");
+  const auto viewports = of_type(records, "VIEWPORT");
+  ASSERT_EQ(viewports.size(), 2U);
+  EXPECT_LE(viewports[1].number(10) - viewports[1].number(40) / 2, 70);
+  EXPECT_GE(viewports[1].number(10) + viewports[1].number(40) / 2, 170);
 }
 
 TEST(Dxf, AViewportShowsTheViewAtItsScale) {

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "drawing/ink/dash_fit.hpp"
+#include "drawing/ink/hidden_ink.hpp"
 #include "drawing/lettering/font_data.hpp"
 #include "drawing/lettering/lettering.hpp"
 #include "drawing/pdf/pdf_document.hpp"
@@ -231,6 +233,69 @@ TEST(Pdf, IsAFileWhoseObjectsAreWhereItsTableSays) {
   };
   EXPECT_EQ(count("BDC\n"), count("EMC\n"));
   EXPECT_EQ(count("q\n"), count("Q\n"));
+}
+
+/// Dashes as the operator that chooses them.
+std::string dashes(const std::vector<double>& lengths, double stretch) {
+  std::string out = "[";
+  for (const double length : lengths) out += number(length * stretch, 4) + ' ';
+  return out + "]0 d\n";
+}
+
+TEST(Pdf, DashesFitHiddenLinesAndCentreLines) {
+  Example example(0);
+  const auto add = [&](double y, double length) {
+    Line line;
+    line.kind = hlr::EdgeKind::sharp;
+    line.state = LineState::hidden_by_self;
+    line.a_paper = {10, y};
+    line.b_paper = {10 + length, y};
+    example.ink.lines.push_back(line);
+  };
+  add(20, 10.7);
+  add(30, 1);
+  example.ink.centre_lines.push_back({model::ObjectId{0}, {{10, 50}, {39, 50}}, true});
+  const test::PdfObjects pdf = test::read_pdf(example.pdf());
+  ASSERT_EQ(pdf.fault, "");
+  EXPECT_TRUE(pdf.has("/OCG/Name(Centre lines)"));
+  const std::string contents = pdf.contents();
+  const std::vector<double> hidden = pen_dashes(kHiddenDashes, example.ink.pens.thin),
+                            centre = pen_dashes(kCentreDashes, example.ink.pens.thin);
+  const double fits = fitted_stretch(10.7, DashEnds::open, hidden),
+               crosses = fitted_stretch(29, DashEnds::centred, centre);
+  ASSERT_NE(fits, 1);
+  ASSERT_NE(crosses, fitted_stretch(29, DashEnds::open, centre));
+  for (const std::string& path : {dashes(hidden, fits) + "10 20 m\n20.7 20 l\nS\n",
+                                  std::string("[]0 d\n10 30 m\n11 30 l\nS\n"),
+                                  dashes(centre, crosses) + "10 50 m\n39 50 l\nS\n"})
+    EXPECT_NE(contents.find(path), std::string::npos) << path;
+}
+
+/// A line that an object hides in part itself is one line: its dashes go on where the layer
+/// changes, unless the two parts have styles of their own.
+TEST(Pdf, DashesGoOnWhereAnotherObjectHidesTheRest) {
+  Example example(0);
+  for (const double x : {10.0, 20.7}) {
+    Line line;
+    line.kind = hlr::EdgeKind::sharp;
+    line.state = x == 10 ? LineState::hidden_by_self : LineState::hidden_by_other;
+    line.a_paper = {x, 20};
+    line.b_paper = {x == 10 ? 20.7 : 29, 20};
+    example.ink.lines.push_back(line);
+  }
+  const std::vector<double> hidden = pen_dashes(kHiddenDashes, example.ink.pens.thin);
+  const std::string whole = dashes(hidden, fitted_stretch(19, DashEnds::open, hidden));
+  const std::string contents = test::read_pdf(example.pdf()).contents();
+  const std::string amid = whole.substr(0, whole.find(']') + 1) + "10.7 d\n";
+  for (const std::string& path :
+       {whole + "10 20 m\n20.7 20 l\nS\n", amid + "20.7 20 m\n29 20 l\nS\n"})
+    EXPECT_NE(contents.find(path), std::string::npos) << path;
+  example.ink.split_hidden = true;
+  const std::string apart = test::read_pdf(example.pdf()).contents();
+  EXPECT_EQ(apart.find("10.7 d"), std::string::npos);
+  for (const double length : {10.7, 8.3})
+    EXPECT_NE(apart.find(dashes(hidden, fitted_stretch(length, DashEnds::open, hidden))),
+              std::string::npos);
 }
 
 TEST(Pdf, HasTheSameBytesForAnyTeamAndOthersForOtherLines) {

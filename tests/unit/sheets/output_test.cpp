@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// What PDF and DXF make of the marks and the ink of a sheet.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "strake/sheets/write.hpp"
+#include "support/pdf_reader.hpp"
+
+namespace strake::sheets {
+namespace {
+
+/// The red of a class, so that each has a colour of its own.
+std::uint8_t red_of(std::size_t line) { return static_cast<std::uint8_t>(7 * line + 1); }
+
+/// A sheet with a line of each class in its notes, and a view that keeps hidden lines apart.
+Sheet sheet_of_all_classes() {
+  Sheet sheet;
+  for (std::size_t c = 0; c < kLineClasses; ++c) {
+    sheet.styles.at(c).color = {red_of(c), 0, 0, 255};
+    const auto y = static_cast<double>(10 + c);
+    Path path;
+    path.line = static_cast<LineClass>(c);
+    path.points = {{10, y}, {20, y}};
+    sheet.notes.paths.push_back(path);
+  }
+  PlacedView view;
+  view.name = "plan";
+  view.ink.split_hidden = true;
+  Text level;
+  level.line = LineClass::note;
+  level.text = "level of the view";
+  view.notes.texts.push_back(level);
+  sheet.views.push_back(view);
+  return sheet;
+}
+
+std::string dxf_of(const Sheet& sheet) {
+  std::string text;
+  EXPECT_TRUE(write_dxf(sheet, {}, [&](std::string_view part) { text += part; }, {}));
+  return text;
+}
+
+std::string pdf_of(const Sheet& sheet) {
+  std::string text;
+  EXPECT_TRUE(
+      write_pdf(std::span(&sheet, 1), {}, [&](std::string_view part) { text += part; }, {}));
+  return text;
+}
+
+/// Returns the values of a record behind its type, by group code; of codes that come again the
+/// first.
+std::vector<std::map<int, std::string>> records_of_dxf(const std::string& text,
+                                                       const std::string& type) {
+  std::vector<std::map<int, std::string>> found;
+  bool within = false;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t middle = text.find('\n', at), end = text.find('\n', middle + 1);
+    const int code = std::stoi(text.substr(at, middle - at));
+    const std::string value = text.substr(middle + 1, end - middle - 1);
+    if (code == 0) {
+      within = value == type;
+      if (within) found.emplace_back();
+    } else if (within) {
+      found.back().emplace(code, value);
+    }
+    at = end + 1;
+  }
+  return found;
+}
+
+TEST(SheetOutput, EveryClassLiesOnALayerOfItsStyleInDxf) {
+  const std::string text = dxf_of(sheet_of_all_classes());
+  std::map<std::string, std::string> color_of;
+  for (const auto& layer : records_of_dxf(text, "LAYER"))
+    if (layer.contains(420)) color_of[layer.at(2)] = layer.at(420);
+  const auto lines = records_of_dxf(text, "LINE");
+  ASSERT_EQ(lines.size(), kLineClasses);
+  std::set<std::string> layers;
+  for (std::size_t c = 0; c < kLineClasses; ++c) {
+    const std::string& layer = lines[c].at(8);
+    layers.insert(layer);
+    if (static_cast<LineClass>(c) == LineClass::hidden) continue;  // this sheet has it in two
+    EXPECT_EQ(color_of[layer], std::to_string(red_of(c) * 0x10000)) << layer;
+  }
+  EXPECT_EQ(layers.size(), kLineClasses - 1);
+  EXPECT_NE(text.find("level of the view"), std::string::npos);
+}
+
+TEST(SheetOutput, HiddenLinesHaveOneStyleInDxfWhereTheSheetHasOne) {
+  Sheet sheet = sheet_of_all_classes();
+  sheet.views[0].ink.split_hidden = false;
+  std::set<std::string> colors;
+  for (const auto& layer : records_of_dxf(dxf_of(sheet), "LAYER"))
+    if (layer.at(2).starts_with("AM_3")) colors.insert(layer.at(420));
+  const auto hidden = static_cast<std::size_t>(LineClass::hidden);
+  EXPECT_EQ(colors, std::set<std::string>{std::to_string(red_of(hidden) * 0x10000)});
+}
+
+TEST(SheetOutput, EveryClassHasItsColourInPdf) {
+  const test::PdfObjects pdf = test::read_pdf(pdf_of(sheet_of_all_classes()));
+  ASSERT_EQ(pdf.fault, "");
+  const std::string contents = pdf.contents();
+  std::set<std::string> pens;
+  for (std::size_t c = 0; c < kLineClasses; ++c) {
+    const std::size_t line = contents.find("\n10 " + std::to_string(10 + c) + " m\n");
+    ASSERT_NE(line, std::string::npos) << c;
+    const std::size_t pen = contents.rfind("q\n", line);
+    pens.insert(contents.substr(pen, line - pen));
+  }
+  EXPECT_EQ(pens.size(), kLineClasses);
+  EXPECT_TRUE(pdf.has("/OCG/Name(Notes)"));
+}
+
+}  // namespace
+}  // namespace strake::sheets
