@@ -155,6 +155,12 @@ strake_component(report
     report/view_document.hpp
     report/view_drawing.hpp)
 
+strake_component(publish
+  MODULES workbook pictures bcf page publish
+  DEPENDS parallel geometry model clash drawing report
+  PACKAGES agg libzip pugixml
+  HEADERS publish/publish.hpp)
+
 strake_component(project
   MODULES project
   DEPENDS parallel geometry model clash drawing report
@@ -180,7 +186,7 @@ target_link_libraries(strake_library INTERFACE ${modules})
 set_target_properties(strake_library PROPERTIES EXPORT_NAME strake)
 strake_component(all
   MODULES library
-  DEPENDS parallel geometry model clash drawing report project generate
+  DEPENDS parallel geometry model clash drawing report publish project generate
   HEADERS strake.hpp
   PAGES CHANGELOG.md docs/library.md examples/draw_view.cpp examples/find_clashes.cpp)
 
@@ -188,6 +194,8 @@ strake_component(all
 install(FILES cmake/meshoptimizer.cmake cmake/re2.cmake DESTINATION ${strake_package_dir}
   COMPONENT model)
 install(FILES cmake/zlib.cmake DESTINATION ${strake_package_dir} COMPONENT drawing)
+install(FILES cmake/agg.cmake cmake/libzip.cmake DESTINATION ${strake_package_dir}
+  COMPONENT publish)
 install(FILES cmake/sqlite3.cmake cmake/zstd.cmake DESTINATION ${strake_package_dir}
   COMPONENT project)
 install(FILES ${PROJECT_BINARY_DIR}/strake.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig

@@ -23,6 +23,7 @@
 #include "strake/model/selection.hpp"
 #include "strake/parallel/team.hpp"
 #include "strake/project/project.hpp"
+#include "strake/publish/publish.hpp"
 #include "strake/report/clash.hpp"
 #include "strake/rules/rules.hpp"
 #include "strake/sheets/sheet_file.hpp"
