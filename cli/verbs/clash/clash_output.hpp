@@ -39,9 +39,9 @@ struct ClashOutput {
 struct WrittenFiles {
   bool csv = false, bcf = false, page = false;
   bool attributes = false;  ///< a format that has ClashOutput::columns
-  bool pair_log = false;   ///< CSV too, but without attributes
-  bool decisions = false;  ///< likewise
-  bool table = false;      ///< on the terminal
+  bool pair_log = false;    ///< CSV too, but without attributes
+  bool decisions = false;   ///< likewise
+  bool table = false;       ///< on the terminal
 };
 
 void add_clash_output_options(CLI::App& command, ClashOutputInput& options);

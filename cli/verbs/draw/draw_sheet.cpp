@@ -67,7 +67,8 @@ void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const mod
                      "extent-not-shown",
                      "parts-list-no-room",
                      "scale-bar-without-scale",
-                     "north-not-shown", "dimension-not-drawn"});
+                     "north-not-shown",
+                     "dimension-not-drawn"});
 }
 
 /// "SVG": the formats of sheets in a sentence.
