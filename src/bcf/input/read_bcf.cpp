@@ -7,7 +7,9 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "bcf/input/xml_tree.hpp"
 #include "bcf/input/zip_reader.hpp"
@@ -67,6 +69,17 @@ void take_comments(std::vector<ReadComment>& comments, const pugi::xml_node& par
   }
 }
 
+/// Those of one date stay in the order of the file.
+void sort_by_date(std::vector<ReadComment>& comments) {
+  std::vector<std::pair<ReadComment, std::size_t>> placed;
+  placed.reserve(comments.size());
+  for (ReadComment& comment : comments) placed.emplace_back(std::move(comment), placed.size());
+  std::sort(placed.begin(), placed.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.first.date, a.second) < std::tie(b.first.date, b.second);
+  });
+  for (std::size_t i = 0; i < placed.size(); ++i) comments[i] = std::move(placed[i].first);
+}
+
 /// Errors: input where there is no topic.
 Result<ReadTopic> topic_of(const pugi::xml_document& document, const std::string& where) {
   const pugi::xml_node markup = child(document, "Markup");
@@ -82,8 +95,7 @@ Result<ReadTopic> topic_of(const pugi::xml_document& document, const std::string
   topic.changer = child_text(node, "ModifiedAuthor");
   take_comments(topic.comments, markup);
   take_comments(topic.comments, child(node, "Comments"));
-  std::stable_sort(topic.comments.begin(), topic.comments.end(),
-                   [](const ReadComment& a, const ReadComment& b) { return a.date < b.date; });
+  sort_by_date(topic.comments);
   topic.reference = find_reference(child_text(node, "Description"));
   // A topic that quotes another one's description is about something else.
   if (topic.reference && guid_of(*topic.reference) != topic.guid) topic.reference.reset();

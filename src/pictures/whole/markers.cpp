@@ -24,7 +24,7 @@ constexpr double kMarkerMm = 60;
 
 geometry::TriangleMesh octahedron() {
   geometry::TriangleMesh mesh;
-  constexpr double k = kMarkerMm;
+  const double k = kMarkerMm;
   mesh.vertices = {{k, 0, 0}, {-k, 0, 0}, {0, k, 0}, {0, -k, 0}, {0, 0, k}, {0, 0, -k}};
   mesh.triangles = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
                     {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};

@@ -47,7 +47,8 @@ class Parts {
     return *this;
   }
 
-  [[nodiscard]] std::vector<CentreLine> lines(bool hidden = false, hlr::View view = {{0, -1, 0}},
+  [[nodiscard]] std::vector<CentreLine> lines(bool hidden = false,
+                                              const hlr::View& view = {{0, -1, 0}},
                                               const CentreLineOptions& options = {},
                                               const parallel::Context& context = {}) const {
     const auto scene = model::make_scene(model_, {}, {}).value();

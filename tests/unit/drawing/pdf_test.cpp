@@ -193,7 +193,7 @@ struct Example {
       line.b_paper = {11.5 + std::fmod(n, 100), 20.25 + n / 100};
       ink.lines.push_back(line);
     };
-    for (std::uint32_t object : {0U, 1U})
+    for (const std::uint32_t object : {0U, 1U})
       for (std::uint32_t i = 0; i < lines; ++i) {
         add(object, hlr::EdgeKind::sharp, LineState::visible);
         add(object, hlr::EdgeKind::sharp, LineState::hidden_by_self);
@@ -332,7 +332,7 @@ TEST(Pdf, EndsWhereTheSinkThrowsOrTheRunIsCancelled) {
     };
     EXPECT_THROW((void)write_pdf(example.drawing, example.ink, example.model, full, {}), Full);
   }
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   parallel::Context context;
   context.stop = stop.get_token();

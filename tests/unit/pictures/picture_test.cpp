@@ -133,7 +133,7 @@ TEST(ClashPicture, RefusesSizesAndEndsWhenCancelled) {
   EXPECT_EQ(picture_of(clash, subject, {.width_mm = 10}).error().code, ErrorCode::usage);
   const Scenery scenery = clash.scenery();
   const ClashViewpoint seen = choose_viewpoint(scenery, subject, {}, {}).value();
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   EXPECT_EQ(draw_clash(scenery, subject, seen, {}, {.stop = stop.get_token()}).error().code,
             ErrorCode::cancelled);

@@ -207,9 +207,9 @@ TEST(Viewpoint, RefusesWhatMakesNoSense) {
             ErrorCode::usage);
   EXPECT_EQ(choose_viewpoint(scenery, {}, {}, {}).error().code, ErrorCode::usage);
   EXPECT_EQ(choose_viewpoint(scenery, {{{0, 99}}}, {}, {}).error().code, ErrorCode::usage);
-  report::ClashContents without{clash.findings, clash.model};
+  const report::ClashContents without{clash.findings, clash.model};
   EXPECT_EQ(Scenery::of(without, {}).error().code, ErrorCode::usage);
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   EXPECT_EQ(choose_viewpoint(scenery, subject, {}, {.stop = stop.get_token()}).error().code,
             ErrorCode::cancelled);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "core/text_encoding.hpp"
@@ -217,13 +218,14 @@ void StyleSheet::add(std::string_view css, TellStyle tell) {
       add_rule(selector, rule.substr(open + 1), tell);
     });
   });
-  std::stable_sort(rules_.begin(), rules_.end(),
-                   [](const Rule& a, const Rule& b) { return a.weight < b.weight; });
+  std::sort(rules_.begin(), rules_.end(), [](const Rule& a, const Rule& b) {
+    return std::tie(a.weight, a.order) < std::tie(b.weight, b.order);
+  });
 }
 
 void StyleSheet::add_rule(std::string_view selector, std::string_view declarations,
                           TellStyle tell) {
-  Rule rule{{}, {}, {}, std::string(declarations), 0};
+  Rule rule{{}, {}, {}, std::string(declarations), 0, rules_.size()};
   const std::size_t mark = std::min(selector.find_first_of(".#"), selector.size());
   rule.name = selector.substr(0, mark);
   if (rule.name == "*") rule.name.clear();

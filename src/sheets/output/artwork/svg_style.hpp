@@ -45,6 +45,7 @@ class StyleSheet {
     std::string name, class_name, id;
     std::string declarations;
     std::uint32_t weight = 0;  ///< the rule with the largest holds, and of equals the last
+    std::size_t order = 0;     ///< in which it was added
     [[nodiscard]] bool picks(const SvgElement& element) const;
   };
   void add_rule(std::string_view selector, std::string_view declarations, TellStyle tell);
