@@ -167,7 +167,8 @@ TEST(DashRuns, NothingIsLostAndOrderIsKept) {
   const std::vector<PaperPoint> points{{0, 0}, {1, 0}, {9, 0}, {9, 1}, {10, 1}, {10, 12}, {11, 30}};
   double length = 0;
   PaperPoint at{0, 0};
-  for (const DashRun& run : Drawn(points).runs()) {
+  const Drawn drawn(points);  // the runs refer to its lines
+  for (const DashRun& run : drawn.runs()) {
     EXPECT_EQ(run.chain.points.front(), at);
     at = run.chain.points.back();
     EXPECT_EQ(run.chain.lines.size() + 1, run.chain.points.size());
