@@ -1,19 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""dxf_test.py STRAKE EXAMPLES: thirty drawings as DXF, which ezdxf audits and reads back beside the neutral JSON.
-
-Without ezdxf the script ends with 77: skipped."""
+"""dxf_test.py STRAKE EXAMPLES: thirty drawings as DXF, which ezdxf audits and reads back beside the neutral JSON."""
 import json
 import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+from dxf_file import View, differences, object_of, read
 from scenario import Scenario, cube, gltf, main, rvm_of_round_things, sheet_with_all_notes
-
-try:
-    from dxf_file import View, differences, object_of, read
-except ImportError:
-    sys.exit(77)
 
 EXAMPLES = None
 SETTINGS = ['--unit', 'mm', '--up-axis', 'z']
