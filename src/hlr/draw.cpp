@@ -50,7 +50,8 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.counted.resize(scene.model->objects.size());
   if (!options.hidden) drawing.left_out.resize(scene.model->objects.size());
   if (const Status status = solve(*job, context, drawing); !status) return status.error();
-  leave_out_hidden_objects(drawing);
+  if (const Status status = leave_out_hidden_objects(context, drawing); !status)
+    return status.error();
   if (const Status status = dot_lone_specks(*job, context, drawing); !status) return status.error();
   Result<Curves> curves = find_curves(*job, context);
   if (!curves) return curves.error();

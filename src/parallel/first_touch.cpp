@@ -11,7 +11,7 @@ namespace strake::parallel::detail {
 namespace {
 
 constexpr std::size_t kPage = 4096, kItem = std::size_t{2} << 20U;
-constexpr std::size_t kWorthIt = 32 * kItem;
+constexpr std::size_t kWorthIt = 4 * kItem;
 
 }  // namespace
 

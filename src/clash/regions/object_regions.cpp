@@ -11,6 +11,8 @@
 #include "core/union_find.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::clash {
 namespace {
@@ -200,7 +202,7 @@ Status aggregate_regions(const PartResults& results, const parallel::Context& co
   constexpr std::size_t kGrain = 256;
   const bool found_regions = report.options.engine.most_regions > 0;
   const RegionsOfPairs regions(results, report.options.engine.most_regions);
-  const auto others = parallel::collect<NotOne>(
+  auto others = parallel::collect<NotOne>(
       context, {.name = "regions", .n = report.pairs.size(), .grain = kGrain},
       [&](std::size_t i, std::vector<NotOne>& out) {
         Pair& pair = report.pairs[i];
@@ -211,22 +213,35 @@ Status aggregate_regions(const PartResults& results, const parallel::Context& co
         if (of.count != 1 || !of.allowed.empty()) out.push_back({i, std::move(of)});
       });
   if (!others) return others.error();
+  // Where the regions of each pair begin is known before they are written, by all workers.
+  std::size_t regions_listed = 0;
   for (const NotOne& other : *others) {
     const auto& [count, worst, allowed] = other.regions;
     Pair& pair = report.pairs[other.pair];
-    const std::uint32_t listed = pair.allowed_regions_listed(report.options);
-    if (!worst.empty() || listed > 0)
-      pair.first_region = static_cast<std::uint32_t>(report.regions.size());
-    report.regions.insert(report.regions.end(), worst.begin(), worst.end());
-    report.regions.insert(report.regions.end(), allowed.begin(),
-                          allowed.begin() + static_cast<std::ptrdiff_t>(listed));
+    const std::size_t listed = worst.size() + pair.allowed_regions_listed(report.options);
+    if (listed > 0) pair.first_region = static_cast<std::uint32_t>(regions_listed);
+    regions_listed += listed;
     for (const Region& region : allowed)
       ++report.allowed[static_cast<std::size_t>(region.allowed)].regions;
     if (report.kept) keep_counts(pair, allowed, report.kept->allowed_regions);
     report.count_allowed_regions += allowed.size();
     if (found_regions && count == 0) ++report.counters.regions_given_up;
   }
-  return {};
+  auto listed = parallel::slots<Region>(regions_listed, context);
+  if (!listed) return listed.error();
+  report.regions = std::move(*listed);
+  return parallel::for_each(
+      context, {.name = "regions listed", .n = others->size(), .grain = kGrain},
+      [&](std::size_t i) {
+        // The worker that takes them also gives their memory back.
+        const Regions of = std::move((*others)[i].regions);
+        const Pair& pair = report.pairs[(*others)[i].pair];
+        auto out = report.regions.begin() + static_cast<std::ptrdiff_t>(pair.first_region);
+        out = std::ranges::copy(of.worst, out).out;
+        const auto allowed =
+            static_cast<std::ptrdiff_t>(pair.allowed_regions_listed(report.options));
+        std::copy_n(of.allowed.begin(), allowed, out);
+      });
 }
 
 }  // namespace strake::clash

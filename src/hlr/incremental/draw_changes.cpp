@@ -83,7 +83,8 @@ Result<Drawing> draw_part(const ChangedView& changed, const Reach& reach,
   drawing.counted.resize(reach.asked.size());
   if (!changed.options.hidden) drawing.left_out.resize(reach.asked.size());
   if (const Status status = solve_gather(*job, context, drawing); !status) return status.error();
-  leave_out_hidden_objects(drawing);
+  if (const Status status = leave_out_hidden_objects(context, drawing); !status)
+    return status.error();
   if (const Status status = dot_lone_specks(*job, context, drawing); !status) return status.error();
   auto curves = find_curves(*job, context);
   if (!curves) return curves.error();

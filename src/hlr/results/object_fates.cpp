@@ -9,8 +9,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hlr/prepare/view_diagnostics.hpp"
+#include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 
 namespace strake::hlr {
@@ -20,6 +22,13 @@ namespace {
 constexpr std::size_t kObjectsPerItem = 4096;
 
 std::uint32_t object_of(const EdgePiece& piece) { return model::index(piece.object); }
+
+bool is_visible(const EdgePiece& piece) { return piece.state == State::visible; }
+
+/// Pieces of a drawing by where they stand in it: from `first` to before `last`.
+struct PieceRange {
+  std::size_t first = 0, last = 0;
+};
 
 /// The code of an object all of whose lines run along the view direction. Every wire of a model may
 /// be seen end-on in some view, so this is reported but is no defect of the data.
@@ -78,20 +87,39 @@ void list_defects(const model::Scene& scene, std::span<const EdgePiece> pieces, 
 
 }  // namespace
 
-void leave_out_hidden_objects(Drawing& drawing) {
-  if (drawing.left_out.empty()) return;
-  auto kept = drawing.pieces.begin();
-  for (auto first = kept; first != drawing.pieces.end();) {
-    const std::uint32_t object = object_of(*first);
-    const auto last = std::find_if(first, drawing.pieces.end(),
-                                   [&](const EdgePiece& p) { return object_of(p) != object; });
-    const bool visible =
-        std::any_of(first, last, [](const EdgePiece& p) { return p.state == State::visible; });
-    if (visible || drawing.left_out[object] == 0)
-      kept = kept == first ? last : std::move(first, last, kept);
-    first = last;
+Status leave_out_hidden_objects(const parallel::Context& context, Drawing& drawing) {
+  const std::span<const EdgePiece> pieces = drawing.pieces;
+  const std::span<const std::uint32_t> left_out = drawing.left_out;
+  const auto unseen = parallel::collect<PieceRange>(
+      context,
+      {.name = "objects without a visible line",
+       .n = (left_out.size() + kObjectsPerItem - 1) / kObjectsPerItem},
+      [&](std::size_t item, std::vector<PieceRange>& out) {
+        const std::size_t begin = item * kObjectsPerItem;
+        const std::size_t end = std::min(left_out.size(), begin + kObjectsPerItem);
+        auto rest = pieces.begin();
+        for (std::size_t object = begin; object < end; ++object) {
+          if (left_out[object] == 0) continue;
+          const auto of = std::ranges::equal_range(
+              rest, pieces.end(), static_cast<std::uint32_t>(object), {}, object_of);
+          rest = of.end();
+          if (!of.empty() && !std::ranges::any_of(of, is_visible))
+            out.push_back({static_cast<std::size_t>(of.begin() - pieces.begin()),
+                           static_cast<std::size_t>(of.end() - pieces.begin())});
+        }
+      });
+  if (!unseen) return unseen.error();
+  if (unseen->empty()) return {};
+  const auto at = [&](std::size_t i) {
+    return drawing.pieces.begin() + static_cast<std::ptrdiff_t>(i);
+  };
+  auto kept = at(unseen->front().first);
+  for (std::size_t i = 0; i < unseen->size(); ++i) {
+    const std::size_t next = i + 1 < unseen->size() ? (*unseen)[i + 1].first : pieces.size();
+    kept = std::move(at((*unseen)[i].last), at(next), kept);
   }
   drawing.pieces.erase(kept, drawing.pieces.end());
+  return {};
 }
 
 Result<Account> account_of(const model::Scene& scene, const std::vector<bool>& drawn,

@@ -14,8 +14,8 @@ namespace strake::hlr {
 
 /// Removes what is left of an object of which nothing is visible, points on paper and clipped
 /// pieces, where its hidden pieces were left out: they would be most of the drawing of a large
-/// model.
-void leave_out_hidden_objects(Drawing& drawing);
+/// model. Errors: cancelled, out of memory.
+[[nodiscard]] Status leave_out_hidden_objects(const parallel::Context& context, Drawing& drawing);
 
 /// Returns the fate of every object of a scene, from the pieces and the left-out edges of a
 /// drawing. `drawn` is by object. Errors: cancelled.

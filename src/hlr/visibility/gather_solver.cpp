@@ -18,6 +18,7 @@
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/report.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -563,25 +564,27 @@ Status solve_gather(const ViewJob& job, const parallel::Context& context, Drawin
     return status;
   const VisibilityScene& visibility = *made;
   const SpeckRule rule(job);
-  std::vector<SolverWork> work(visibility.items.size());
-  const StepShares shares(context.report, job.options.stage, work.size());
+  Result<std::vector<SolverWork>> work =
+      parallel::slots<SolverWork>(visibility.items.size(), context);
+  if (!work) return work.error();
+  const StepShares shares(context.report, job.options.stage, work->size());
   Result<std::vector<EdgePiece>> pieces = parallel::collect_with<EdgePiece>(
       context, {.name = "hidden lines: edges", .n = visibility.items.size()},
       [&] { return Drawer(visibility, rule); },
       [&](Drawer& drawer, std::size_t i, std::vector<EdgePiece>& out) {
-        work[i] = drawer.run(visibility.items[i], shares.times(i), out);
+        (*work)[i] = drawer.run(visibility.items[i], shares.times(i), out);
       });
   if (!pieces) return pieces.error();
   drawing.pieces = std::move(pieces).value();
   double own_s = 0, timed_s = 0;
-  for (std::size_t i = 0; i < work.size(); ++i) {
-    own_s += work[i].own_s;
-    timed_s += work[i].timed_s;
+  for (std::size_t i = 0; i < work->size(); ++i) {
+    const SolverWork& done = (*work)[i];
+    own_s += done.own_s;
+    timed_s += done.timed_s;
     const std::uint32_t object = visibility.placed[visibility.items[i].body].object;
-    add(drawing.counters, work[i]);
-    add(drawing.counted[object], work[i]);
-    if (work[i].left_out > 0)
-      drawing.left_out[object] += static_cast<std::uint32_t>(work[i].left_out);
+    add(drawing.counters, done);
+    add(drawing.counted[object], done);
+    if (done.left_out > 0) drawing.left_out[object] += static_cast<std::uint32_t>(done.left_out);
   }
   shares.report(own_s, timed_s);
   return {};
