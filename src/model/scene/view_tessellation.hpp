@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Decision 0027 says why every view tessellates round primitives along their contours.
+// Decisions 0027 and 0109 say why every view tessellates round primitives along their contours.
 
 #include <cstdint>
 #include <functional>
