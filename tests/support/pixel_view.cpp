@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "hlr/prepare/view_job.hpp"
 #include "model/scene/view_tessellation.hpp"
 
 namespace strake::test {
@@ -320,8 +321,9 @@ void check_jumps(const PixelView& view, const std::vector<bool>& inked, PixelChe
 PixelCheck check_by_pixels(const model::Scene& scene, const hlr::Drawing& drawing, int width) {
   PixelCheck check;
   // The meshes that the view is made of, with contours of round primitives.
-  const auto seen =
-      model::tessellate_for_view(scene, {}, {drawing.view.direction, drawing.options.sag_mm}, {});
+  const auto seen_by = hlr::tessellation_of(drawing.view, drawing.options);
+  if (!seen_by) return check;
+  const auto seen = model::tessellate_for_view(scene, {}, *seen_by, {});
   if (!seen) return check;
   const PixelView view(*seen ? **seen : scene, drawing.view, width);
   std::vector<bool> inked(static_cast<std::size_t>(view.width()) *

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "hlr/prepare/view_job.hpp"
 #include "model/scene/view_tessellation.hpp"
 #include "strake/geometry/wide_int.hpp"
 #include "support/lattice_scene.hpp"
@@ -386,8 +387,9 @@ RayCheck check_by_rays(const model::Scene& scene, const hlr::Drawing& drawing, s
   RayCheck result;
   const Candidates candidates(drawing);
   if (candidates.piece.empty()) return result;
-  const auto seen =
-      model::tessellate_for_view(scene, {}, {drawing.view.direction, drawing.options.sag_mm}, {});
+  const auto seen_by = hlr::tessellation_of(drawing.view, drawing.options);
+  if (!seen_by) return result;
+  const auto seen = model::tessellate_for_view(scene, {}, *seen_by, {});
   if (!seen) return result;
   Checker checker(*seen ? **seen : scene, drawing);
   if (!checker.within_reach()) {

@@ -366,6 +366,34 @@ Basis view_basis(const Mat3d& linear, const Vec3d& towards) {
   return {x, cross(towards, x), towards};
 }
 
+/// Returns the basis whose z points to the eye, and how far away that is; none in the ball.
+struct BallFromEye {
+  Basis basis;
+  double distance = 0;
+
+  [[nodiscard]] static std::optional<BallFromEye> of(const TessellationTarget& target,
+                                                     double radius) {
+    constexpr double kNearest = 1.02;  // radii, as for pipes
+    if (!target.eye) return std::nullopt;
+    const double distance = std::sqrt(dot(*target.eye, *target.eye));
+    if (!(distance > kNearest * radius)) return std::nullopt;
+    return BallFromEye{view_basis(target.linear, *target.eye * (1 / distance)), distance};
+  }
+
+  /// Returns the latitudes of the rows between the poles, the contour among them.
+  [[nodiscard]] std::vector<double> latitudes(double radius, int rows) const {
+    const double contour = arc_sin(radius / distance);
+    const auto parts = [&](double span) {
+      return std::max(1, static_cast<int>(std::ceil(span / kPi * rows * (1 - 1e-9))));
+    };
+    const int below = parts(kPi / 2 + contour), above = parts(kPi / 2 - contour);
+    std::vector<double> all;
+    for (int k = 1; k <= below; ++k) all.push_back(-kPi / 2 + (kPi / 2 + contour) * k / below);
+    for (int k = 1; k < above; ++k) all.push_back(contour + (kPi / 2 - contour) * k / above);
+    return all;
+  }
+};
+
 RevolutionSweep full_circle(int segments, const SinCos& phase) {
   return {rim(segments, phase), true};
 }
@@ -459,6 +487,11 @@ class ContouredDome {
   MeshBuilder builder_;
 };
 
+Tessellation turned(Tessellation t, const Basis& b) {
+  for (Vec3d& v : t.mesh.vertices) v = b.x * v.x + b.y * v.y + b.z * v.z;
+  return t;
+}
+
 }  // namespace
 
 Tessellation make(const SpherePrimitive& p, const TessellationTarget& target) {
@@ -471,6 +504,17 @@ Tessellation make(const SpherePrimitive& p, const TessellationTarget& target) {
   const int rows = 2 * std::max(half, 2);
   const RevolutionSweep sweep = full_circle(n, {0, 1});
   MeshBuilder builder;
+  if (const auto seen = BallFromEye::of(target, radius)) {
+    std::vector<ProfilePoint> profile{{0, -radius}};
+    for (const double latitude : seen->latitudes(radius, rows)) {
+      const SinCos a = sin_cos(latitude);
+      profile.push_back({radius * a.cos, radius * a.sin});
+    }
+    profile.push_back({0, radius});
+    (void)revolve(builder, sweep, profile.size(), false,
+                  [&](std::size_t i, std::size_t) { return profile[i]; });
+    return turned(std::move(builder).take(rim_sag + sagitta(radius, kPi / rows)), seen->basis);
+  }
   // From pole to pole; both halves from the same sines.
   (void)revolve(builder, sweep, static_cast<std::size_t>(rows) + 1, false,
                 [&](std::size_t i, std::size_t) {
@@ -483,8 +527,7 @@ Tessellation make(const SpherePrimitive& p, const TessellationTarget& target) {
   Tessellation t = std::move(builder).take(rim_sag + sagitta(radius, kPi / rows));
   const Basis b =
       target.towards ? view_basis(target.linear, *target.towards) : world_basis(target.linear);
-  for (Vec3d& v : t.mesh.vertices) v = b.x * v.x + b.y * v.y + b.z * v.z;
-  return t;
+  return turned(std::move(t), b);
 }
 
 Tessellation make(const EllipticalDishPrimitive& p, const TessellationTarget& target) {

@@ -20,8 +20,10 @@ namespace strake::geometry::tessellation {
 struct TessellationTarget {
   Mat3d linear;
   double sag = 0;
-  /// Unit local direction to the viewer whose silhouettes are edges; none: no view.
+  /// Unit local direction to the viewer whose silhouettes are edges; none: no such view.
   std::optional<Vec3d> towards;
+  /// The eye in local coordinates whose silhouettes are edges; none: no view in perspective.
+  std::optional<Vec3d> eye;
 };
 
 /// The share of the sag that the chords of an end circle may take. The rest is for the other
@@ -46,6 +48,32 @@ inline constexpr double kRimShare = 0.75;
 /// pipe.
 [[nodiscard]] std::optional<SinCos> contour_phase(double x, double y, double along);
 
+/// Where a pipe turns away from an eye, as angles in its section: it faces the eye from `first` to
+/// `second`, which is the larger one.
+struct EyeContour {
+  double first = 0, second = 0;
+
+  /// Returns it for a pipe of this radius, from where the eye lies along two axes of the section.
+  /// None where the eye lies in the pipe or so near to it that the far side would be most of the
+  /// section.
+  [[nodiscard]] static std::optional<EyeContour> of(double x, double y, double radius);
+
+  /// Returns the angle of the side that faces away, the larger one.
+  [[nodiscard]] double far_side() const { return 2 * kPi - (second - first); }
+};
+
+/// Whether an eye is so far from a pipe's axis, in its section, that both sides of its contour may
+/// have equally many chords.
+[[nodiscard]] bool is_far(double x, double y, double radius);
+
+/// Returns a circle about local Z in a view in perspective: half of its chords on either side of
+/// the contour, of which more are taken where the eye is near. None: no contour.
+[[nodiscard]] std::optional<std::vector<SinCos>> rim_from_eye(const TessellationTarget& target,
+                                                              double radius);
+
+/// Returns point `k` of a circle of `segments` chords, half of them on either side of a contour.
+[[nodiscard]] SinCos point_between(const EyeContour& contour, int segments, int k);
+
 /// Returns where a circle about local Z starts: at the silhouette in a view, else at the canonical
 /// phase.
 [[nodiscard]] SinCos rim_phase(const TessellationTarget& target);
@@ -69,7 +97,9 @@ class MeshBuilder {
  public:
   /// In a view, a quad that is not planar gets the diagonal whose triangles both face the same way
   /// as the whole quad.
-  explicit MeshBuilder(const std::optional<Vec3d>& towards = std::nullopt) : towards_(towards) {}
+  explicit MeshBuilder(const std::optional<Vec3d>& towards = std::nullopt,
+                       const std::optional<Vec3d>& eye = std::nullopt)
+      : towards_(towards), eye_(eye) {}
 
   std::uint32_t vertex(const Vec3d& v);
   /// Adds a planar convex polygon, counter-clockwise seen from outside; `reversed` flips it.
@@ -87,7 +117,7 @@ class MeshBuilder {
   [[nodiscard]] bool other_diagonal(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                     std::uint32_t d) const;
 
-  std::optional<Vec3d> towards_;
+  std::optional<Vec3d> towards_, eye_;
   TriangleMesh mesh_;
   std::uint32_t faces_ = 0;
 };
@@ -103,6 +133,12 @@ class MeshBuilder {
 [[nodiscard]] Tessellation make(const EllipticalDishPrimitive& p, const TessellationTarget& target);
 [[nodiscard]] Tessellation make(const SphericalDishPrimitive& p, const TessellationTarget& target);
 [[nodiscard]] Tessellation make(const CircularTorusPrimitive& p, const TessellationTarget& target);
+/// Returns a torus whose silhouettes from the eye run along its net; none where the eye is in or
+/// near the tube, or looks along it. `segments` of a section, `rest` of the sag for the sweep.
+[[nodiscard]] std::optional<Tessellation> torus_from_eye(const CircularTorusPrimitive& p,
+                                                         const TessellationTarget& target,
+                                                         int segments, double rest);
+
 [[nodiscard]] Tessellation make(const RectangularTorusPrimitive& p,
                                 const TessellationTarget& target);
 [[nodiscard]] Tessellation make(const LinePrimitive& p, const TessellationTarget& target);

@@ -125,9 +125,19 @@ struct Snout {
   /// Returns the two generators along which the surface turns away from a viewer. The normal is the
   /// same all along a generator: (h cos a, h sin a, -(offset_x cos a + offset_y sin a + growth)).
   [[nodiscard]] std::optional<std::array<SinCos, 2>> contours(const Vec3d& towards) const {
-    const double x = p.height * towards.x - towards.z * p.offset_x;
-    const double y = p.height * towards.y - towards.z * p.offset_y;
-    const double against = towards.z * (p.top_radius - p.bottom_radius);
+    return generators_facing(towards, 0);
+  }
+  [[nodiscard]] std::optional<std::array<SinCos, 2>> contours_from(const Vec3d& eye) const {
+    // From the centre of the bottom circle, whose points lie a radius nearer along their normals.
+    const Vec3d from{eye.x + p.offset_x / 2, eye.y + p.offset_y / 2, eye.z + p.height / 2};
+    return generators_facing(from, p.height * p.bottom_radius);
+  }
+  /// Returns the two generators whose normal has the product `least` with a vector.
+  [[nodiscard]] std::optional<std::array<SinCos, 2>> generators_facing(const Vec3d& v,
+                                                                       double least) const {
+    const double x = p.height * v.x - v.z * p.offset_x;
+    const double y = p.height * v.y - v.z * p.offset_y;
+    const double against = v.z * (p.top_radius - p.bottom_radius) + least;
     const double square = x * x + y * y, rest = square - against * against;
     if (!(rest > 0)) return std::nullopt;
     const double half = std::sqrt(rest);
@@ -209,14 +219,15 @@ double widest(const Snout& snout, const std::vector<SinCos>& angles) {
 Tessellation make(const CylinderPrimitive& p, const TessellationTarget& target) {
   if (!are_lengths({p.radius, p.height})) return fault("a length is negative or not finite");
   if (p.radius == 0) return fault("a cylinder of no radius");
+  const auto from_eye = rim_from_eye(target, p.radius);
   const int n = circle_segments(p.radius, kRimShare * target.sag);
-  const auto angles = rim(n, rim_phase(target));
+  const auto angles = from_eye ? *from_eye : rim(n, rim_phase(target));
   std::vector<Vec3d> lower, upper;
   for (const SinCos& a : angles) {
     lower.push_back({p.radius * a.cos, p.radius * a.sin, -p.height / 2});
     upper.push_back({p.radius * a.cos, p.radius * a.sin, p.height / 2});
   }
-  return frustum(lower, upper, sagitta(p.radius, 2 * kPi / n));
+  return frustum(lower, upper, sagitta(p.radius, from_eye ? widest_step(angles) : 2 * kPi / n));
 }
 
 Tessellation make(const SnoutPrimitive& p, const TessellationTarget& target) {
@@ -229,7 +240,9 @@ Tessellation make(const SnoutPrimitive& p, const TessellationTarget& target) {
   const double steepness = std::max(snout.bottom.steepness(), snout.top.steepness());
   if (!(steepness < 100)) return fault("an end plane of a snout is too steep");
   const SinCos phase = rim_phase(target);
-  const auto contours = target.towards ? snout.contours(*target.towards) : std::nullopt;
+  const auto contours = target.towards ? snout.contours(*target.towards)
+                        : target.eye   ? snout.contours_from(*target.eye)
+                                       : std::nullopt;
   constexpr std::string_view kCross = "the end planes of a snout cross or pass its apex";
   // The cuts decide the widest radius, which decides the number of segments: look first.
   double radius = widest(snout, rim(256, phase));

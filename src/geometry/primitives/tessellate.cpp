@@ -42,6 +42,58 @@ std::optional<Vec3d> local_direction(const Mat3d& linear, const Vec3d& placed) {
   return local * (1 / std::sqrt(square));
 }
 
+namespace {
+
+/// Returns the point that a map takes to the given one; none where the map flattens it.
+std::optional<Vec3d> local_point(const Mat3d& linear, const Vec3d& placed) {
+  const Vec3d x = column(linear, 0), y = column(linear, 1), z = column(linear, 2);
+  const double determinant = dot(cross(x, y), z);
+  const Vec3d local =
+      Vec3d{dot(cross(y, z), placed), dot(cross(z, x), placed), dot(cross(x, y), placed)} *
+      (1 / determinant);
+  if (!std::isfinite(dot(local, local))) return std::nullopt;
+  return local;
+}
+
+/// In radii: from a section nearer than the first there is no contour; from one farther than the
+/// second the far side's chords are less than 1.25 times as long as those of an even circle.
+constexpr double kNearest = 1.02, kFar = 3;
+
+}  // namespace
+
+std::optional<EyeContour> EyeContour::of(double x, double y, double radius) {
+  const double distance = std::sqrt(x * x + y * y);
+  if (!(distance > kNearest * radius)) return std::nullopt;
+  const double middle = arc_tan2(y, x), half = arc_cos(radius / distance);
+  return EyeContour{middle - half, middle + half};
+}
+
+bool is_far(double x, double y, double radius) {
+  return x * x + y * y > kFar * kFar * radius * radius;
+}
+
+SinCos point_between(const EyeContour& contour, int segments, int k) {
+  const int half = segments / 2;
+  return sin_cos(k < half ? contour.first + (contour.second - contour.first) * k / half
+                          : contour.second + contour.far_side() * (k - half) / half);
+}
+
+std::optional<std::vector<SinCos>> rim_from_eye(const TessellationTarget& target, double radius) {
+  if (!target.eye) return std::nullopt;
+  const Vec3d& eye = *target.eye;
+  const auto contour = EyeContour::of(eye.x, eye.y, radius);
+  if (!contour) return std::nullopt;
+  double sag = kRimShare * target.sag;
+  if (!is_far(eye.x, eye.y, radius)) {
+    const double wider = contour->far_side() / kPi;
+    sag /= wider * wider;
+  }
+  const int segments = circle_segments(radius, sag);
+  std::vector<SinCos> points;
+  for (int k = 0; k < segments; ++k) points.push_back(point_between(*contour, segments, k));
+  return points;
+}
+
 std::optional<SinCos> contour_phase(double x, double y, double along) {
   const double across = x * x + y * y;
   // The square of a milliradian: below it rounding could tell a pipe from the elbow at its end.
@@ -141,12 +193,14 @@ void MeshBuilder::quad_of(std::uint32_t face, std::uint32_t a, std::uint32_t b, 
 
 bool MeshBuilder::other_diagonal(std::uint32_t a, std::uint32_t b, std::uint32_t c,
                                  std::uint32_t d) const {
-  if (!towards_ || a == b || b == c || c == d || d == a) return false;
+  if ((!towards_ && !eye_) || a == b || b == c || c == d || d == a) return false;
   const auto& v = mesh_.vertices;
+  const auto viewer_from = [&](const Vec3d& p) { return eye_ ? *eye_ - p : *towards_; };
   const auto facing = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    return dot(cross(v[j] - v[i], v[k] - v[i]), *towards_);
+    return dot(cross(v[j] - v[i], v[k] - v[i]), viewer_from(v[i]));
   };
-  const double whole = dot(cross(v[c] - v[a], v[d] - v[b]), *towards_);
+  const double whole =
+      dot(cross(v[c] - v[a], v[d] - v[b]), viewer_from((v[a] + v[b] + v[c] + v[d]) * 0.25));
   const double sign = whole < 0 ? -1 : 1;
   const double usual = std::min(sign * facing(a, b, c), sign * facing(a, c, d));
   const double other = std::min(sign * facing(a, b, d), sign * facing(b, c, d));
@@ -190,22 +244,41 @@ bool fits(const Tessellation& t) {
 
 }  // namespace
 
-Tessellation tessellate(const Primitive& primitive, const Mat3d& linear, double sag_mm,
-                        const std::optional<Vec3d>& towards) {
-  const double scale = largest_scale(linear);
-  if (!(scale > 0) || !std::isfinite(scale))
-    return tessellation::fault("the placement is not finite or flattens everything");
-  tessellation::TessellationTarget target{linear, sag_mm / scale, std::nullopt};
-  if (towards) target.towards = tessellation::local_direction(linear, *towards);
+namespace {
+
+Tessellation tessellate_for(const tessellation::TessellationTarget& target, double scale,
+                            const Primitive& primitive) {
   Tessellation t =
       std::visit([&](const auto& p) { return tessellation::make(p, target); }, primitive);
   t.mesh.sag_mm *= scale;
-  for (Vec3d& v : t.mesh.vertices) v = linear * v;
-  for (Vec3d& v : t.lines.points) v = linear * v;
+  for (Vec3d& v : t.mesh.vertices) v = target.linear * v;
+  for (Vec3d& v : t.lines.points) v = target.linear * v;
   if (!fits(t)) return tessellation::fault("larger than 4 km");
-  if (linear.determinant() < 0)
+  if (target.linear.determinant() < 0)
     for (Triangle& triangle : t.mesh.triangles) std::swap(triangle[1], triangle[2]);
   return t;
+}
+
+constexpr std::string_view kFlat = "the placement is not finite or flattens everything";
+
+}  // namespace
+
+Tessellation tessellate(const Primitive& primitive, const Mat3d& linear, double sag_mm,
+                        const std::optional<Vec3d>& towards) {
+  const double scale = largest_scale(linear);
+  if (!(scale > 0) || !std::isfinite(scale)) return tessellation::fault(kFlat);
+  tessellation::TessellationTarget target{linear, sag_mm / scale, {}, {}};
+  if (towards) target.towards = tessellation::local_direction(linear, *towards);
+  return tessellate_for(target, scale, primitive);
+}
+
+Tessellation tessellate_from(const Vec3d& eye, const Primitive& primitive, const Mat3d& linear,
+                             double sag_mm) {
+  const double scale = largest_scale(linear);
+  if (!(scale > 0) || !std::isfinite(scale)) return tessellation::fault(kFlat);
+  const tessellation::TessellationTarget target{
+      linear, sag_mm / scale, {}, tessellation::local_point(linear, eye)};
+  return tessellate_for(target, scale, primitive);
 }
 
 }  // namespace strake::geometry

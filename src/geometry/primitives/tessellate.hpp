@@ -41,4 +41,13 @@ struct Tessellation {
                                       double sag_mm,
                                       const std::optional<Vec3d>& towards = std::nullopt);
 
+/// The same for a view in perspective: `eye` is a point of the placed frame, and the silhouettes of
+/// cylinders, snouts, spheres and tori from there are edges of the mesh. Dishes have none, nor has
+/// a cylinder or a sphere whose axis or centre is nearer to the eye than 1.02 radii, nor a torus of
+/// which some section's circle, in its own plane, is nearer than three tube radii to it. End
+/// circles have as many chords on either side of the silhouette, so that those on the far side may
+/// be 1.25 times as long; `sag_mm` of the mesh includes that.
+[[nodiscard]] Tessellation tessellate_from(const Vec3d& eye, const Primitive& primitive,
+                                           const Mat3d& linear, double sag_mm);
+
 }  // namespace strake::geometry

@@ -235,8 +235,10 @@ Result<model::ViewTessellationOptions> tessellation_of(const View& view, const O
   const auto planes = section_planes(view.sections);
   if (!planes) return planes.error();
   model::ViewTessellationOptions seen_by{.sag_mm = options.sag_mm};
-  // Contours for a direction are no contours for an eye.
-  if (!view.perspective) seen_by.towards = in_lowest_terms(view.direction);
+  if (view.perspective)
+    seen_by.eye = view.perspective->eye;
+  else
+    seen_by.towards = in_lowest_terms(view.direction);
   // A margin for tessellation and the grid.
   constexpr std::int64_t kRoom = 2000;
   // What is left whole may reach beyond the planes.

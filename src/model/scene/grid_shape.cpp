@@ -79,7 +79,8 @@ void GridShapeBuilder::add_mesh(const geometry::TriangleMesh& mesh, const Mat3d&
 void GridShapeBuilder::add_primitive(const geometry::Primitive& primitive, const Mat3d& linear,
                                      const GridShapeOptions& options, GridShapeResult& result) {
   const geometry::Tessellation made =
-      geometry::tessellate(primitive, linear, options.sag_mm, options.towards);
+      options.eye ? geometry::tessellate_from(*options.eye, primitive, linear, options.sag_mm)
+                  : geometry::tessellate(primitive, linear, options.sag_mm, options.towards);
   result.fault = made.fault;
   if (!made.fault.empty()) return;
   if (!made.mesh.triangles.empty())

@@ -26,6 +26,8 @@ struct GridShapeOptions {
   geometry::Seams seams = {};  ///< the seams of meshes to close
   /// The view whose contours primitives get, if there is one; see geometry::tessellate().
   std::optional<geometry::Vec3d> towards = std::nullopt;
+  /// The eye, millimetres from the placed origin of the primitive, in a view in perspective.
+  std::optional<geometry::Vec3d> eye = std::nullopt;
 };
 
 /// Makes shapes one after another in memory that it keeps; each worker has one.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Decision 0027 says why every view tessellates round primitives along their contours.
+// Decisions 0027 and 0109 say why every view tessellates round primitives along their contours.
 
 #include <cstdint>
 #include <functional>
@@ -24,6 +24,9 @@ struct ViewTessellationOptions {
   /// Whether anything of a body in that box, grid units, may be seen; bodies that cannot be seen
   /// keep the sag of the scene. Empty: all may be seen.
   std::function<bool(const geometry::Box3l&)> shows = {};
+  /// The eye of a view in perspective, grid units: contours of round primitives from there are
+  /// edges (geometry::tessellate_from()). Absent: the view is none in perspective.
+  std::optional<geometry::Vec3l> eye = {};
 };
 
 /// What a view tessellates anew of a scene.
@@ -41,7 +44,8 @@ struct ViewTessellation {
                                                       const ViewTessellationOptions& seen_by);
 
 /// Returns a scene as a view sees it: its primitives are tessellated anew where that changes them,
-/// once per shape and rotation as in `scene`. All else stays, with bodies in their order. `drawn`
+/// once per shape and rotation as in `scene`; for an eye once per shape and place, of bodies that
+/// may be seen, behind the shapes of `scene`. All else stays, with bodies in their order. `drawn`
 /// says which objects are asked for (empty: all); shapes that none of them uses are left empty. It
 /// returns nothing where nothing changes: where no object that is drawn has a curved primitive that
 /// is not fine enough or a round one with contours, or the scene was not made by make_scene().
@@ -51,8 +55,8 @@ struct ViewTessellation {
     const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& seen_by,
     const parallel::Context& context);
 
-/// Does the same as a plan says, which may be that of more than is drawn here: then `shows` is not
-/// asked.
+/// Does the same as a plan says, which may be that of more than is drawn here: what is finer then
+/// is not asked of `shows`.
 [[nodiscard]] Result<std::optional<Scene>> tessellate_for_view(
     const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& seen_by,
     const ViewTessellation& plan, const parallel::Context& context);

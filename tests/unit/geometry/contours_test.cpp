@@ -52,7 +52,7 @@ Vec3d normal_at(const Primitive& primitive, const Vec3d& p) {
 struct Net {
   const TriangleMesh& mesh;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> faces;
-  std::map<std::uint32_t, Vec3d> area;
+  std::map<std::uint32_t, Vec3d> area, corners;  ///< by face; sums
   std::map<std::uint32_t, int> triangles;
 
   explicit Net(const TriangleMesh& m) : mesh(m) {
@@ -60,6 +60,7 @@ struct Net {
       const Triangle& w = m.triangles[t];
       const auto& v = m.vertices;
       area[m.faces[t]] = area[m.faces[t]] + cross(v[w[1]] - v[w[0]], v[w[2]] - v[w[0]]);
+      corners[m.faces[t]] = corners[m.faces[t]] + v[w[0]] + v[w[1]] + v[w[2]];
       ++triangles[m.faces[t]];
       for (std::size_t k = 0; k < 3; ++k)
         faces[std::minmax(w[k], w[(k + 1) % 3])].push_back(m.faces[t]);
@@ -67,12 +68,22 @@ struct Net {
   }
   /// Edges between two facets of the curved side of which one looks towards the viewer.
   [[nodiscard]] std::vector<std::pair<Vec3d, Vec3d>> contours(const Vec3d& towards) const {
+    return contours_if([&](std::uint32_t face) { return dot(area.at(face), towards) > 0; });
+  }
+  [[nodiscard]] std::vector<std::pair<Vec3d, Vec3d>> contours_from(const Vec3d& eye) const {
+    return contours_if([&](std::uint32_t face) {
+      const Vec3d middle = corners.at(face) * (1.0 / (3 * triangles.at(face)));
+      return dot(area.at(face), eye - middle) > 0;
+    });
+  }
+  template <class Faces>
+  [[nodiscard]] std::vector<std::pair<Vec3d, Vec3d>> contours_if(const Faces& is_towards) const {
     std::vector<std::pair<Vec3d, Vec3d>> result;
     for (const auto& [edge, of] : faces) {
       EXPECT_EQ(of.size(), 2U);
       if (of.size() != 2 || of[0] == of[1]) continue;
       if (triangles.at(of[0]) > 2 || triangles.at(of[1]) > 2) continue;
-      if ((dot(area.at(of[0]), towards) > 0) != (dot(area.at(of[1]), towards) > 0))
+      if (is_towards(of[0]) != is_towards(of[1]))
         result.emplace_back(mesh.vertices[edge.first], mesh.vertices[edge.second]);
     }
     return result;
@@ -85,6 +96,16 @@ double worst_end(const Primitive& primitive, const Tessellation& t, const Vec3d&
   for (const auto& [a, b] : Net(t.mesh).contours(towards))
     for (const Vec3d& p : {a, b})
       worst = std::max(worst, std::fabs(dot(normal_at(primitive, p), towards)));
+  return worst;
+}
+
+/// The same for an eye: how far the sight through the ends of the contours is from the tangent
+/// plane there, of 1.
+double worst_end_from(const Vec3d& eye, const Primitive& primitive, const Tessellation& t) {
+  double worst = 0;
+  for (const auto& [a, b] : Net(t.mesh).contours_from(eye))
+    for (const Vec3d& p : {a, b})
+      worst = std::max(worst, std::fabs(dot(normal_at(primitive, p), unit(eye - p))));
   return worst;
 }
 
@@ -322,6 +343,145 @@ TEST(Contours, RimsOfPipeAndElbowMeet) {
   }
 }
 
+/// An eye so many radii from the z axis, and up to as far along it.
+Vec3d eye_beside(PrimitiveDraw& draw, double radius, double least, double most) {
+  const double away = radius * draw.between(least, most), angle = draw.between(-4, 4);
+  return {away * std::cos(angle), away * std::sin(angle), away * draw.between(-1, 1)};
+}
+
+TEST(ContoursFromAnEye, OfACylinderAreTwoGenerators) {
+  PrimitiveDraw draw(11);
+  for (int i = 0; i < test::rounds(200); ++i) {
+    const CylinderPrimitive pipe{draw.between(1, 500), draw.between(1, 3000)};
+    const Vec3d eye = eye_beside(draw, pipe.radius, 1.05, i % 2 == 0 ? 3 : 100);
+    const Tessellation t = tessellate_from(eye, pipe, {}, 0.5);
+    ASSERT_EQ(t.fault, "");
+    EXPECT_LE(t.mesh.sag_mm, 0.6);
+    EXPECT_EQ(Net(t.mesh).contours_from(eye).size(), 2U);
+    EXPECT_LT(worst_end_from(eye, pipe, t), 1e-9);
+  }
+}
+
+TEST(ContoursFromAnEye, AreNoneInAPipeAndAtItsSkin) {
+  for (const double away : {0.0, 50.0, 101.0}) {
+    const Tessellation t = tessellate_from({away, 0, 20}, CylinderPrimitive{100, 1000}, {}, 0.5);
+    const Tessellation usual = tessellate(CylinderPrimitive{100, 1000}, {}, 0.5);
+    EXPECT_EQ(t.mesh.vertices, usual.mesh.vertices) << away;
+  }
+}
+
+TEST(ContoursFromAnEye, OfASnoutAreTwoGeneratorsOrNone) {
+  PrimitiveDraw draw(12);
+  int two = 0;
+  for (int i = 0; i < test::rounds(400); ++i) {
+    const SnoutPrimitive s{draw.between(20, 80), draw.between(0, 80), draw.between(60, 200),
+                           draw.between(-40, 40), draw.between(-40, 40)};
+    const Vec3d eye = eye_beside(draw, 100, 2, 40);
+    const Tessellation t = tessellate_from(eye, s, {}, 0.5);
+    ASSERT_EQ(t.fault, "");
+    const auto contours = Net(t.mesh).contours_from(eye);
+    EXPECT_TRUE(contours.size() == 2 || contours.empty()) << contours.size();
+    if (contours.size() == 2) ++two;
+    EXPECT_LT(worst_end_from(eye, s, t), 1e-9) << i;
+  }
+  EXPECT_GT(two, 100);
+}
+
+TEST(ContoursFromAnEye, OfABallIsACircle) {
+  PrimitiveDraw draw(13);
+  for (int i = 0; i < test::rounds(100); ++i) {
+    const SpherePrimitive ball{draw.between(10, 2000)};
+    const Vec3d eye = draw.direction() * (ball.diameter / 2 * draw.between(1.05, 30));
+    const Tessellation t = tessellate_from(eye, ball, {}, 0.5);
+    ASSERT_EQ(t.fault, "");
+    EXPECT_LE(t.mesh.sag_mm, 0.5);
+    EXPECT_GE(Net(t.mesh).contours_from(eye).size(), 8U);
+    EXPECT_LT(worst_end_from(eye, ball, t), 1e-9) << i;
+  }
+}
+
+TEST(ContoursFromAnEye, OfATorusLieOnTheTrueOnes) {
+  PrimitiveDraw draw(14);
+  for (int i = 0; i < test::rounds(200); ++i) {
+    const double tube = draw.between(10, 200);
+    const CircularTorusPrimitive bend{tube * draw.between(1.2, 5), tube,
+                                      i % 4 == 0   ? 2 * kPi
+                                      : i % 4 == 1 ? kPi / 2
+                                                   : draw.between(0.2, 6)};
+    Vec3d eye = draw.direction() * (tube * draw.between(10, 200));
+    eye.z = std::copysign(std::max(std::fabs(eye.z), 3.5 * tube), eye.z);
+    if (std::fabs(eye.z) < 0.1 * std::sqrt(dot(eye, eye))) continue;
+    const Tessellation t = tessellate_from(eye, bend, {}, 0.5);
+    ASSERT_EQ(t.fault, "");
+    EXPECT_LE(t.mesh.sag_mm, 2);
+    EXPECT_GE(Net(t.mesh).contours_from(eye).size(), 2U);
+    EXPECT_LT(worst_end_from(eye, bend, t), 1e-9) << i;
+  }
+}
+
+// Whatever frames they were drawn in.
+TEST(ContoursFromAnEye, RimsOfPipeAndElbowMeet) {
+  PrimitiveDraw draw(15);
+  for (int i = 0; i < 60; ++i) {
+    const double tube = draw.between(10, 300), bend = tube * draw.between(1.2, 4);
+    const double angle = i % 2 == 0 ? kPi / 2 : draw.between(0.1, 3);
+    const Mat3d elbow = i % 3 == 0 ? Mat3d{} : draw.rotation();
+    const Vec3d eye = elbow * Vec3d{tube * draw.between(-9, 9), tube * draw.between(-9, 9),
+                                    tube * draw.between(3.1, 30)};
+    const Tessellation t =
+        tessellate_from(eye, CircularTorusPrimitive{bend, tube, angle}, elbow, 0.5);
+    ASSERT_EQ(t.fault, "");
+    for (const double at : {0.0, angle}) {
+      const Mat3d frame = pipe_frame(elbow, at, draw.between(0, 6));
+      const Vec3d along = frame * Vec3d{0, 0, 1};
+      const Vec3d end = elbow * Vec3d{bend * std::cos(at), bend * std::sin(at), 0};
+      const Vec3d middle = end - along * 1000.0;
+      const Tessellation pipe =
+          tessellate_from(eye - middle, CylinderPrimitive{tube, 2000}, frame, 0.5);
+      std::size_t rim = 0;
+      for (const Vec3d& v : pipe.mesh.vertices) {
+        if (dot(v, along) < 0) continue;
+        ++rim;
+        double nearest = 1e9;
+        for (const Vec3d& w : t.mesh.vertices) {
+          const Vec3d off = v + middle - w;
+          nearest = std::min(nearest, std::sqrt(dot(off, off)));
+        }
+        EXPECT_LT(nearest, 1e-6) << i;
+      }
+      EXPECT_GE(rim, 8U);
+    }
+  }
+}
+
+/// Checks that a mesh is closed, turned outward, and as near to the true surface as it says.
+void check_mesh(const Primitive& primitive, const Mat3d& linear, const Tessellation& t,
+                bool measured, PrimitiveDraw& draw, std::mt19937_64& random) {
+  auto placed = snap_to_grid(t.mesh, {});
+  ASSERT_TRUE(placed.has_value());
+  const RepairedMesh analysis = repair_mesh(std::move(placed->mesh));
+  ASSERT_EQ(analysis.parts.size(), 1U);
+  EXPECT_EQ(analysis.parts[0].kind, PartKind::solid);
+  EXPECT_FALSE(analysis.parts[0].flags.inverted);
+  if (!measured) return;
+  for (int k = 0; k < 60; ++k) {
+    const Triangle& w = t.mesh.triangles[random() % t.mesh.triangles.size()];
+    const double a = std::sqrt(draw.between(0, 1)), b = draw.between(0, 1);
+    const Vec3d p = t.mesh.vertices[w[0]] * (1 - a) + t.mesh.vertices[w[1]] * (a * (1 - b)) +
+                    t.mesh.vertices[w[2]] * (a * b);
+    const Mat3d inverse = [&] {
+      Mat3d m;  // of a rotation or mirror
+      const auto& r = linear.row;
+      m.row = {Vec3d{r[0].x, r[1].x, r[2].x}, Vec3d{r[0].y, r[1].y, r[2].y},
+               Vec3d{r[0].z, r[1].z, r[2].z}};
+      return m;
+    }();
+    ASSERT_LE(test::distance_to_primitive(primitive, inverse * p), t.mesh.sag_mm + 1e-3);
+  }
+  for (const Vec3d& p : test::surface_points(primitive, 8, random))
+    ASSERT_LE(test::distance_to_mesh(t.mesh, linear * p), t.mesh.sag_mm + 1e-3);
+}
+
 // Closed, turned outward, and as near to the true surface as they say.
 TEST(Contours, MeshesKeepWhatTheySay) {
   PrimitiveDraw draw(7);
@@ -337,29 +497,26 @@ TEST(Contours, MeshesKeepWhatTheySay) {
     const Vec3d towards = draw.direction();
     const Tessellation t = tessellate(primitive, linear, 0.5, towards);
     if (!t.fault.empty()) continue;
-    auto placed = snap_to_grid(t.mesh, {});
-    ASSERT_TRUE(placed.has_value());
-    const RepairedMesh analysis = repair_mesh(std::move(placed->mesh));
-    ASSERT_EQ(analysis.parts.size(), 1U);
-    EXPECT_EQ(analysis.parts[0].kind, PartKind::solid);
-    EXPECT_FALSE(analysis.parts[0].flags.inverted);
-    if (i % 2 != 0) continue;
-    for (int k = 0; k < 60; ++k) {
-      const Triangle& w = t.mesh.triangles[random() % t.mesh.triangles.size()];
-      const double a = std::sqrt(draw.between(0, 1)), b = draw.between(0, 1);
-      const Vec3d p = t.mesh.vertices[w[0]] * (1 - a) + t.mesh.vertices[w[1]] * (a * (1 - b)) +
-                      t.mesh.vertices[w[2]] * (a * b);
-      const Mat3d inverse = [&] {
-        Mat3d m;  // of a rotation or mirror
-        const auto& r = linear.row;
-        m.row = {Vec3d{r[0].x, r[1].x, r[2].x}, Vec3d{r[0].y, r[1].y, r[2].y},
-                 Vec3d{r[0].z, r[1].z, r[2].z}};
-        return m;
-      }();
-      ASSERT_LE(test::distance_to_primitive(primitive, inverse * p), t.mesh.sag_mm + 1e-3);
-    }
-    for (const Vec3d& p : test::surface_points(primitive, 8, random))
-      ASSERT_LE(test::distance_to_mesh(t.mesh, linear * p), t.mesh.sag_mm + 1e-3);
+    check_mesh(primitive, linear, t, i % 2 == 0, draw, random);
+  }
+}
+
+// Wherever the eye is, in the primitive too.
+TEST(ContoursFromAnEye, MeshesKeepWhatTheySay) {
+  PrimitiveDraw draw(16);
+  std::mt19937_64 random(16);
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    const double tube = draw.between(10, 60);
+    const Primitive primitive =
+        i % 3 == 0 ? Primitive(CircularTorusPrimitive{tube * draw.between(0.5, 4), tube,
+                                                      i % 2 == 0 ? 2 * kPi : draw.between(0.1, 6)})
+                   : draw.convex(2 + draw.below(5), 400);
+    const Mat3d linear = draw.linear(i % 2 == 0);
+    const Vec3d eye = draw.direction() * draw.between(20, 4000);
+    const Tessellation t = tessellate_from(eye, primitive, linear, 0.5);
+    if (!t.fault.empty()) continue;
+    check_mesh(primitive, linear, t, i % 2 == 0, draw, random);
   }
 }
 
