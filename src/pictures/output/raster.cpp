@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <agg2/agg_conv_curve.h>
 #include <agg2/agg_conv_dash.h>
 #include <agg2/agg_conv_stroke.h>
-#include <agg2/agg_gsv_text.h>
 #include <agg2/agg_path_storage.h>
 #include <agg2/agg_pixfmt_rgb.h>
 #include <agg2/agg_rasterizer_scanline_aa.h>
@@ -14,10 +14,10 @@
 #include <cmath>
 #include <cstddef>
 #include <new>
-#include <string>
 #include <vector>
 
-#include "core/text_encoding.hpp"
+#include "drawing/lettering/glyph_outline.hpp"
+#include "drawing/lettering/lettering.hpp"
 #include "geometry/numeric/trig.hpp"
 #include "pictures/clash_picture.hpp"
 #include "pictures/output/png.hpp"
@@ -26,18 +26,6 @@ namespace strake::pictures {
 namespace {
 
 constexpr std::uint8_t kPaper = 255;
-
-/// Returns a text in the letters that the font of strokes has.
-std::string in_ascii(std::string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    const TakenCharacter taken = take_character(text);
-    constexpr std::uint32_t kFirst = 0x20, kLast = 0x7e;
-    const bool known = taken.length == 1 && taken.code >= kFirst && taken.code <= kLast;
-    out += known ? static_cast<char>(taken.code) : '?';
-  }
-  return out;
-}
 
 /// A sheet of points, and how a picture lies on it.
 class Raster {
@@ -177,22 +165,44 @@ class Raster {
   }
 
   void add_text(const PictureText& given) {
-    const double height = given.height_mm * per_mm_;
-    agg::gsv_text letters;
-    letters.flip(true);
-    letters.size(height, height * kLetterWidth);
-    const std::string text = in_ascii(given.text);
-    letters.text(text.c_str());
-    double left = x(given.at.x);
-    if (given.centred) left -= letters.text_width() / 2;
-    letters.start_point(left, y(given.at.y));
-    constexpr double kPlain = 0.11, kBold = 0.17;
-    draw_strokes(letters, std::max(kLeastLetter, height * (given.bold ? kBold : kPlain)),
-                 given.colour);
+    drawing::Letterer letterer;
+    const drawing::LetteredText text = letterer.set(given.text);
+    const drawing::TrueTypeFont& font = letterer.font();
+    const double size = given.height_mm * per_mm_ * 1000 / font.metrics().cap_height;
+    double left = x(given.at.x) - (given.centred ? text.width * size / 2 : 0);
+    agg::path_storage letters;
+    for (const drawing::GlyphId glyph : text.glyphs) {
+      for (const drawing::GlyphContour& contour : outline_of(font, glyph))
+        add_contour(letters, contour, left, y(given.at.y), size / 1000);
+      left += font.advance(glyph) * size / 1000;
+    }
+    agg::conv_curve<agg::path_storage> curves(letters);
+    fill(curves, given.colour);
+    // The font has no bold letters.
+    constexpr double kBold = 0.06;
+    if (given.bold) draw_strokes(curves, kBold * size, given.colour);
+  }
+
+  /// Adds a contour of a letter whose origin is at a point, y down.
+  static void add_contour(agg::path_storage& path, const drawing::GlyphContour& contour,
+                          double left, double baseline, double scale) {
+    const auto right = [&](const drawing::OutlinePoint& p) { return left + p.x * scale; };
+    const auto down = [&](const drawing::OutlinePoint& p) { return baseline - p.y * scale; };
+    path.move_to(right(contour[0]), down(contour[0]));
+    for (std::size_t i = 1; i < contour.size(); ++i) {
+      const drawing::OutlinePoint& p = contour[i];
+      if (p.on) {
+        path.line_to(right(p), down(p));
+        continue;
+      }
+      const drawing::OutlinePoint& end = contour[(i + 1) % contour.size()];
+      path.curve3(right(p), down(p), right(end), down(end));
+      ++i;
+    }
+    path.close_polygon();
   }
 
   static constexpr double kDashMm = 1.4, kGapMm = 1.0;
-  static constexpr double kLetterWidth = 0.85, kLeastLetter = 0.9;
 
   const ClashPicture& picture_;
   std::uint32_t width_, height_;

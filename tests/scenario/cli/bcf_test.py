@@ -154,7 +154,7 @@ class BcfBack(BcfProject):
                                   ('2026-02-03T10:00:00Z', 'Ödön', '<b>move it</b>'),
                                   ('2026-02-03T10:00:01Z', 'Ann', '<b>move it</b>')})
                 if version == '2.1':
-                    self.assertIn('3 topics, 1 statuses and 1 assignees changed, 3 comments added, 0 comments were there', told)
+                    self.assertIn('3 topics, 1 status and 1 assignee changed, 3 comments added, 0 comments were there', told)
 
     def test_the_same_file_again_changes_nothing(self):
         self.edit(self.decide)
@@ -209,9 +209,9 @@ class BcfBack(BcfProject):
                 topic.set('TopicStatus', 'closed')
         self.edit(change)
         told = self.take().stderr
-        self.assertRegex(told, r"1 topics are about no clash of the project\n.*HIT, .*c0 / c1")
-        self.assertIn("the status 'Whatever' of 1 topics means none of a clash", told)
-        self.assertIn('1 statuses', told)
+        self.assertRegex(told, r"1 topic is about no clash of the project\n.*HIT, .*c0 / c1")
+        self.assertIn("the status 'Whatever' of 1 topic means none of a clash: its own stays", told)
+        self.assertIn('1 status and', told)
         self.assertEqual(sorted(row[1] for row in self.state()[0]), ['new', 'new', 'resolved'])
 
     def test_topics_without_their_description_are_known_by_their_guid(self):
@@ -220,7 +220,7 @@ class BcfBack(BcfProject):
             if 'c0' in topic.findtext('Title'):
                 topic.set('TopicStatus', 'Approved')
         self.edit(change)
-        self.assertIn('1 statuses', self.take().stderr)
+        self.assertIn('1 status and', self.take().stderr)
         self.assertEqual(sorted(row[1] for row in self.state()[0]), ['approved', 'new', 'new'])
 
     def test_groups_are_decided_at_once(self):
@@ -236,7 +236,7 @@ class BcfBack(BcfProject):
                          [('active', None), ('reviewed', 'both'), ('reviewed', 'both')])
         self.out('--group-by', 'element', name='g.bcf')
         before = self.state()
-        self.assertIn('0 comments added, 1 comments were there', self.take(name='g.bcf').stderr)
+        self.assertIn('0 comments added, 1 comment was there', self.take(name='g.bcf').stderr)
         self.assertEqual(self.state(), before)
 
     def test_topics_that_contradict_each_other_are_a_conflict(self):

@@ -97,9 +97,9 @@ TEST(ClashXml, TellsWhatWasDecided) {
       << xml;
   EXPECT_TRUE(has(xml, "<body>as &lt;agreed&gt; &amp; so</body>")) << xml;
   // It was said to be mended and is still there.
-  EXPECT_TRUE(has(xml, R"(status="active" distance="10")")) << xml;
+  EXPECT_TRUE(has(xml, R"(status="new" distance="10")")) << xml;
   EXPECT_TRUE(has(xml, "<body>resolved, and back: found again</body>")) << xml;
-  EXPECT_TRUE(has(xml, R"(new="1" active="1" reviewed="0" approved="1" resolved="0")")) << xml;
+  EXPECT_TRUE(has(xml, R"(new="2" active="0" reviewed="0" approved="1" resolved="0")")) << xml;
 }
 
 TEST(ClashXml, PutsTheResultsOfAGroupIntoIt) {

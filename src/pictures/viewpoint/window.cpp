@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pictures/viewpoint/window.hpp"
+
+#include <tuple>
+
+namespace strake::pictures {
+namespace {
+
+using geometry::Box3d;
+using geometry::Vec3d;
+
+WindowPoint window_point(const Window& w, const Vec3d& p) {
+  return {(dot(p, w.axes.right) / w.half_width_mm + 1) * 0.5 * w.columns,
+          (1 - dot(p, w.axes.up) / w.half_height_mm) * 0.5 * w.rows, dot(p, w.axes.toward)};
+}
+
+Vec3d model_point(const Window& w, const WindowPoint& p) {
+  return w.axes.right * ((2 * p.x / w.columns - 1) * w.half_width_mm) +
+         w.axes.up * ((1 - 2 * p.y / w.rows) * w.half_height_mm) + w.axes.toward * p.depth;
+}
+
+/// Half of what a box takes along an axis.
+double half_along(const Vec3d& axis, const Vec3d& half) {
+  return std::fabs(axis.x) * half.x + std::fabs(axis.y) * half.y + std::fabs(axis.z) * half.z;
+}
+
+/// Returns the first and the end of the cells whose middles lie in a range.
+std::array<std::uint32_t, 2> cells(double least, double most, std::uint32_t count) {
+  const double end = count;
+  return {static_cast<std::uint32_t>(std::clamp(std::ceil(least - 0.5), 0.0, end)),
+          static_cast<std::uint32_t>(std::clamp(std::floor(most - 0.5) + 1, 0.0, end))};
+}
+
+/// A share of a triangle's corner as a point of the window goes: at + x * step along a row.
+struct Share {
+  double at = 0, step = 0;
+
+  /// Narrows the part of a row where the share is not negative, but for rounding.
+  void narrow(double& left, double& right) const {
+    constexpr double kRounding = 0.01;
+    if (step > 0)
+      left = std::max(left, -at / step - kRounding);
+    else if (step < 0)
+      right = std::min(right, -at / step + kRounding);
+    else if (at < 0)
+      right = left - 1;
+  }
+};
+
+/// The share of the corner opposite to the edge from a to b, along the row y.
+Share share_of(const WindowPoint& a, const WindowPoint& b, double y, double per_area) {
+  return {((b.x - a.x) * (y - a.y) + (b.y - a.y) * a.x) * per_area, (a.y - b.y) * per_area};
+}
+
+/// What rounding takes from a share: neighbours leave no gap between them.
+constexpr double kOnEdge = -1e-9;
+
+}  // namespace
+
+WindowRange range_of(const Window& w, const Box3d& box) {
+  // Rounding must not take what lies on the rim of a box out of it.
+  constexpr double kRounding = 1e-3;
+  const WindowPoint middle = window_point(w, (box.lo + box.hi) * 0.5);
+  const Vec3d half = (box.hi - box.lo) * 0.5;
+  const double x = half_along(w.axes.right, half) / w.half_width_mm * 0.5 * w.columns + kRounding;
+  const double y = half_along(w.axes.up, half) / w.half_height_mm * 0.5 * w.rows + kRounding;
+  const double depth = half_along(w.axes.toward, half) + kRounding;
+  return {middle.x - x, middle.x + x,         middle.y - y,
+          middle.y + y, middle.depth - depth, middle.depth + depth};
+}
+
+std::optional<SeenTriangle> seen_triangle(const Window& w, const NearTriangle& triangle,
+                                          std::uint32_t number) {
+  SeenTriangle seen;
+  for (std::size_t k = 0; k < 3; ++k) seen.at[k] = window_point(w, triangle.at[k]);
+  const auto& [a, b, c] = seen.at;
+  if (std::min({a.depth, b.depth, c.depth}) > w.eye_mm) return std::nullopt;
+  const auto [left, right] = std::minmax({a.x, b.x, c.x});
+  if (right < 0.5 || left > w.columns - 0.5) return std::nullopt;
+  const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+  const auto [first, end] = cells(top, bottom, w.rows);
+  const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  if (first >= end || area == 0) return std::nullopt;
+  seen.per_area = 1 / area;
+  seen.back = area > 0;  // rows grow downwards: fronts turn clockwise
+  seen.solid = triangle.solid;
+  seen.number = number;
+  seen.first = first;
+  seen.end = end;
+  seen.own = triangle.role != Role::other;
+  return seen;
+}
+
+std::vector<SeenTriangle> seen_triangles(const Window& w, const NearTriangles& triangles) {
+  std::vector<SeenTriangle> out;
+  for (const bool own : {false, true})
+    for (const TriangleRun& run : triangles.runs(own)) {
+      const WindowRange range = range_of(w, run.box);
+      if (range.right < 0 || range.left > w.columns || range.bottom < 0 || range.top > w.rows ||
+          range.farthest > w.eye_mm || (w.box && !w.box->meets(run.box)))
+        continue;
+      const bool cut = may_cut(w, run.box);
+      for (std::uint32_t i = run.first; i < run.end; ++i)
+        if (std::optional<SeenTriangle> seen = seen_triangle(w, triangles[i], i)) {
+          seen->may_be_cut = cut;
+          out.push_back(*seen);
+        }
+    }
+  return out;
+}
+
+bool is_cut_away(const Window& w, const WindowPoint& point) {
+  const Vec3d p = model_point(w, point);
+  if (w.box && !w.box->meets({p, p})) return true;
+  return std::ranges::any_of(w.planes, [&](const ClippingPlane& plane) {
+    return dot(p - plane.point_mm, plane.normal) > 0;
+  });
+}
+
+bool may_cut(const Window& w, const Box3d& box) {
+  constexpr double kRounding = 1e-6;
+  if (w.box && !w.box->inflated(-kRounding).contains(box)) return true;
+  const Vec3d middle = (box.lo + box.hi) * 0.5, half = (box.hi - box.lo) * 0.5;
+  return std::ranges::any_of(w.planes, [&](const ClippingPlane& plane) {
+    return dot(middle - plane.point_mm, plane.normal) + half_along(plane.normal, half) > -kRounding;
+  });
+}
+
+SeenRow::SeenRow(const SeenTriangle& triangle, std::uint32_t row, std::uint32_t columns) {
+  const auto& [a, b, c] = triangle.at;
+  const Share of_a = share_of(b, c, row + 0.5, triangle.per_area);
+  const Share of_b = share_of(c, a, row + 0.5, triangle.per_area);
+  const Share of_c = share_of(a, b, row + 0.5, triangle.per_area);
+  auto [from, to] = std::minmax({a.x, b.x, c.x});
+  double left = from, right = to;
+  for (const Share& share : {of_a, of_b, of_c}) share.narrow(left, right);
+  const auto [first, end] = cells(left, right, columns);
+  first_ = first;
+  end_ = end;
+  const auto shares = [&](std::uint32_t column) {
+    const double x = column + 0.5, u = of_a.at + x * of_a.step, v = of_b.at + x * of_b.step;
+    return std::array{u, v, 1 - u - v};
+  };
+  // Shares go straight along a row: what lies between two points of a triangle is in it.
+  const auto is_in = [&](std::uint32_t column) {
+    return std::ranges::min(shares(column)) >= kOnEdge;
+  };
+  while (first_ < end_ && !is_in(first_)) ++first_;
+  while (first_ < end_ && !is_in(end_ - 1)) --end_;
+  if (first_ >= end_) return;
+  const auto [u, v, r] = shares(first_);
+  depth_ = u * a.depth + v * b.depth + r * c.depth;
+  step_ = of_a.step * a.depth + of_b.step * b.depth - (of_a.step + of_b.step) * c.depth;
+  std::tie(farthest_, nearest_) = std::minmax({a.depth, b.depth, c.depth});
+}
+
+}  // namespace strake::pictures
