@@ -61,40 +61,57 @@ class Raster {
     return std::max(kThinnest, mm * per_mm_);
   }
 
+  /// Where a point of the sheet lies between two of the shade; `weight` is that of the second, of
+  /// kWeights.
+  struct Between {
+    std::uint32_t first = 0, second = 0, weight = 0;
+    bool inside = false;
+  };
+  static constexpr std::uint32_t kWeights = 256;
+
+  /// Returns where the points of the sheet lie, `begin` to begin + length, over `count` of the
+  /// shade.
+  static std::vector<Between> between(std::uint32_t points, double begin, double length,
+                                      std::uint32_t count) {
+    std::vector<Between> all(points);
+    for (std::uint32_t i = 0; i < points; ++i) {
+      const double share = (i + 0.5 - begin) / length;
+      if (share < 0 || share >= 1) continue;
+      const double at = std::clamp(share * count - 0.5, 0.0, count - 1.0);
+      const auto first = static_cast<std::uint32_t>(at);
+      all[i] = {first, std::min(first + 1, count - 1),
+                static_cast<std::uint32_t>((at - first) * kWeights + 0.5), true};
+    }
+    return all;
+  }
+
   void add_shade() {
     const Shade& shade = picture_.shade;
     if (shade.points.empty()) return;
-    for (std::uint32_t row = 0; row < height_; ++row)
-      for (std::uint32_t column = 0; column < width_; ++column) {
-        const double across = (column + 0.5 - left_) / (picture_.width_mm * per_mm_);
-        const double down = (row + 0.5 - top_) / (picture_.view_mm * per_mm_);
-        if (across < 0 || across >= 1 || down < 0 || down >= 1) continue;
-        const Colour colour = shade_at(across * shade.width - 0.5, down * shade.height - 0.5);
-        std::uint8_t* const point = &bytes_[(std::size_t{row} * width_ + column) * 3];
-        point[0] = colour.red;
-        point[1] = colour.green;
-        point[2] = colour.blue;
+    const auto columns = between(width_, left_, picture_.width_mm * per_mm_, shade.width);
+    const auto rows = between(height_, top_, picture_.view_mm * per_mm_, shade.height);
+    for (std::uint32_t row = 0; row < height_; ++row) {
+      if (!rows[row].inside) continue;
+      const Colour* const above = &shade.points[std::size_t{rows[row].first} * shade.width];
+      const Colour* const below = &shade.points[std::size_t{rows[row].second} * shade.width];
+      std::uint8_t* point = &bytes_[std::size_t{row} * width_ * 3];
+      for (std::uint32_t column = 0; column < width_; ++column, point += 3) {
+        const Between& at = columns[column];
+        if (!at.inside) continue;
+        const auto mix = [&](std::uint8_t Colour::* channel) {
+          const auto across = [&](const Colour* of_row) {
+            return of_row[at.first].*channel * (kWeights - at.weight) +
+                   of_row[at.second].*channel * at.weight;
+          };
+          const std::uint32_t sum =
+              across(above) * (kWeights - rows[row].weight) + across(below) * rows[row].weight;
+          return static_cast<std::uint8_t>((sum + kWeights * kWeights / 2) / (kWeights * kWeights));
+        };
+        point[0] = mix(&Colour::red);
+        point[1] = mix(&Colour::green);
+        point[2] = mix(&Colour::blue);
       }
-  }
-
-  /// Returns the shade between its points.
-  [[nodiscard]] Colour shade_at(double column, double row) const {
-    const Shade& shade = picture_.shade;
-    const double x0 = std::clamp(column, 0.0, shade.width - 1.0);
-    const double y0 = std::clamp(row, 0.0, shade.height - 1.0);
-    const auto left = static_cast<std::size_t>(x0), top = static_cast<std::size_t>(y0);
-    const std::size_t right = std::min<std::size_t>(left + 1, shade.width - 1);
-    const std::size_t below = std::min<std::size_t>(top + 1, shade.height - 1);
-    const double across = x0 - static_cast<double>(left), down = y0 - static_cast<double>(top);
-    const auto mix = [&](std::uint8_t Colour::* channel) {
-      const auto at = [&](std::size_t c, std::size_t r) {
-        return static_cast<double>(shade.points[r * shade.width + c].*channel);
-      };
-      const double above = at(left, top) * (1 - across) + at(right, top) * across;
-      const double under = at(left, below) * (1 - across) + at(right, below) * across;
-      return static_cast<std::uint8_t>(above * (1 - down) + under * down + 0.5);
-    };
-    return {mix(&Colour::red), mix(&Colour::green), mix(&Colour::blue)};
+    }
   }
 
   template <class Path>

@@ -36,19 +36,16 @@ void ItemBuffer::close_cuts(std::span<const SeenTriangle> triangles) {
 }
 
 void ItemBuffer::add(const SeenTriangle& triangle, std::uint32_t number) {
-  constexpr auto kSame = static_cast<float>(kSameDepthMm);
+  Item found{0, number & kNothing, triangle.own ? 1U : 0U};
   const std::uint32_t end = std::min(triangle.end, end_row_);
   for (std::uint32_t row = std::max(triangle.first, first_row_); row < end; ++row) {
-    const SeenRow in_row(triangle, row, window_.columns);
-    Item* const items = items_.data() + place(0, row);
+    const SeenRow in_row(window_, triangle, row);
+    const std::size_t at = place(0, row);
     for (std::uint32_t column = in_row.first(); column < in_row.end(); ++column) {
-      const double exact = in_row.depth(column);
-      const auto depth = static_cast<float>(exact);
-      if ((depth < items[column].depth - kSame && own_.empty()) || exact > window_.eye_mm) continue;
-      if (triangle.may_be_cut && is_cut_away(window_, {column + 0.5, row + 0.5, exact})) continue;
-      const Item found{depth, number, triangle.own ? 1U : 0U};
-      keep_nearest(items[column], found, triangle.own && items[column].own == 0);
-      if (triangle.own && !own_.empty()) keep_nearest(own_[place(column, row)], found, false);
+      found.depth = static_cast<float>(in_row.depth(column));
+      Item& item = items_[at + column];
+      keep_nearest(item, found, triangle.own && item.own == 0);
+      if (triangle.own && !own_.empty()) keep_nearest(own_[at + column], found, false);
     }
   }
 }

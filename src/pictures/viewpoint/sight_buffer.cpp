@@ -17,11 +17,11 @@ SightBuffer::SightBuffer(const Window& window, const NearTriangles& triangles)
 
 void SightBuffer::add(const Window& window, const SeenTriangle& triangle, Role role) {
   for (std::uint32_t row = triangle.first; row < triangle.end; ++row) {
-    const SeenRow in_row(triangle, row, points_);
+    const SeenRow in_row(window, triangle, row);
     Point* const points = at_.data() + std::size_t{row} * points_;
     for (std::uint32_t column = in_row.first(); column < in_row.end(); ++column) {
       const double depth = in_row.depth(column);
-      if (depth > window.eye_mm || depth <= points[column].depth + kSameDepthMm) continue;
+      if (depth <= points[column].depth + kSameDepthMm) continue;
       points[column] = {depth, role, window.closes_cuts && triangle.back && triangle.solid};
     }
   }
@@ -60,13 +60,12 @@ void SightBuffer::cover(const Window& window, const SeenTriangle& triangle) {
   const auto& [a, b, c] = triangle.at;
   if (std::max({a.depth, b.depth, c.depth}) <= own_.farthest) return;
   for (std::uint32_t row = triangle.first; row < triangle.end; ++row) {
-    const SeenRow in_row(triangle, row, points_);
+    const SeenRow in_row(window, triangle, row);
     Point* const points = at_.data() + std::size_t{row} * points_;
     for (std::uint32_t column = in_row.first(); column < in_row.end(); ++column) {
       Point& point = points[column];
       if (point.role == Role::other || point.closed) continue;
-      const double depth = in_row.depth(column);
-      if (depth <= window.eye_mm && depth > point.depth + kSameDepthMm) point.role = Role::other;
+      if (in_row.depth(column) > point.depth + kSameDepthMm) point.role = Role::other;
     }
   }
 }

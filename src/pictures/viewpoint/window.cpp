@@ -24,11 +24,17 @@ double half_along(const Vec3d& axis, const Vec3d& half) {
   return std::fabs(axis.x) * half.x + std::fabs(axis.y) * half.y + std::fabs(axis.z) * half.z;
 }
 
+/// Returns a number cut to 0 to `most`.
+double within(double value, std::uint32_t most) {
+  return std::clamp(value, 0.0, static_cast<double>(most));
+}
+
 /// Returns the first and the end of the cells whose middles lie in a range.
 std::array<std::uint32_t, 2> cells(double least, double most, std::uint32_t count) {
-  const double end = count;
-  return {static_cast<std::uint32_t>(std::clamp(std::ceil(least - 0.5), 0.0, end)),
-          static_cast<std::uint32_t>(std::clamp(std::floor(most - 0.5) + 1, 0.0, end))};
+  // Conversion cuts the fraction off, and costs less than rounding does.
+  const double from = within(least - 0.5, count);
+  const auto first = static_cast<std::uint32_t>(from);
+  return {first < from ? first + 1 : first, static_cast<std::uint32_t>(within(most + 0.5, count))};
 }
 
 /// A share of a triangle's corner as a point of the window goes: at + x * step along a row.
@@ -74,7 +80,8 @@ std::optional<SeenTriangle> seen_triangle(const Window& w, const NearTriangle& t
   SeenTriangle seen;
   for (std::size_t k = 0; k < 3; ++k) seen.at[k] = window_point(w, triangle.at[k]);
   const auto& [a, b, c] = seen.at;
-  if (std::min({a.depth, b.depth, c.depth}) > w.eye_mm) return std::nullopt;
+  const auto [farthest, nearest] = std::minmax({a.depth, b.depth, c.depth});
+  if (farthest > w.eye_mm) return std::nullopt;
   const auto [left, right] = std::minmax({a.x, b.x, c.x});
   if (right < 0.5 || left > w.columns - 0.5) return std::nullopt;
   const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
@@ -88,6 +95,7 @@ std::optional<SeenTriangle> seen_triangle(const Window& w, const NearTriangle& t
   seen.first = first;
   seen.end = end;
   seen.own = triangle.role != Role::other;
+  seen.may_be_cut = nearest > w.eye_mm;
   return seen;
 }
 
@@ -102,19 +110,11 @@ std::vector<SeenTriangle> seen_triangles(const Window& w, const NearTriangles& t
       const bool cut = may_cut(w, run.box);
       for (std::uint32_t i = run.first; i < run.end; ++i)
         if (std::optional<SeenTriangle> seen = seen_triangle(w, triangles[i], i)) {
-          seen->may_be_cut = cut;
+          seen->may_be_cut = seen->may_be_cut || cut;
           out.push_back(*seen);
         }
     }
   return out;
-}
-
-bool is_cut_away(const Window& w, const WindowPoint& point) {
-  const Vec3d p = model_point(w, point);
-  if (w.box && !w.box->meets({p, p})) return true;
-  return std::ranges::any_of(w.planes, [&](const ClippingPlane& plane) {
-    return dot(p - plane.point_mm, plane.normal) > 0;
-  });
 }
 
 bool may_cut(const Window& w, const Box3d& box) {
@@ -126,7 +126,7 @@ bool may_cut(const Window& w, const Box3d& box) {
   });
 }
 
-SeenRow::SeenRow(const SeenTriangle& triangle, std::uint32_t row, std::uint32_t columns) {
+SeenRow::SeenRow(const Window& window, const SeenTriangle& triangle, std::uint32_t row) {
   const auto& [a, b, c] = triangle.at;
   const Share of_a = share_of(b, c, row + 0.5, triangle.per_area);
   const Share of_b = share_of(c, a, row + 0.5, triangle.per_area);
@@ -134,7 +134,7 @@ SeenRow::SeenRow(const SeenTriangle& triangle, std::uint32_t row, std::uint32_t 
   auto [from, to] = std::minmax({a.x, b.x, c.x});
   double left = from, right = to;
   for (const Share& share : {of_a, of_b, of_c}) share.narrow(left, right);
-  const auto [first, end] = cells(left, right, columns);
+  const auto [first, end] = cells(left, right, window.columns);
   first_ = first;
   end_ = end;
   const auto shares = [&](std::uint32_t column) {
@@ -152,6 +152,40 @@ SeenRow::SeenRow(const SeenTriangle& triangle, std::uint32_t row, std::uint32_t 
   depth_ = u * a.depth + v * b.depth + r * c.depth;
   step_ = of_a.step * a.depth + of_b.step * b.depth - (of_a.step + of_b.step) * c.depth;
   std::tie(farthest_, nearest_) = std::minmax({a.depth, b.depth, c.depth});
+  if (triangle.may_be_cut) cut(window, row);
+}
+
+/// What the window leaves out is left out along a straight row from some column on, or up to it.
+void SeenRow::cut(const Window& w, std::uint32_t row) {
+  const Vec3d at = model_point(w, {first_ + 0.5, row + 0.5, depth_});
+  const Vec3d along = w.axes.right * (2 * w.half_width_mm / w.columns) + w.axes.toward * step_;
+  double from = 0, to = static_cast<double>(end_ - first_) - 1;
+  // Keeps the columns where room + column * step is not negative.
+  const auto keep = [&](double room, double step) {
+    if (step > 0)
+      from = std::max(from, -room / step);
+    else if (step < 0)
+      to = std::min(to, -room / step);
+    else if (room < 0)
+      to = -1;
+  };
+  keep(w.eye_mm - depth_, -step_);
+  if (w.box)
+    for (int k = 0; k < 3; ++k) {
+      keep(at[k] - w.box->lo[k], along[k]);
+      keep(w.box->hi[k] - at[k], -along[k]);
+    }
+  for (const ClippingPlane& plane : w.planes)
+    keep(-dot(at - plane.point_mm, plane.normal), -dot(along, plane.normal));
+  const std::uint32_t count = end_ - first_;
+  if (to < 0 || from > to) {
+    end_ = first_;
+    return;
+  }
+  const auto [skipped, kept] = cells(from + 0.5, to + 0.5, count);
+  depth_ += step_ * skipped;
+  end_ = first_ + kept;
+  first_ = std::min(first_ + skipped, end_);
 }
 
 }  // namespace strake::pictures

@@ -62,19 +62,17 @@ struct SeenTriangle {
 [[nodiscard]] std::vector<SeenTriangle> seen_triangles(const Window& window,
                                                        const NearTriangles& triangles);
 
-/// Whether a window leaves out a point of it.
-[[nodiscard]] bool is_cut_away(const Window& window, const WindowPoint& point);
-
 /// Whether a window may leave out some of a box.
 [[nodiscard]] bool may_cut(const Window& window, const geometry::Box3d& box);
 
 /// Faces nearer to each other than this are one: rounding must not tell them apart.
 inline constexpr double kSameDepthMm = 0.02;
 
-/// The columns of a row whose middles lie in a triangle, and the depth there.
+/// The columns of a row whose middles lie in a triangle and in what the window shows, and the depth
+/// there.
 class SeenRow {
  public:
-  SeenRow(const SeenTriangle& triangle, std::uint32_t row, std::uint32_t columns);
+  SeenRow(const Window& window, const SeenTriangle& triangle, std::uint32_t row);
 
   [[nodiscard]] std::uint32_t first() const { return first_; }
   [[nodiscard]] std::uint32_t end() const { return end_; }
@@ -83,6 +81,8 @@ class SeenRow {
   }
 
  private:
+  void cut(const Window& window, std::uint32_t row);
+
   std::uint32_t first_ = 0, end_ = 0;
   double depth_ = 0, step_ = 0, farthest_ = 0, nearest_ = 0;
 };

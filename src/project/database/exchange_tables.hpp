@@ -6,7 +6,7 @@ namespace strake::project {
 /// What people said, where the event of it does not tell that alone: an event tells in one text
 /// what was said and what was set, and knows nothing of other programs. Version 3 brought it; of
 /// comments before it there are no rows, nor of those that are all that an event tells.
-inline constexpr const char* kSaidTables = R"sql(
+inline constexpr const char* kExchangeTables = R"sql(
 CREATE TABLE said (
   event INTEGER PRIMARY KEY REFERENCES event(id),
   text TEXT NOT NULL,               -- what was said; empty: nothing

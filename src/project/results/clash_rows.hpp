@@ -65,9 +65,9 @@ struct NewClash {
 /// What somebody said, where that is not all that an event tells, or another program has a name for
 /// it.
 struct Said {
-  std::string text;                ///< empty: nothing
-  std::string guid, topic;         ///< as report::DecisionComment has them
-  std::string first_at, first_by;  ///< likewise
+  std::string text = {};                     ///< empty: nothing
+  std::string guid = {}, topic = {};         ///< as report::DecisionComment has them
+  std::string first_at = {}, first_by = {};  ///< likewise
 };
 
 /// A change of status.
