@@ -57,8 +57,7 @@ void SightBuffer::cover(const Window& window, const NearTriangles& triangles) {
 }
 
 void SightBuffer::cover(const Window& window, const SeenTriangle& triangle) {
-  const auto& [a, b, c] = triangle.at;
-  if (std::max({a.depth, b.depth, c.depth}) <= own_.farthest) return;
+  if (triangle.nearest <= own_.farthest) return;
   for (std::uint32_t row = triangle.first; row < triangle.end; ++row) {
     const SeenRow in_row(window, triangle, row);
     Point* const points = at_.data() + std::size_t{row} * points_;

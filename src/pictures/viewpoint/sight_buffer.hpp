@@ -9,6 +9,8 @@
 
 namespace strake::pictures {
 
+// Decision 0105 says what is looked at, and what it costs.
+
 /// What a window shows of the two.
 struct SeenShares {
   double a = 0, b = 0;  ///< shares of the disc within the window

@@ -2,6 +2,7 @@
 #include "pictures/viewpoint/window.hpp"
 
 #include <tuple>
+#include <utility>
 
 namespace strake::pictures {
 namespace {
@@ -24,6 +25,11 @@ double half_along(const Vec3d& axis, const Vec3d& half) {
   return std::fabs(axis.x) * half.x + std::fabs(axis.y) * half.y + std::fabs(axis.z) * half.z;
 }
 
+/// Returns the least and the greatest of three numbers.
+std::pair<double, double> range(double a, double b, double c) {
+  return {std::min(std::min(a, b), c), std::max(std::max(a, b), c)};
+}
+
 /// Returns a number cut to 0 to `most`.
 double within(double value, std::uint32_t most) {
   return std::clamp(value, 0.0, static_cast<double>(most));
@@ -37,25 +43,10 @@ std::array<std::uint32_t, 2> cells(double least, double most, std::uint32_t coun
   return {first < from ? first + 1 : first, static_cast<std::uint32_t>(within(most + 0.5, count))};
 }
 
-/// A share of a triangle's corner as a point of the window goes: at + x * step along a row.
-struct Share {
-  double at = 0, step = 0;
-
-  /// Narrows the part of a row where the share is not negative, but for rounding.
-  void narrow(double& left, double& right) const {
-    constexpr double kRounding = 0.01;
-    if (step > 0)
-      left = std::max(left, -at / step - kRounding);
-    else if (step < 0)
-      right = std::min(right, -at / step + kRounding);
-    else if (at < 0)
-      right = left - 1;
-  }
-};
-
-/// The share of the corner opposite to the edge from a to b, along the row y.
-Share share_of(const WindowPoint& a, const WindowPoint& b, double y, double per_area) {
-  return {((b.x - a.x) * (y - a.y) + (b.y - a.y) * a.x) * per_area, (a.y - b.y) * per_area};
+/// The share of the corner opposite to the edge from a to b.
+Slope share_of(const WindowPoint& a, const WindowPoint& b, double per_area) {
+  const double along = (a.y - b.y) * per_area, down = (b.x - a.x) * per_area;
+  return {-(a.x * along + a.y * down), along, down};
 }
 
 /// What rounding takes from a share: neighbours leave no gap between them.
@@ -77,25 +68,32 @@ WindowRange range_of(const Window& w, const Box3d& box) {
 
 std::optional<SeenTriangle> seen_triangle(const Window& w, const NearTriangle& triangle,
                                           std::uint32_t number) {
+  const WindowPoint a = window_point(w, triangle.at[0]), b = window_point(w, triangle.at[1]),
+                    c = window_point(w, triangle.at[2]);
   SeenTriangle seen;
-  for (std::size_t k = 0; k < 3; ++k) seen.at[k] = window_point(w, triangle.at[k]);
-  const auto& [a, b, c] = seen.at;
-  const auto [farthest, nearest] = std::minmax({a.depth, b.depth, c.depth});
-  if (farthest > w.eye_mm) return std::nullopt;
-  const auto [left, right] = std::minmax({a.x, b.x, c.x});
-  if (right < 0.5 || left > w.columns - 0.5) return std::nullopt;
-  const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+  std::tie(seen.farthest, seen.nearest) = range(a.depth, b.depth, c.depth);
+  if (seen.farthest > w.eye_mm) return std::nullopt;
+  std::tie(seen.left, seen.right) = range(a.x, b.x, c.x);
+  if (seen.right < 0.5 || seen.left > w.columns - 0.5) return std::nullopt;
+  const auto [top, bottom] = range(a.y, b.y, c.y);
   const auto [first, end] = cells(top, bottom, w.rows);
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
   if (first >= end || area == 0) return std::nullopt;
-  seen.per_area = 1 / area;
-  seen.back = area > 0;  // rows grow downwards: fronts turn clockwise
-  seen.solid = triangle.solid;
+  seen.shares = {share_of(b, c, 1 / area), share_of(c, a, 1 / area), share_of(a, b, 1 / area)};
+  for (std::size_t k = 0; k < 3; ++k)
+    if (const double along = seen.shares[k].along; along != 0) seen.per_along[k] = 1 / along;
+  const auto mixed = [&](double Slope::* of) {
+    return a.depth * (seen.shares[0].*of) + b.depth * (seen.shares[1].*of) +
+           c.depth * (seen.shares[2].*of);
+  };
+  seen.depth = {mixed(&Slope::at), mixed(&Slope::along), mixed(&Slope::down)};
   seen.number = number;
   seen.first = first;
   seen.end = end;
   seen.own = triangle.role != Role::other;
-  seen.may_be_cut = nearest > w.eye_mm;
+  seen.back = area > 0;  // rows grow downwards: fronts turn clockwise
+  seen.solid = triangle.solid;
+  seen.may_be_cut = seen.nearest > w.eye_mm;
   return seen;
 }
 
@@ -127,31 +125,38 @@ bool may_cut(const Window& w, const Box3d& box) {
 }
 
 SeenRow::SeenRow(const Window& window, const SeenTriangle& triangle, std::uint32_t row) {
-  const auto& [a, b, c] = triangle.at;
-  const Share of_a = share_of(b, c, row + 0.5, triangle.per_area);
-  const Share of_b = share_of(c, a, row + 0.5, triangle.per_area);
-  const Share of_c = share_of(a, b, row + 0.5, triangle.per_area);
-  auto [from, to] = std::minmax({a.x, b.x, c.x});
-  double left = from, right = to;
-  for (const Share& share : {of_a, of_b, of_c}) share.narrow(left, right);
+  const double y = row + 0.5;
+  double left = triangle.left, right = triangle.right;
+  std::array<double, 3> at{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    // Where the share is not negative, but for rounding.
+    constexpr double kRounding = 0.01;
+    const Slope& share = triangle.shares[k];
+    at[k] = share.at + y * share.down;
+    const double zero = -at[k] * triangle.per_along[k];
+    if (share.along > 0)
+      left = std::max(left, zero - kRounding);
+    else if (share.along < 0)
+      right = std::min(right, zero + kRounding);
+    else if (at[k] < kOnEdge)
+      return;
+  }
   const auto [first, end] = cells(left, right, window.columns);
   first_ = first;
   end_ = end;
-  const auto shares = [&](std::uint32_t column) {
-    const double x = column + 0.5, u = of_a.at + x * of_a.step, v = of_b.at + x * of_b.step;
-    return std::array{u, v, 1 - u - v};
-  };
   // Shares go straight along a row: what lies between two points of a triangle is in it.
   const auto is_in = [&](std::uint32_t column) {
-    return std::ranges::min(shares(column)) >= kOnEdge;
+    const double x = column + 0.5;
+    return std::min({at[0] + x * triangle.shares[0].along, at[1] + x * triangle.shares[1].along,
+                     at[2] + x * triangle.shares[2].along}) >= kOnEdge;
   };
   while (first_ < end_ && !is_in(first_)) ++first_;
   while (first_ < end_ && !is_in(end_ - 1)) --end_;
   if (first_ >= end_) return;
-  const auto [u, v, r] = shares(first_);
-  depth_ = u * a.depth + v * b.depth + r * c.depth;
-  step_ = of_a.step * a.depth + of_b.step * b.depth - (of_a.step + of_b.step) * c.depth;
-  std::tie(farthest_, nearest_) = std::minmax({a.depth, b.depth, c.depth});
+  depth_ = triangle.depth.of(first_ + 0.5, y);
+  step_ = triangle.depth.along;
+  farthest_ = triangle.farthest;
+  nearest_ = triangle.nearest;
   if (triangle.may_be_cut) cut(window, row);
 }
 

@@ -40,16 +40,26 @@ struct WindowRange {
 /// Returns the range that all of a box lies in.
 [[nodiscard]] WindowRange range_of(const Window& window, const geometry::Box3d& box);
 
+/// A number that goes straight over a window: at + x * along + y * down.
+struct Slope {
+  double at = 0, along = 0, down = 0;
+  [[nodiscard]] double of(double x, double y) const { return at + x * along + y * down; }
+};
+
 /// A triangle as a window has it.
 struct SeenTriangle {
-  std::array<WindowPoint, 3> at;
-  double per_area = 0;               ///< one over twice its area in points, with a sign
+  /// The shares of its three corners: in it none is negative.
+  std::array<Slope, 3> shares;
+  std::array<double, 3> per_along{};  ///< one over their `along`; 0 where that is 0
+  Slope depth;                        ///< mm towards the viewer
+  double left = 0, right = 0, farthest = 0, nearest = 0;
   std::uint32_t number = 0;          ///< among NearTriangles
   std::uint32_t first = 0, end = 0;  ///< the rows whose middles it has a part in
   bool own = false;                  ///< it is of the clash
   bool back = false;                 ///< its back is seen
   bool solid = false;                ///< as NearTriangle has it
-  bool may_be_cut = false;  ///< not all of it lies in the window's box and behind its planes
+  /// Not all of it lies in the window's box, behind its planes and before the eye.
+  bool may_be_cut = false;
 };
 
 /// Returns the triangle where the window has the middle of a point in it that is before the eye.

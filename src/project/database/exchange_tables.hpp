@@ -3,6 +3,8 @@
 
 namespace strake::project {
 
+// Decision 0105 says why this is a table of its own.
+
 /// What people said, where the event of it does not tell that alone: an event tells in one text
 /// what was said and what was set, and knows nothing of other programs. Version 3 brought it; of
 /// comments before it there are no rows, nor of those that are all that an event tells.
