@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
+#include "core/text/xml_text.hpp"
 #include "core/text_encoding.hpp"
-#include "core/xml_text.hpp"
 #include "strake/drawing/write.hpp"
 
 namespace strake::drawing {

@@ -16,8 +16,8 @@
 
 #include "clash/results/unlisted_contacts.hpp"
 #include "cli/options/options.hpp"
-#include "core/counted.hpp"
 #include "core/output_format.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::cli {

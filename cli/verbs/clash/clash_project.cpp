@@ -13,7 +13,7 @@
 
 #include "cli/run/person.hpp"
 #include "cli/run/utc_time.hpp"
-#include "core/counted.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "project/model/file_rows.hpp"
 #include "project/stored_report/report_codec.hpp"

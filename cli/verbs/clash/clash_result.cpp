@@ -16,7 +16,7 @@
 
 #include "cli/options/options.hpp"
 #include "cli/output/console.hpp"
-#include "core/counted.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "rules/clearances.hpp"
 #include "strake/core/diagnostics.hpp"

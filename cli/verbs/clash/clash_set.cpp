@@ -19,8 +19,8 @@
 #include "cli/verbs/clash/bcf/bcf_review.hpp"
 #include "cli/verbs/clash/clash_groups.hpp"
 #include "cli/verbs/verb.hpp"
-#include "core/counted.hpp"
 #include "core/number.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "project/results/clash_queries.hpp"
 

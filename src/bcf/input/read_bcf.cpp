@@ -9,7 +9,7 @@
 
 #include "bcf/input/xml_tree.hpp"
 #include "bcf/input/zip_reader.hpp"
-#include "core/dates.hpp"
+#include "core/text/dates.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::bcf {

@@ -15,7 +15,7 @@
 #include "bcf/topics/reference.hpp"
 #include "bcf/topics/topic_facts.hpp"
 #include "bcf/topics/topic_plan.hpp"
-#include "core/counted.hpp"
+#include "core/text/counted.hpp"
 #include "pictures/clash_picture.hpp"
 #include "report/zip/zip_writer.hpp"
 #include "strake/parallel/pipeline.hpp"

@@ -15,9 +15,9 @@
 #include "bcf/topics/words.hpp"
 #include "bcf/xml/xml_text.hpp"
 #include "clash/results/clash_key.hpp"
-#include "core/counted.hpp"
-#include "core/dates.hpp"
 #include "core/number.hpp"
+#include "core/text/counted.hpp"
+#include "core/text/dates.hpp"
 #include "report/clash/attribute_columns.hpp"
 #include "report/clash/contents.hpp"
 

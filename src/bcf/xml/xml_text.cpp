@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "core/number.hpp"
+#include "core/text/xml_text.hpp"
 #include "core/text_encoding.hpp"
-#include "core/xml_text.hpp"
 
 namespace strake::bcf {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "core/dates.hpp"
+#include "core/text/dates.hpp"
 #include "io/rvm/attributes.hpp"
 #include "io/rvm/binary.hpp"
 #include "io/rvm/builder.hpp"

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/counted.hpp"
 #include "core/number.hpp"
+#include "core/text/counted.hpp"
 #include "pictures/folder/shown_subjects.hpp"
 #include "pictures/scenery/clash_place.hpp"
 #include "pictures/viewpoint/camera.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/counted.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "report/text/columns.hpp"
 #include "report/text/formatting.hpp"

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/counted.hpp"
 #include "core/number.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "report/table/group_table.hpp"
 #include "report/table/pair_table.hpp"

@@ -11,7 +11,7 @@
 
 #include "bcf/input/read_bcf.hpp"
 #include "bcf/output/write_bcf.hpp"
-#include "core/dates.hpp"
+#include "core/text/dates.hpp"
 #include "core/text_encoding.hpp"
 #include "report/zip/zip_writer.hpp"
 #include "support/clash_model.hpp"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/counted.hpp"
+#include "core/text/counted.hpp"
 
 namespace strake {
 namespace {

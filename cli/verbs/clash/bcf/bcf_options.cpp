@@ -12,8 +12,8 @@
 #include "cli/options/options.hpp"
 #include "cli/output/console.hpp"
 #include "cli/verbs/clash/clash_project.hpp"
-#include "core/dates.hpp"
 #include "core/output_format.hpp"
+#include "core/text/dates.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::cli {

@@ -19,7 +19,7 @@
 #include "cli/run/load.hpp"
 #include "cli/run/person.hpp"
 #include "cli/run/utc_time.hpp"
-#include "core/counted.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "project/results/clash_queries.hpp"
 #include "project/review/review.hpp"

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "cli/options/options.hpp"
-#include "core/counted.hpp"
+#include "core/text/counted.hpp"
 #include "pictures/folder.hpp"
 
 namespace strake::cli {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/xml_text.hpp"
+#include "core/text/xml_text.hpp"
 
 namespace strake {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/dates.hpp"
+#include "core/text/dates.hpp"
 
 #include <algorithm>
 #include <chrono>
