@@ -8,7 +8,7 @@ set -euo pipefail
 need build test
 seconds=600
 [ "${1:-}" = --seconds ] && { seconds=$2; shift 2; }
-formats=${*:-gltf obj stl ply rvm rvm_attributes rules sheets clash_document view_document project project_blob}
+formats=${*:-gltf obj stl ply rvm rvm_attributes rules sheets clash_document view_document bcf project project_blob}
 # shellcheck disable=SC2086 # a word for each fuzzer
 configure_and_build fuzz write_seeds $(printf '%s_fuzzer ' $formats)
 build/fuzz/bin/write_seeds build/fuzz/seeds

@@ -8,7 +8,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -19,6 +21,8 @@
 #include "python/bindings/clash_rows.hpp"
 #include "python/bindings/diagnostics.hpp"
 #include "python/bindings/run.hpp"
+#include "report/clash/contents.hpp"
+#include "report/clash/group_numbers.hpp"
 #include "strake/core/atomic_file.hpp"
 
 namespace nb = nanobind;
@@ -99,6 +103,32 @@ std::string key_of(const RunPointer& run, std::uint32_t test, std::uint32_t a, s
                          model::ObjectId(b));
 }
 
+/// Returns what files of results have besides the numbers, of rows from `begin` to before `end`: a
+/// list of their keys, of their statuses and of the ids of their groups, empty where there are
+/// none.
+nb::tuple words_of_rows(const RunPointer& run, std::size_t begin, std::size_t end) {
+  const report::ClashContents contents = run->contents();
+  const report::GroupNumbers numbers(contents);
+  nb::list keys, statuses, groups;
+  std::size_t row = 0;
+  for (std::size_t t = 0; t < run->findings.tests.size(); ++t) {
+    const clash::Report& test = run->findings.tests[t];
+    const std::size_t first = std::max(begin, row), last = std::min(end, row + test.pairs.size());
+    for (std::size_t at = first; at < last; ++at) {
+      const clash::Pair& pair = test.pairs[at - row];
+      keys.append(nb::cast(clash::pair_key(test.name, contents.model, pair.a, pair.b)));
+      const report::DecidedResult* const decided = report::decided_of(contents, t, pair);
+      const bool open = decided != nullptr || pair.allowed < 0;
+      statuses.append(
+          nb::cast(open ? std::string(name(report::current_status(decided))) : std::string()));
+      const auto group = numbers.of(t, at - row);
+      groups.append(nb::cast(group ? contents.grouping->groups[*group].id : std::string()));
+    }
+    row += test.pairs.size();
+  }
+  return nb::make_tuple(keys, statuses, groups);
+}
+
 /// Writes as the suffix of the path asks for.
 void save(const RunPointer& run, const std::filesystem::path& path,
           const std::vector<std::string>& columns, const RunOptions& options) {
@@ -173,6 +203,7 @@ void bind_clash(nb::module_& module) {
       nb::arg("model"), nb::arg("request"), nb::arg("options"));
   module.def("clash_rows", &rows, nb::arg("run"), nb::arg("options"));
   module.def("clash_groups", &groups, nb::arg("run"));
+  module.def("clash_words", &words_of_rows, nb::arg("run"), nb::arg("begin"), nb::arg("end"));
   module.def("clash_key", &key_of, nb::arg("run"), nb::arg("test"), nb::arg("a"), nb::arg("b"));
   module.def("save_clashes", &save, nb::arg("run"), nb::arg("path"), nb::arg("columns"),
              nb::arg("options"));

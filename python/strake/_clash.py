@@ -266,7 +266,9 @@ class Clashes(Sequence[Clash]):
         return pandas.DataFrame(columns)
 
     def to_arrow(self) -> pyarrow.Table:
-        """Returns an Arrow table with columns(); test, kind, relation, ids and names are dictionaries.
+        """Returns an Arrow table with columns(), and with `key`, `status` and `group` as CSV has them.
+
+        Test, kind, relation, ids, names, statuses and groups are dictionaries; a result of no group has none.
 
         Raises: ImportError where pyarrow is not installed.
         """
@@ -323,7 +325,18 @@ class Clashes(Sequence[Clash]):
         for name, (field, texts_of) in words.items():
             codes = pyarrow.array(rows[field].astype(np.int32))
             columns[name] = pyarrow.DictionaryArray.from_arrays(codes, pyarrow.array(texts_of, pyarrow.string()))
+        begin, end, _ = which.indices(len(self))
+        keys, statuses, groups = _core.clash_words(self._core, begin, end)
+        columns["key"] = pyarrow.array(keys, pyarrow.string())
+        columns["status"] = _dictionary(statuses)
+        columns["group"] = _dictionary([group or None for group in groups])
         return columns
+
+
+def _dictionary(texts: Sequence[str | None]) -> pyarrow.DictionaryArray:
+    import pyarrow
+
+    return pyarrow.array(texts, pyarrow.string()).dictionary_encode()
 
 
 def _flat(rows: npt.NDArray[Any]) -> dict[str, npt.NDArray[Any]]:

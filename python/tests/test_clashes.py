@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import builtins
+import csv
 import json
 from pathlib import Path
 from typing import Any
@@ -90,6 +91,21 @@ def test_arrow_tables(clashes: strake.Clashes) -> None:
     assert table["kind"][5].as_py() == clashes[5].kind.name
     assert table["b_id"][5].as_py() == clashes[5].b_id
     assert table["point_z"][5].as_py() == clashes[5].point[2]
+    assert table["key"].to_pylist() == [clash.key for clash in clashes]
+    assert set(table["status"].to_pylist()) == {"new"}
+    assert set(table["group"].to_pylist()) == {None}
+
+
+def test_arrow_tables_have_the_words_of_csv(ship: strake.Model, tmp_path: Path) -> None:
+    pytest.importorskip("pyarrow")
+    clashes = strake.clash(ship, group_by="element")
+    clashes.save(tmp_path / "x.csv")
+    with open(tmp_path / "x.csv", newline="", encoding="utf-8") as lines:
+        rows = list(csv.DictReader(lines))
+    table = clashes.to_arrow()
+    assert table["key"].to_pylist() == [row["key"] for row in rows]
+    assert [group or "" for group in table["group"].to_pylist()] == [row["group"] for row in rows]
+    assert any(table["group"].to_pylist())
 
 
 def test_parquet_files(clashes: strake.Clashes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -111,7 +111,8 @@ struct PictureOptions {
 [[nodiscard]] Status write_svg(const ClashPicture& picture, report::Sink sink);
 
 /// Returns a picture as the bytes of a PNG of that size, 16 to 8192 each way; it fills the size,
-/// and keeps its proportions with white beside. Letters that are no ASCII show as question marks.
+/// and keeps its proportions with white beside. Letters are those of the font of drawings; what it
+/// lacks is a box.
 /// Errors: usage for a size out of range, out of memory.
 [[nodiscard]] Result<std::string> png_of(const ClashPicture& picture, std::uint32_t width_px,
                                          std::uint32_t height_px);

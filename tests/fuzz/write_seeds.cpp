@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "fuzz/bcf/feed_bcf.hpp"
 #include "fuzz/project/feed_project.hpp"
 #include "fuzz/report/feed_clash_document.hpp"
 #include "support/io_seeds.hpp"
@@ -50,6 +51,7 @@ int main(int argc, char** argv) {
   write("rules", strake::test::rules_seeds());
   write("sheets", strake::test::sheet_seeds());
   write("clash_document", strake::test::clash_document_seeds());
+  write("bcf", strake::test::bcf_seeds());
   write("project", {strake::test::project_seed().file});
   write("view_document", strake::test::view_document_seeds());
   return 0;

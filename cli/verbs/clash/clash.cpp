@@ -400,10 +400,11 @@ Result<const report::DecidedResults*> decided_of(Session& session, const ClashOp
                                                  clash::Findings& findings,
                                                  std::optional<report::DecidedResults>& from_file) {
   if (source.project) {
-    const Status status = source.project->remember(session, source.loaded, findings,
-                                                   {request.deeper_mm, rules_source(given, request),
-                                                    grouping_of(given.result, given.output.classes),
-                                                    written_files(given, session.json()).bcf});
+    const Status status = source.project->remember(
+        session, source.loaded, findings,
+        {request.deeper_mm, rules_source(given, request),
+         grouping_of(given.result, given.output.classes),
+         comments_of_run(given.output.bcf, written_files(given, session.json()).bcf)});
     if (!status) return status.error();
     return source.project->decided();
   }

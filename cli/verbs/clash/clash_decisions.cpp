@@ -17,6 +17,7 @@
 #include "clash/results/unlisted_contacts.hpp"
 #include "cli/options/options.hpp"
 #include "core/output_format.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::cli {
@@ -55,9 +56,7 @@ Status count_contacts(Session& session, const report::DecidedResults& decided,
   return {};
 }
 
-std::string rows_text(std::uint64_t rows) {
-  return rows == 1 ? std::string("1 row") : fmt::format("{} rows", rows);
-}
+std::string rows_text(std::uint64_t rows) { return counted(rows, "row"); }
 
 }  // namespace
 
@@ -126,9 +125,7 @@ Result<std::optional<report::DecidedResults>> decide(Session& session, const Dec
     session.console().note(fmt::format(
         "{}: {} at places that this run does not count: whether the two meet at more places now is "
         "not known (--regions 0 and --narrow-phase sphere-subdivision count none)",
-        input.file,
-        count == 1 ? std::string("1 clash is approved")
-                   : fmt::format("{} clashes are approved", count)));
+        input.file, counted(count, "clash is approved", "clashes are approved")));
   for (const std::string& pair : decided->renamed_before)
     session.console().note(
         fmt::format("--match-files {}: {} has the new name already", printable(pair), input.file));
@@ -141,10 +138,9 @@ Status write_decisions(Session& session, const DecisionInput& input, const Decis
   if (!input.write) return {};
   const report::UpdatedDecisions updated = report::update_decisions(contents);
   if (updated.without_row > 0)
-    session.console().note(fmt::format(
-        "{}: {} no row: their keys stand there for another place", input.file,
-        updated.without_row == 1 ? std::string("1 result has")
-                                 : fmt::format("{} results have", updated.without_row)));
+    session.console().note(fmt::format("{}: {} no row: their keys stand there for another place",
+                                       input.file,
+                                       counted(updated.without_row, "result has", "results have")));
   if (request.exists && updated.text == request.file.text) return {};
   const Status status = session.write(input.file, [&](Session::Sink sink) -> Status {
     if (!is_unchanged(request))

@@ -13,6 +13,7 @@
 
 #include "cli/run/person.hpp"
 #include "cli/run/utc_time.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "project/model/file_rows.hpp"
 #include "project/stored_report/report_codec.hpp"
@@ -42,15 +43,16 @@ std::string called(std::string_view test) {
 std::string told(std::string_view test, const project::TestWork& work) {
   switch (work.how) {
     case project::Retested::nothing:
-      return fmt::format("{}nothing changed, {} results kept", called(test), work.kept_results);
+      return fmt::format("{}nothing changed, {} kept", called(test),
+                         counted(work.kept_results, "result"));
     case project::Retested::changes:
-      return fmt::format("{}{} of {} objects changed, {} pairs tested again, {} results kept",
-                         called(test), work.changed_objects, work.objects, work.tested_pairs,
-                         work.kept_results);
+      return fmt::format("{}{} of {} changed, {} tested again, {} kept", called(test),
+                         work.changed_objects, counted(work.objects, "object"),
+                         counted(work.tested_pairs, "pair"), counted(work.kept_results, "result"));
     case project::Retested::full:
       break;
   }
-  return fmt::format("{}all of {} objects tested", called(test), work.objects);
+  return fmt::format("{}all of {} tested", called(test), counted(work.objects, "object"));
 }
 
 /// Whether a run finds what the one before found, and has it under the same names: where files have
@@ -256,7 +258,7 @@ Status ProjectClashes::remember(Session& session, const Loaded& loaded,
                                 request.deeper_mm,
                                 std::move(request.rules),
                                 std::move(request.grouping),
-                                request.with_comments};
+                                request.comments};
   Result<project::RememberedRun> run =
       project::remember(opened_.project.database(), *loaded.model, facts, tests, session.context());
   if (!run) return run.error();

@@ -34,7 +34,7 @@ struct RunRequest {
   double deeper_mm = 1;                      ///< as project::RunFacts
   std::optional<report::RulesSource> rules;  ///< the rules file, if there is one
   project::RunGrouping grouping;
-  bool with_comments = false;  ///< likewise
+  project::RunComments comments = project::RunComments::none;  ///< likewise
 };
 
 void add_clash_project_options(CLI::App& command, ClashProjectInput& options);

@@ -16,6 +16,8 @@
 
 #include "cli/options/options.hpp"
 #include "cli/output/console.hpp"
+#include "core/text/counted.hpp"
+#include "core/text_encoding.hpp"
 #include "rules/clearances.hpp"
 #include "strake/core/diagnostics.hpp"
 
@@ -213,11 +215,10 @@ bool has_failing_pair(const clash::Findings& findings, const FailingPairs& faili
     console.note(fmt::format("--fail-on {}: pairs that could not be compared and may be as bad: {}",
                              fail_on, lacks.pairs));
   if (lacks.objects > 0)
-    console.note(fmt::format(
-        "--fail-on {}: {} could not be fully compared; --fail-on ignores {} (add "
-        "--strict to fail)",
-        fail_on, lacks.objects == 1 ? "1 object" : fmt::format("{} objects", lacks.objects),
-        lacks.objects == 1 ? "it" : "them"));
+    console.note(
+        fmt::format("--fail-on {}: {} could not be fully compared; --fail-on ignores {} (add "
+                    "--strict to fail)",
+                    fail_on, counted(lacks.objects, "object"), lacks.objects == 1 ? "it" : "them"));
   return surely + perhaps + lacks.pairs > 0;
 }
 

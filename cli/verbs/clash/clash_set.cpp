@@ -20,6 +20,7 @@
 #include "cli/verbs/clash/clash_groups.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/number.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "project/results/clash_queries.hpp"
 
@@ -164,8 +165,8 @@ Result<ExitCode> run_set(Session& session, const ClashSetOptions& given) {
   const Result<std::uint64_t> changed = project::decide(database, *keys, decision);
   if (!changed) return changed.error();
   if (const Status status = transaction->commit(); !status) return status.error();
-  session.console().note(
-      fmt::format("{}: {} of {} clashes changed", opened->file, *changed, keys->size()));
+  session.console().note(fmt::format("{}: {} of {} changed", opened->file, *changed,
+                                     counted(keys->size(), "clash", "clashes")));
   return ExitCode::done;
 }
 

@@ -70,7 +70,9 @@ struct BcfForm {
   bool version_3 = false;  ///< 3.0; otherwise 2.1, which most programs read
   std::size_t most = 200;  ///< topics: the first of the groups, or the worst of the results
   bool contacts = false;   ///< also results that are contacts; groups have those that they have
-  std::string date = {};   ///< when topics were made, as 2026-01-31T23:59:59Z; empty: 1970-01-01
+  /// When topics were made, as 2026-01-31T23:59:59Z; empty: when the newest model file says that it
+  /// was written, or where none does 1970-01-01.
+  std::string date = {};
   std::string author = "strake";  ///< who made them
 };
 
@@ -126,7 +128,7 @@ struct ClashContents {
 /// tests
 /// (`exchange`, schema nw-exchange-12.0), in millimetres, depths as negative distances, with GUIDs
 /// that stay from run to run and the groups of the grouping. Results that a rule allows are left
-/// out; what came back after a decision is `active`. Control characters in names become U+FFFD.
+/// out; statuses are those of current_status(). Control characters in names become U+FFFD.
 [[nodiscard]] Status write_clash_xml(const ClashContents& contents, Sink sink,
                                      const parallel::Context& context = {});
 

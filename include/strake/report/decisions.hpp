@@ -44,6 +44,10 @@ struct DecisionObject {
 /// What somebody said about a clash.
 struct DecisionComment {
   std::string at, by, text;  ///< when, as 2026-01-31T23:59:59Z, or the day alone; or empty
+  /// Of the comment in BCF and of its topic; empty: no other program names it.
+  std::string guid = {}, topic = {};
+  /// When it was said, and by whom, before it was edited; empty: it was not.
+  std::string first_at = {}, first_by = {};
 };
 
 /// A row of the file.
@@ -108,6 +112,11 @@ struct DecidedResult {
     return decision->status == DecisionStatus::approved && reopened == Reopened::no && !allowed;
   }
 };
+
+/// Returns the status of a result as it is now, for outputs that have no word for why a decision no
+/// longer holds: New without a decision, and where it is found although it was resolved; Active
+/// where it was approved and is worse. What a project says is the status of now already.
+[[nodiscard]] DecisionStatus current_status(const DecidedResult* decided);
 
 struct DecisionRules {
   /// An approved clash comes back where its d is less than it was by more than this, and than the

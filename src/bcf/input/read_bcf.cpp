@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bcf/input/read_bcf.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cstddef>
 #include <tuple>
 #include <utility>
@@ -13,6 +9,7 @@
 
 #include "bcf/input/xml_tree.hpp"
 #include "bcf/input/zip_reader.hpp"
+#include "core/text/dates.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::bcf {
@@ -21,40 +18,16 @@ namespace {
 constexpr std::size_t kMostOfFile = std::size_t{16} << 20U, kMostOfAll = std::size_t{512} << 20U;
 constexpr std::string_view kMarkup = "/markup.bcf";
 
-/// Reads a number of so many digits at a place of a text.
-std::optional<int> digits_at(std::string_view text, std::size_t at, std::size_t count) {
-  if (at + count > text.size()) return std::nullopt;
-  int value = 0;
-  for (const char c : text.substr(at, count)) {
-    if (c < '0' || c > '9') return std::nullopt;
-    value = 10 * value + (c - '0');
-  }
-  return value;
-}
-
-/// Reads what stands behind the seconds: a fraction, which is dropped, and a zone, in minutes.
-std::optional<int> zone_minutes(std::string_view rest) {
-  if (rest.starts_with('.')) {
-    rest.remove_prefix(1);
-    rest.remove_prefix(std::min(rest.find_first_not_of("0123456789"), rest.size()));
-  }
-  if (rest.empty() || rest == "Z") return 0;
-  constexpr std::size_t kLength = 6;  // +01:00
-  if (rest.size() != kLength || (rest[0] != '+' && rest[0] != '-') || rest[3] != ':')
-    return std::nullopt;
-  const std::optional<int> hours = digits_at(rest, 1, 2), minutes = digits_at(rest, 4, 2);
-  if (!hours || !minutes) return std::nullopt;
-  const int total = 60 * *hours + *minutes;
-  constexpr int kFarthest = 14 * 60;
-  if (*minutes > 59 || total > kFarthest) return std::nullopt;
-  return rest[0] == '-' ? -total : total;
-}
-
 ReadComment read_comment(const pugi::xml_node& node) {
   ReadComment comment{utc_of(child_text(node, "Date")).value_or(std::string()),
                       child_text(node, "Author"), child_text(node, "Comment")};
+  if (std::string guid = lowered(attribute_text(node, "Guid")); is_guid(guid))
+    comment.guid = std::move(guid);
   // An edited comment is what was said last, by whom and when.
-  if (const auto changed = utc_of(child_text(node, "ModifiedDate"))) comment.date = *changed;
+  const std::optional<std::string> changed = utc_of(child_text(node, "ModifiedDate"));
+  if (!changed) return comment;
+  comment.first_date = std::exchange(comment.date, *changed);
+  comment.first_author = comment.author;
   if (std::string changer = child_text(node, "ModifiedAuthor"); !changer.empty())
     comment.author = std::move(changer);
   return comment;
@@ -173,40 +146,6 @@ Result<ReadFile> read_bcf(const std::filesystem::path& file, const parallel::Con
   Result<ZipReader> zip = ZipReader::open(file);
   if (!zip) return zip.error();
   return BcfReader(std::move(*zip), file.string()).read(context);
-}
-
-std::optional<std::string> utc_of(std::string_view date) {
-  namespace chrono = std::chrono;
-  date = trimmed(date, " \t\r\n");
-  constexpr std::string_view kForm = "0000-00-00T00:00:00";
-  if (date.size() < kForm.size()) return std::nullopt;
-  for (std::size_t i = 0; i < kForm.size(); ++i)
-    if (kForm[i] != '0' && date[i] != kForm[i]) return std::nullopt;
-  std::array<int, 6> parts{};
-  constexpr std::array<std::size_t, 6> kPlaces{0, 5, 8, 11, 14, 17};
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::optional<int> part = digits_at(date, kPlaces[i], i == 0 ? 4 : 2);
-    if (!part) return std::nullopt;
-    parts[i] = *part;
-  }
-  const std::optional<int> zone = zone_minutes(date.substr(kForm.size()));
-  const chrono::year_month_day day{chrono::year(parts[0]),
-                                   chrono::month(static_cast<unsigned>(parts[1])),
-                                   chrono::day(static_cast<unsigned>(parts[2]))};
-  // Seconds that are put in before midnight count as those after it; 24:00 is the next day.
-  if (!zone || !day.ok() || parts[3] > 24 || parts[4] > 59 || parts[5] > 60) return std::nullopt;
-  if (parts[3] == 24 && parts[4] + parts[5] > 0) return std::nullopt;
-  const chrono::sys_seconds at = chrono::sys_days(day) + chrono::hours(parts[3]) +
-                                 chrono::minutes(parts[4]) + chrono::seconds(parts[5]) -
-                                 chrono::minutes(*zone);
-  const chrono::sys_days midnight = chrono::floor<chrono::days>(at);
-  const chrono::year_month_day utc(midnight);
-  // The schemas know no year 0.
-  if (utc.year() < chrono::year(1) || utc.year() > chrono::year(9999)) return std::nullopt;
-  const chrono::hh_mm_ss time(at - midnight);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", static_cast<int>(utc.year()),
-                     static_cast<unsigned>(utc.month()), static_cast<unsigned>(utc.day()),
-                     time.hours().count(), time.minutes().count(), time.seconds().count());
 }
 
 }  // namespace strake::bcf

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bcf/topics/reference.hpp"
@@ -18,6 +17,9 @@ namespace strake::bcf {
 struct ReadComment {
   std::string date;  ///< UTC, as 2026-01-31T23:59:59Z; empty where the file has none
   std::string author, text;
+  std::string guid = {};  ///< in small letters; empty where the file has none
+  /// When it was said, and by whom, before it was edited; empty: it was not.
+  std::string first_date = {}, first_author = {};
 };
 
 struct ReadTopic {
@@ -39,9 +41,5 @@ struct ReadFile {
 /// archive, for other versions, and where topics unpack to more than 512 MiB; cancelled.
 [[nodiscard]] Result<ReadFile> read_bcf(const std::filesystem::path& file,
                                         const parallel::Context& context = {});
-
-/// Returns a date of XML (xs:dateTime; without a zone it is UTC) in UTC to the second, as
-/// "2026-01-31T23:59:59Z"; nothing for any other text.
-[[nodiscard]] std::optional<std::string> utc_of(std::string_view date);
 
 }  // namespace strake::bcf

@@ -36,7 +36,10 @@ std::string extensions_file(const report::ClashContents& contents, const TopicPl
     users.insert(facts.author);
     users.insert(facts.changer);
     users.insert(facts.assignee);
-    for (const TopicComment& comment : facts.comments) users.insert(comment.author);
+    for (const TopicComment& comment : facts.comments) {
+      users.insert(comment.author);
+      users.insert(comment.changer);
+    }
   }
   std::vector<std::string_view> statuses;
   for (const report::DecisionStatus status : report::kDecisionStatuses)

@@ -29,7 +29,11 @@ class MarkupWriter {
   void header() {
     xml_.begin("Header");
     if (form_.version_3) xml_.begin("Files");
-    for (const std::string& file : facts_.files) xml_.begin("File").leaf("Filename", file).end();
+    for (const TopicFile& file : facts_.files) {
+      xml_.begin("File");
+      if (!file.project.empty()) xml_.attribute("IfcProject", file.project);
+      xml_.leaf_if("Filename", file.name).leaf_if("Date", file.date).end();
+    }
     if (form_.version_3) xml_.end();
     xml_.end();
   }
@@ -56,6 +60,8 @@ class MarkupWriter {
         xml_.leaf_if("Comment", comment.text);
       else
         xml_.leaf("Comment", comment.text);
+      if (!comment.changed.empty())
+        xml_.leaf("ModifiedDate", comment.changed).leaf("ModifiedAuthor", comment.changer);
       xml_.end();
     }
     if (form_.version_3) xml_.end();

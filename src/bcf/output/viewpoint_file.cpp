@@ -9,11 +9,12 @@
 #include <string_view>
 #include <vector>
 
-#include "bcf/topics/topic_facts.hpp"
+#include "bcf/topics/ifc_guid.hpp"
 #include "bcf/xml/xml_text.hpp"
 #include "core/number.hpp"
 #include "core/text_encoding.hpp"
 #include "pictures/clash_picture.hpp"
+#include "report/clash/contents.hpp"
 
 namespace strake::bcf {
 namespace {
@@ -21,15 +22,6 @@ namespace {
 constexpr double kMmPerMetre = 1000;
 constexpr std::string_view kFieldOfView = "45";         ///< degrees, from below to above
 constexpr double kTangentOfHalf = 0.41421356237309503;  ///< of that angle
-constexpr std::string_view kIfcDigits =
-    "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_$";
-
-/// Whether a text is a GlobalId: 128 bits in 22 digits, of which the first has two.
-bool is_ifc_guid(std::string_view text) {
-  constexpr std::size_t kLength = 22;
-  return text.size() == kLength && text.find_first_not_of(kIfcDigits) == std::string_view::npos &&
-         text.front() >= '0' && text.front() <= '3';
-}
 
 /// The objects of the two sides, each once.
 struct Sides {
@@ -136,15 +128,6 @@ class ViewpointWriter {
 };
 
 }  // namespace
-
-std::string ifc_guid(const model::Model& model, const model::Object& object) {
-  const auto stated = std::ranges::find(object.attributes, std::string_view("GlobalId"),
-                                        &std::pair<std::string, std::string>::first);
-  if (stated != object.attributes.end() && is_ifc_guid(stated->second)) return stated->second;
-  if (!lowered(model.files[object.file].format).starts_with("ifc")) return {};
-  const std::string id = object.id.substr(0, object.id.find('~'));
-  return is_ifc_guid(id) ? id : std::string();
-}
 
 std::string viewpoint_file(const report::ClashContents& contents, const PlannedTopic& topic,
                            const std::string& guid, const pictures::ClashViewpoint& seen) {

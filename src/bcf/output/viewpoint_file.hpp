@@ -18,7 +18,4 @@ inline constexpr std::size_t kMostComponents = 1000;
                                          const PlannedTopic& topic, const std::string& guid,
                                          const pictures::ClashViewpoint& seen);
 
-/// Returns the GlobalId of an element of IFC, 22 characters; empty for anything else.
-[[nodiscard]] std::string ifc_guid(const model::Model& model, const model::Object& object);
-
 }  // namespace strake::bcf

@@ -15,6 +15,7 @@
 #include "bcf/topics/reference.hpp"
 #include "bcf/topics/topic_facts.hpp"
 #include "bcf/topics/topic_plan.hpp"
+#include "core/text/counted.hpp"
 #include "pictures/clash_picture.hpp"
 #include "report/zip/zip_writer.hpp"
 #include "strake/parallel/pipeline.hpp"
@@ -129,14 +130,12 @@ Status add_topics(report::ZipWriter& zip, const report::ClashContents& contents,
   return status;
 }
 
-std::string counted(std::uint64_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 }  // namespace
 
-Status write_bcf(const report::ClashContents& contents, report::Sink sink,
+Status write_bcf(const report::ClashContents& given, report::Sink sink,
                  const parallel::Context& context) {
+  report::ClashContents contents = given;
+  if (contents.bcf.date.empty()) contents.bcf.date = newest_date(contents.model);
   const TopicPlan plan = plan_topics(contents);
   report::ZipWriter zip(sink, "write fewer topics with --bcf-most");
   if (const Status status = zip.add_file("bcf.version", version_file(contents.bcf.version_3));
@@ -148,6 +147,10 @@ Status write_bcf(const report::ClashContents& contents, report::Sink sink,
       return status;
   if (const Status status = add_topics(zip, contents, plan, context); !status) return status;
   return zip.finish();
+}
+
+bool is_dated(const report::ClashContents& contents) {
+  return !contents.bcf.date.empty() || !newest_date(contents.model).empty();
 }
 
 std::string left_out_of_bcf(const report::ClashContents& contents) {

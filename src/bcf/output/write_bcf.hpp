@@ -18,6 +18,10 @@ namespace strake::bcf {
 [[nodiscard]] Status write_bcf(const report::ClashContents& contents, report::Sink sink,
                                const parallel::Context& context = {});
 
+/// Whether it is known when topics were made: by BcfForm::date, or since a model file says when it
+/// was written. Otherwise their date is 1970-01-01.
+[[nodiscard]] bool is_dated(const report::ClashContents& contents);
+
 /// Returns what the file does not have, for people; empty where it has all.
 [[nodiscard]] std::string left_out_of_bcf(const report::ClashContents& contents);
 

@@ -64,6 +64,17 @@ std::string part_guid(std::string_view topic_guid, std::string_view part) {
   return report::uuid_from_key(topic_guid, part);
 }
 
+bool is_guid(std::string_view text) {
+  constexpr std::string_view kForm = "00000000-0000-0000-0000-000000000000";
+  if (text.size() != kForm.size()) return false;
+  for (std::size_t i = 0; i < kForm.size(); ++i) {
+    const char c = text[i];
+    const bool is_digit = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+    if (kForm[i] == '-' ? c != '-' : !is_digit) return false;
+  }
+  return true;
+}
+
 std::string mark_of(std::string_view assignee) {
   if (assignee.empty()) return "none";
   constexpr std::size_t kDigits = 8;

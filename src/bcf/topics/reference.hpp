@@ -40,6 +40,9 @@ inline constexpr std::size_t kMostReferred = 1000;
 /// Returns the GUID of something of a topic, as of its viewpoint.
 [[nodiscard]] std::string part_guid(std::string_view topic_guid, std::string_view part);
 
+/// Whether a text is a GUID as the schemas have it, in small letters.
+[[nodiscard]] bool is_guid(std::string_view text);
+
 /// Returns eight digits by which an assignee is known again; "none" for nobody.
 [[nodiscard]] std::string mark_of(std::string_view assignee);
 

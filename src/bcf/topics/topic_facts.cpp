@@ -4,16 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <set>
 #include <string_view>
 #include <tuple>
 #include <utility>
 
+#include "bcf/topics/ifc_guid.hpp"
 #include "bcf/topics/reference.hpp"
 #include "bcf/topics/words.hpp"
 #include "bcf/xml/xml_text.hpp"
 #include "clash/results/clash_key.hpp"
 #include "core/number.hpp"
+#include "core/text/counted.hpp"
+#include "core/text/dates.hpp"
+#include "report/clash/attribute_columns.hpp"
+#include "report/clash/contents.hpp"
 
 namespace strake::bcf {
 namespace {
@@ -22,21 +28,12 @@ using clash::ResultRef;
 using report::DecisionStatus;
 
 constexpr std::size_t kTitleName = 60, kLongName = 200, kMostListed = 20;
+/// What elements inherit from what importers and readers make of the head of a file.
+constexpr std::string_view kFileDate = "FileDate", kProjectId = "ProjectId";
 constexpr std::string_view kNoDate = "1970-01-01T00:00:00Z";
 
 const clash::Report& test_of(const report::ClashContents& contents, const ResultRef& result) {
   return contents.findings.tests[result.test];
-}
-
-/// Returns the status of a result as it is now: what a file of decisions says of one that came back
-/// no longer holds, and a project says what holds in its place.
-DecisionStatus status_of(const report::ClashContents& contents, const ResultRef& result) {
-  const report::DecidedResult* const decided = decided_of(contents, result);
-  if (decided == nullptr) return DecisionStatus::undecided;
-  const DecisionStatus said = decided->decision->status;
-  if (decided->reopened == report::Reopened::no || said < DecisionStatus::approved) return said;
-  return decided->reopened == report::Reopened::found_again ? DecisionStatus::undecided
-                                                            : DecisionStatus::active;
 }
 
 std::string key_of(const report::ClashContents& contents, const ResultRef& result) {
@@ -66,8 +63,7 @@ std::string place(const geometry::Vec3d& mm) {
 std::string title_of(const report::ClashContents& contents, const PlannedTopic& topic) {
   const clash::Pair& worst = pair_of(contents, topic.results.front());
   if (topic.group != nullptr)
-    return std::to_string(topic.results.size()) +
-           (topic.results.size() == 1 ? " clash, " : " clashes, worst ") + measured(worst) + ": " +
+    return counted(topic.results.size(), "clash, ", "clashes, worst ") + measured(worst) + ": " +
            short_name(topic.group->name, 2 * kTitleName);
   return measured(worst) + ": " +
          short_name(shown_name(contents.model.object(worst.a)), kTitleName) + " / " +
@@ -100,8 +96,8 @@ Reference reference_of(const report::ClashContents& contents, const PlannedTopic
   reference.assignee_mark = mark_of(assignee);
   const std::size_t named = std::min(topic.results.size(), kMostReferred);
   for (std::size_t r = 0; r < named; ++r)
-    reference.clashes.push_back(
-        {key_of(contents, topic.results[r]), status_of(contents, topic.results[r])});
+    reference.clashes.push_back({key_of(contents, topic.results[r]),
+                                 current_status(decided_of(contents, topic.results[r]))});
   return reference;
 }
 
@@ -161,36 +157,73 @@ std::vector<report::DecisionComment> said_of(const report::Decision& decision) {
   return {{decision.date, decision.by, decision.comment}};
 }
 
-/// Returns the comments about all results; what was said of several at once stands there once.
+/// Returns a comment as a topic has it. One that another program named has that name in the topic
+/// that it was said in; no two topics have a comment of one GUID.
+TopicComment topic_comment(const report::DecisionComment& said, const std::string& topic,
+                           const report::BcfForm& form) {
+  const auto author_of = [&](const std::string& by) {
+    std::string author = compared_text(by);
+    return author.empty() ? form.author : author;
+  };
+  TopicComment comment;
+  comment.date = date_time(said.at, form);
+  comment.author = author_of(said.by);
+  comment.text = printable_lines(said.text);
+  if (!said.first_at.empty()) {
+    comment.changed = std::exchange(comment.date, date_time(said.first_at, form));
+    comment.changer = std::exchange(comment.author, author_of(said.first_by));
+  }
+  if (!is_guid(said.guid))
+    comment.guid =
+        part_guid(topic, "comment:" + comment.date + "\n" + comment.author + "\n" + comment.text);
+  else if (said.topic == topic)
+    comment.guid = said.guid;
+  else
+    comment.guid = part_guid(topic, "comment:" + said.guid);
+  return comment;
+}
+
+/// Returns the comments about all results; what was said of several at once stands there once, and
+/// of what was edited the last form.
 std::vector<TopicComment> comments_of(const report::ClashContents& contents,
                                       const PlannedTopic& topic, const std::string& guid) {
-  std::set<std::tuple<std::string, std::string, std::string>> said;
+  std::map<std::string, TopicComment> by_guid;
   for (const ResultRef& result : topic.results) {
     const report::DecidedResult* const decided = decided_of(contents, result);
     if (decided == nullptr) continue;
-    for (const report::DecisionComment& comment : said_of(*decided->decision)) {
-      std::string by = compared_text(comment.by);
-      if (by.empty()) by = contents.bcf.author;
-      said.emplace(date_time(comment.at, contents.bcf), std::move(by),
-                   printable_lines(comment.text));
+    for (const report::DecisionComment& said : said_of(*decided->decision)) {
+      TopicComment comment = topic_comment(said, guid, contents.bcf);
+      const auto [at, is_new] = by_guid.try_emplace(comment.guid, comment);
+      if (!is_new && at->second.changed <= comment.changed) at->second = std::move(comment);
     }
   }
   std::vector<TopicComment> comments;
-  for (const auto& [date, author, text] : said)
-    comments.push_back(
-        {part_guid(guid, "comment:" + date + "\n" + author + "\n" + text), date, author, text});
+  for (auto& [of, comment] : by_guid) comments.push_back(std::move(comment));
+  std::ranges::sort(comments, {}, [](const TopicComment& c) {
+    return std::tie(c.date, c.author, c.text, c.guid);
+  });
   return comments;
 }
 
-std::vector<std::string> files_of(const report::ClashContents& contents,
-                                  const PlannedTopic& topic) {
-  std::set<std::uint32_t> numbers;
+/// Returns what a file says of itself, where its elements inherit that.
+std::string stated_of_file(const report::ClashContents& contents, model::ObjectId of_file,
+                           std::string_view what) {
+  return report::stated_text(contents.model, of_file, what).value_or(std::string());
+}
+
+std::vector<TopicFile> files_of(const report::ClashContents& contents, const PlannedTopic& topic) {
+  std::map<std::uint32_t, model::ObjectId> some_object;
   for (const ResultRef& result : topic.results)
     for (const model::ObjectId id : {pair_of(contents, result).a, pair_of(contents, result).b})
-      numbers.insert(contents.model.object(id).file);
-  std::vector<std::string> files;
-  for (const std::uint32_t file : numbers)
-    files.push_back(short_name(contents.model.files[file].label, kLongName));
+      some_object.emplace(contents.model.object(id).file, id);
+  std::vector<TopicFile> files;
+  for (const auto& [number, id] : some_object) {
+    TopicFile file{short_name(contents.model.files[number].label, kLongName)};
+    file.date = utc_of(stated_of_file(contents, id, kFileDate)).value_or(std::string());
+    if (std::string project = stated_of_file(contents, id, kProjectId); is_ifc_guid(project))
+      file.project = std::move(project);
+    files.push_back(std::move(file));
+  }
   return files;
 }
 
@@ -208,32 +241,24 @@ void set_change(TopicFacts& facts, const report::ClashContents& contents,
   }
 }
 
-/// Whether a text is as 2026-01-31.
-bool is_day(std::string_view text) {
-  constexpr std::string_view kForm = "0000-00-00";
-  if (text.size() != kForm.size()) return false;
-  for (std::size_t i = 0; i < text.size(); ++i)
-    if (kForm[i] == '-' ? text[i] != '-' : text[i] < '0' || text[i] > '9') return false;
-  return true;
-}
-
 }  // namespace
-
-const clash::Pair& pair_of(const report::ClashContents& contents, const ResultRef& result) {
-  return contents.findings.tests[result.test].pairs[result.pair];
-}
-
-const report::DecidedResult* decided_of(const report::ClashContents& contents,
-                                        const ResultRef& result) {
-  if (contents.decided == nullptr) return nullptr;
-  return contents.decided->of(result.test, pair_of(contents, result));
-}
 
 std::string date_time(const std::string& date, const report::BcfForm& form) {
   constexpr std::size_t kDay = 10;
   if (is_day(date)) return date + "T00:00:00Z";
   if (is_day(std::string_view(date).substr(0, kDay)) && date.size() > kDay) return date;
   return form.date.empty() ? std::string(kNoDate) : form.date;
+}
+
+std::string newest_date(const model::Model& model) {
+  std::string newest;
+  const auto look = [&](const model::Attributes& stated) {
+    for (const auto& [name, value] : stated)
+      if (name == kFileDate) newest = std::max(newest, utc_of(value).value_or(std::string()));
+  };
+  for (const model::Attributes& stated : model.group_attributes) look(stated);
+  for (const model::Object& object : model.objects) look(object.attributes);
+  return newest;
 }
 
 TopicFacts facts_of(const report::ClashContents& contents, const PlannedTopic& topic) {

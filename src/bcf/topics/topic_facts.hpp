@@ -14,14 +14,16 @@
 
 namespace strake::bcf {
 
-[[nodiscard]] const clash::Pair& pair_of(const report::ClashContents& contents,
-                                         const clash::ResultRef& result);
-/// Returns the decision about a result; null where there is none.
-[[nodiscard]] const report::DecidedResult* decided_of(const report::ClashContents& contents,
-                                                      const clash::ResultRef& result);
-
 struct TopicComment {
   std::string guid, date, author, text;
+  std::string changed = {}, changer = {};  ///< when it was edited and by whom; empty: it was not
+};
+
+/// A file that objects of a topic come from.
+struct TopicFile {
+  std::string name;          ///< as results call it
+  std::string date = {};     ///< when it was written; empty: it does not say
+  std::string project = {};  ///< the GlobalId of its IfcProject; empty: it is no IFC
 };
 
 /// What a topic says, whatever the version of its file.
@@ -33,12 +35,15 @@ struct TopicFacts {
   std::string assignee;          ///< empty: nobody
   std::string description;
   std::vector<TopicComment> comments;  ///< by date
-  std::vector<std::string> files;      ///< the labels of the files of its objects
+  std::vector<TopicFile> files;        ///< those of its objects
 };
 
 /// Returns a date as the schemas have it, with the time; that of BcfForm::date, or 1970, where a
 /// text is none.
 [[nodiscard]] std::string date_time(const std::string& date, const report::BcfForm& form);
+
+/// Returns when the newest file of a model says that it was written; empty where none says so.
+[[nodiscard]] std::string newest_date(const model::Model& model);
 
 [[nodiscard]] TopicFacts facts_of(const report::ClashContents& contents, const PlannedTopic& topic);
 

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "bcf/topics/topic_facts.hpp"
+#include "report/clash/contents.hpp"
 #include "strake/report/decisions.hpp"
 
 namespace strake::bcf {

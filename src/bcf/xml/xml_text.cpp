@@ -3,43 +3,17 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 
 #include "core/number.hpp"
+#include "core/text/xml_text.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::bcf {
 namespace {
 
-/// Whether XML 1.0 can hold a character.
-bool is_xml(std::uint32_t code) {
-  if (code == '\t' || code == '\n' || code == '\r') return true;
-  return (code >= 0x20 && code <= 0xD7FF) || (code >= 0xE000 && code <= 0xFFFD) || code >= 0x10000;
-}
-
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 }  // namespace
-
-void append_xml(std::string& out, std::string_view text) {
-  while (!text.empty()) {
-    const TakenCharacter c = take_character(text);
-    if (c.length == 0 || !is_xml(c.code))
-      out += kReplacement;
-    else if (c.code == '&')
-      out += "&amp;";
-    else if (c.code == '<')
-      out += "&lt;";
-    else if (c.code == '>')
-      out += "&gt;";
-    else if (c.code == '"')
-      out += "&quot;";
-    else if (c.code == '\r')
-      out += "&#13;";
-    else
-      out += c.bytes;
-  }
-}
 
 std::string printable_lines(std::string_view text) {
   std::string lines;
@@ -103,7 +77,7 @@ XmlWriter& XmlWriter::attribute(std::string_view name, std::string_view value) {
   out_ += ' ';
   out_ += name;
   out_ += "=\"";
-  append_xml(out_, value);
+  append_xml(out_, value, XmlCharacters::all);
   out_ += '"';
   return *this;
 }
@@ -127,7 +101,7 @@ XmlWriter& XmlWriter::leaf(std::string_view name, std::string_view text) {
   begin(name);
   out_ += '>';
   in_tag_ = false;
-  append_xml(out_, text);
+  append_xml(out_, text, XmlCharacters::all);
   open_.pop_back();
   out_ += "</";
   out_ += name;

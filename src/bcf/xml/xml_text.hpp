@@ -9,10 +9,6 @@
 
 namespace strake::bcf {
 
-/// Appends a text so that a reader of XML has it as it is, line ends included; characters that no
-/// XML can hold, and bytes that are not UTF-8, become U+FFFD.
-void append_xml(std::string& out, std::string_view text);
-
 /// Returns what people wrote, for people: printable() line by line, with blanks for tabs.
 [[nodiscard]] std::string printable_lines(std::string_view text);
 

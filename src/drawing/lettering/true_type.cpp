@@ -5,22 +5,11 @@
 #include <utility>
 #include <vector>
 
+#include "drawing/lettering/font_bytes.hpp"
+
 namespace strake::drawing {
 
 namespace {
-
-/// Returns a number of up to four bytes, the most significant first.
-std::uint32_t number_at(std::string_view bytes, std::size_t at, std::size_t length) {
-  std::uint32_t value = 0;
-  for (std::size_t i = at; i < at + length; ++i)
-    value = value << 8U | (i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0U);
-  return value;
-}
-std::uint32_t u16(std::string_view bytes, std::size_t at) { return number_at(bytes, at, 2); }
-std::uint32_t u32(std::string_view bytes, std::size_t at) { return number_at(bytes, at, 4); }
-std::int32_t i16(std::string_view bytes, std::size_t at) {
-  return static_cast<std::int16_t>(u16(bytes, at));
-}
 
 std::string_view part(std::string_view bytes, std::size_t at, std::size_t length) {
   return at < bytes.size() ? bytes.substr(at, length) : std::string_view();
@@ -168,7 +157,6 @@ std::string_view TrueTypeFont::outline(GlyphId glyph) const {
 }
 
 std::set<GlyphId> TrueTypeFont::with_components(const std::set<GlyphId>& glyphs) const {
-  constexpr std::uint32_t kWords = 1, kScale = 8, kMore = 0x20, kTwoScales = 0x40, kMatrix = 0x80;
   std::set<GlyphId> all{kMissingGlyph};
   std::vector<GlyphId> open(glyphs.begin(), glyphs.end());
   open.push_back(kMissingGlyph);
@@ -178,17 +166,8 @@ std::set<GlyphId> TrueTypeFont::with_components(const std::set<GlyphId>& glyphs)
     all.insert(glyph);
     const std::string_view bytes = outline(glyph);
     if (i16(bytes, 0) >= 0) continue;  // an outline of its own
-    std::uint32_t flags = kMore;
-    for (std::size_t at = 10; (flags & kMore) != 0 && at < bytes.size();) {
-      flags = u16(bytes, at);
-      const auto component = static_cast<GlyphId>(u16(bytes, at + 2));
-      if (all.insert(component).second) open.push_back(component);
-      at += (flags & kWords) != 0 ? 8 : 6;
-      at += (flags & kScale) != 0       ? 2
-            : (flags & kTwoScales) != 0 ? 4
-            : (flags & kMatrix) != 0    ? 8
-                                        : 0;
-    }
+    for (GlyphComponents parts(bytes); const auto component = parts.next();)
+      if (all.insert(component->glyph).second) open.push_back(component->glyph);
   }
   return all;
 }

@@ -29,6 +29,11 @@ class TrueTypeFont {
   /// Returns the width of a glyph in thousandths of the size of the font.
   [[nodiscard]] double advance(GlyphId glyph) const;
 
+  /// Returns the outline of a glyph as the file has it; empty where it shows nothing.
+  [[nodiscard]] std::string_view outline(GlyphId glyph) const;
+  /// Returns the thousandths of the size that a unit of the file is.
+  [[nodiscard]] double per_unit() const { return per_size_; }
+
   /// Measures in thousandths of the size, y up.
   struct Metrics {
     std::array<double, 4> box{};  ///< of all glyphs: left, bottom, right, top
@@ -43,7 +48,6 @@ class TrueTypeFont {
  private:
   [[nodiscard]] std::string_view table(std::string_view tag) const;
   [[nodiscard]] std::size_t glyph_count() const;
-  [[nodiscard]] std::string_view outline(GlyphId glyph) const;
   [[nodiscard]] std::set<GlyphId> with_components(const std::set<GlyphId>& glyphs) const;
   [[nodiscard]] std::string widths_of(const std::set<GlyphId>& glyphs) const;
 

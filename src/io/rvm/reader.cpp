@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "core/text/dates.hpp"
 #include "io/rvm/attributes.hpp"
 #include "io/rvm/binary.hpp"
 #include "io/rvm/builder.hpp"
@@ -106,6 +107,20 @@ void add_attributes(RvmModel& built, const FileBytes& file,
   attach_attributes(built, *parsed, stated.value_or(TextDecoder()), where, diagnostics);
 }
 
+/// Has all elements inherit when the file says that it was written.
+void state_date(model::Model& model, const std::string& date) {
+  const std::optional<std::string> utc = utc_of_c_time(date);
+  if (!utc) return;
+  for (model::Group& group : model.groups) {
+    if (group.parent != model::GroupId::none) continue;
+    if (group.attributes == model::Group::kNoAttributes) {
+      group.attributes = static_cast<std::uint32_t>(model.group_attributes.size());
+      model.group_attributes.emplace_back();
+    }
+    model.group_attributes[group.attributes].emplace_back("FileDate", *utc);
+  }
+}
+
 class RvmReader final : public Reader {
  public:
   [[nodiscard]] std::string_view format() const override { return "RVM"; }
@@ -182,6 +197,7 @@ Result<model::Model> RvmReader::read(const FileBytes& file, const ReadOptions& o
   built->model.files = std::move(started.files);
   built->model.files.front().ends_early = done.ends_early;
   add_attributes(*built, file, decoder);
+  state_date(built->model, head.date);
   assign_ids(*built);
   return end_model(file, std::move(built->model));
 }

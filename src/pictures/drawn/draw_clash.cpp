@@ -120,7 +120,8 @@ class ClashDrawer {
     double half = 0;
     for (int k = 0; k < 3; ++k)
       half = std::max({half, std::fabs(window.box->lo[k]), std::fabs(window.box->hi[k])});
-    picture_.shade = shade_of(window, triangles_near(scenery_, roles_, target_, half));
+    picture_.shade =
+        shade_of(window, NearTriangles(triangles_near(scenery_, roles_, target_, half)));
   }
 
   [[nodiscard]] hlr::View view(const Box3l& limits) const {

@@ -3,6 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "pictures/viewpoint/item_buffer.hpp"
 
 namespace strake::pictures {
 namespace {
@@ -44,37 +49,68 @@ Colour colour_of(const NearTriangle& triangle, bool back, const Vec3d& lamp) {
   return cut ? tone(kGrey, 0.35, 1) : tone(kGrey, 0.08, 0.35 + 0.65 * light);
 }
 
+/// Shades a window band by band: what a band takes stays in the cache of a core.
+class Shader {
+ public:
+  Shader(const Window& window, const NearTriangles& triangles)
+      : window_(window), seen_(seen_triangles(window, triangles)) {
+    const Vec3d lamp = unit(window.axes.toward + window.axes.up * 0.55 - window.axes.right * 0.35);
+    colours_.reserve(seen_.size());
+    for (const SeenTriangle& seen : seen_)
+      colours_.push_back(colour_of(triangles[seen.number], seen.back, lamp));
+    in_band_.resize((window.rows + kBand - 1) / kBand);
+    for (std::uint32_t i = 0; i < seen_.size(); ++i)
+      for (std::uint32_t b = seen_[i].first / kBand; b * kBand < seen_[i].end; ++b)
+        in_band_[b].push_back(i);
+  }
+
+  Shade run() && {
+    Shade shade{window_.columns / kFiner, window_.rows / kFiner, {}};
+    shade.points.reserve(std::size_t{shade.width} * shade.height);
+    for (std::uint32_t b = 0; b < in_band_.size(); ++b) {
+      const std::uint32_t first = b * kBand, end = std::min(first + kBand, window_.rows);
+      ItemBuffer buffer(window_, first, end);
+      buffer.add(seen_, in_band_[b]);
+      for (std::uint32_t row = first; row + 1 < end; row += kFiner)
+        for (std::uint32_t column = 0; column < window_.columns; column += kFiner)
+          shade.points.push_back(mean_at(buffer, column, row));
+    }
+    return shade;
+  }
+
+ private:
+  /// Rows of a band, a multiple of kFiner.
+  static constexpr std::uint32_t kBand = 64;
+
+  [[nodiscard]] Colour mean_at(const ItemBuffer& buffer, std::uint32_t column,
+                               std::uint32_t row) const {
+    constexpr Colour kWhite{255, 255, 255};
+    unsigned red = 0, green = 0, blue = 0;
+    for (std::uint32_t k = 0; k < kFiner * kFiner; ++k) {
+      const std::uint32_t triangle = buffer.at(column + k % kFiner, row + k / kFiner).triangle;
+      const Colour& one = triangle == ItemBuffer::kNothing ? kWhite : colours_[triangle];
+      red += one.red;
+      green += one.green;
+      blue += one.blue;
+    }
+    const auto mean = [](unsigned sum) {
+      return static_cast<std::uint8_t>(sum / (kFiner * kFiner));
+    };
+    return {mean(red), mean(green), mean(blue)};
+  }
+
+  const Window& window_;
+  std::vector<SeenTriangle> seen_;
+  std::vector<Colour> colours_;
+  std::vector<std::vector<std::uint32_t>> in_band_;  ///< numbers of the triangles of each band
+};
+
 }  // namespace
 
-Shade shade_of(Window window, std::span<const NearTriangle> triangles) {
-  constexpr Colour kWhite{255, 255, 255};
-  Shade shade{window.columns, window.rows, {}};
+Shade shade_of(Window window, const NearTriangles& triangles) {
   window.columns *= kFiner;
   window.rows *= kFiner;
-  const ItemBuffer buffer(window, triangles);
-  const Vec3d lamp = unit(window.axes.toward + window.axes.up * 0.55 - window.axes.right * 0.35);
-  const auto colour_at = [&](std::uint32_t column, std::uint32_t row) {
-    const ItemBuffer::Item& item = buffer.at(column, row);
-    return item.triangle == ItemBuffer::kNothing
-               ? kWhite
-               : colour_of(triangles[item.triangle], item.back, lamp);
-  };
-  shade.points.reserve(std::size_t{shade.width} * shade.height);
-  for (std::uint32_t row = 0; row < shade.height; ++row)
-    for (std::uint32_t column = 0; column < shade.width; ++column) {
-      unsigned red = 0, green = 0, blue = 0;
-      for (std::uint32_t k = 0; k < kFiner * kFiner; ++k) {
-        const Colour one = colour_at(column * kFiner + k % kFiner, row * kFiner + k / kFiner);
-        red += one.red;
-        green += one.green;
-        blue += one.blue;
-      }
-      const auto mean = [](unsigned sum) {
-        return static_cast<std::uint8_t>(sum / (kFiner * kFiner));
-      };
-      shade.points.push_back({mean(red), mean(green), mean(blue)});
-    }
-  return shade;
+  return Shader(window, triangles).run();
 }
 
 }  // namespace strake::pictures

@@ -30,12 +30,16 @@ void append_chunk(std::string& out, std::string_view type, std::string_view data
 /// of one colour nothing.
 std::vector<std::uint8_t> filtered(std::size_t row_bytes, std::span<const std::uint8_t> rgb) {
   constexpr std::uint8_t kUp = 2;
-  std::vector<std::uint8_t> out;
-  out.reserve(rgb.size() + rgb.size() / row_bytes);
-  for (std::size_t at = 0; at < rgb.size(); ++at) {
-    if (at % row_bytes == 0) out.push_back(kUp);
-    const unsigned above = at < row_bytes ? 0U : rgb[at - row_bytes];
-    out.push_back(static_cast<std::uint8_t>((rgb[at] - above) & 0xffU));
+  const std::size_t rows = rgb.size() / row_bytes;
+  const std::vector<std::uint8_t> nothing(row_bytes);
+  std::vector<std::uint8_t> out((row_bytes + 1) * rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::uint8_t* const to = out.data() + row * (row_bytes + 1);
+    const std::uint8_t* const from = rgb.data() + row * row_bytes;
+    const std::uint8_t* const above = row == 0 ? nothing.data() : from - row_bytes;
+    to[0] = kUp;
+    for (std::size_t i = 0; i < row_bytes; ++i)
+      to[i + 1] = static_cast<std::uint8_t>(from[i] - above[i]);
   }
   return out;
 }

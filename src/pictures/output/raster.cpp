@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <agg2/agg_conv_curve.h>
 #include <agg2/agg_conv_dash.h>
 #include <agg2/agg_conv_stroke.h>
-#include <agg2/agg_gsv_text.h>
 #include <agg2/agg_path_storage.h>
 #include <agg2/agg_pixfmt_rgb.h>
 #include <agg2/agg_rasterizer_scanline_aa.h>
@@ -14,10 +14,10 @@
 #include <cmath>
 #include <cstddef>
 #include <new>
-#include <string>
 #include <vector>
 
-#include "core/text_encoding.hpp"
+#include "drawing/lettering/glyph_outline.hpp"
+#include "drawing/lettering/lettering.hpp"
 #include "geometry/numeric/trig.hpp"
 #include "pictures/clash_picture.hpp"
 #include "pictures/output/png.hpp"
@@ -26,18 +26,6 @@ namespace strake::pictures {
 namespace {
 
 constexpr std::uint8_t kPaper = 255;
-
-/// Returns a text in the letters that the font of strokes has.
-std::string in_ascii(std::string_view text) {
-  std::string out;
-  while (!text.empty()) {
-    const TakenCharacter taken = take_character(text);
-    constexpr std::uint32_t kFirst = 0x20, kLast = 0x7e;
-    const bool known = taken.length == 1 && taken.code >= kFirst && taken.code <= kLast;
-    out += known ? static_cast<char>(taken.code) : '?';
-  }
-  return out;
-}
 
 /// A sheet of points, and how a picture lies on it.
 class Raster {
@@ -73,40 +61,57 @@ class Raster {
     return std::max(kThinnest, mm * per_mm_);
   }
 
+  /// Where a point of the sheet lies between two of the shade; `weight` is that of the second, of
+  /// kWeights.
+  struct Between {
+    std::uint32_t first = 0, second = 0, weight = 0;
+    bool inside = false;
+  };
+  static constexpr std::uint32_t kWeights = 256;
+
+  /// Returns where the points of the sheet lie, `begin` to begin + length, over `count` of the
+  /// shade.
+  static std::vector<Between> between(std::uint32_t points, double begin, double length,
+                                      std::uint32_t count) {
+    std::vector<Between> all(points);
+    for (std::uint32_t i = 0; i < points; ++i) {
+      const double share = (i + 0.5 - begin) / length;
+      if (share < 0 || share >= 1) continue;
+      const double at = std::clamp(share * count - 0.5, 0.0, count - 1.0);
+      const auto first = static_cast<std::uint32_t>(at);
+      all[i] = {first, std::min(first + 1, count - 1),
+                static_cast<std::uint32_t>((at - first) * kWeights + 0.5), true};
+    }
+    return all;
+  }
+
   void add_shade() {
     const Shade& shade = picture_.shade;
     if (shade.points.empty()) return;
-    for (std::uint32_t row = 0; row < height_; ++row)
-      for (std::uint32_t column = 0; column < width_; ++column) {
-        const double across = (column + 0.5 - left_) / (picture_.width_mm * per_mm_);
-        const double down = (row + 0.5 - top_) / (picture_.view_mm * per_mm_);
-        if (across < 0 || across >= 1 || down < 0 || down >= 1) continue;
-        const Colour colour = shade_at(across * shade.width - 0.5, down * shade.height - 0.5);
-        std::uint8_t* const point = &bytes_[(std::size_t{row} * width_ + column) * 3];
-        point[0] = colour.red;
-        point[1] = colour.green;
-        point[2] = colour.blue;
+    const auto columns = between(width_, left_, picture_.width_mm * per_mm_, shade.width);
+    const auto rows = between(height_, top_, picture_.view_mm * per_mm_, shade.height);
+    for (std::uint32_t row = 0; row < height_; ++row) {
+      if (!rows[row].inside) continue;
+      const Colour* const above = &shade.points[std::size_t{rows[row].first} * shade.width];
+      const Colour* const below = &shade.points[std::size_t{rows[row].second} * shade.width];
+      std::uint8_t* point = &bytes_[std::size_t{row} * width_ * 3];
+      for (std::uint32_t column = 0; column < width_; ++column, point += 3) {
+        const Between& at = columns[column];
+        if (!at.inside) continue;
+        const auto mix = [&](std::uint8_t Colour::* channel) {
+          const auto across = [&](const Colour* of_row) {
+            return of_row[at.first].*channel * (kWeights - at.weight) +
+                   of_row[at.second].*channel * at.weight;
+          };
+          const std::uint32_t sum =
+              across(above) * (kWeights - rows[row].weight) + across(below) * rows[row].weight;
+          return static_cast<std::uint8_t>((sum + kWeights * kWeights / 2) / (kWeights * kWeights));
+        };
+        point[0] = mix(&Colour::red);
+        point[1] = mix(&Colour::green);
+        point[2] = mix(&Colour::blue);
       }
-  }
-
-  /// Returns the shade between its points.
-  [[nodiscard]] Colour shade_at(double column, double row) const {
-    const Shade& shade = picture_.shade;
-    const double x0 = std::clamp(column, 0.0, shade.width - 1.0);
-    const double y0 = std::clamp(row, 0.0, shade.height - 1.0);
-    const auto left = static_cast<std::size_t>(x0), top = static_cast<std::size_t>(y0);
-    const std::size_t right = std::min<std::size_t>(left + 1, shade.width - 1);
-    const std::size_t below = std::min<std::size_t>(top + 1, shade.height - 1);
-    const double across = x0 - static_cast<double>(left), down = y0 - static_cast<double>(top);
-    const auto mix = [&](std::uint8_t Colour::* channel) {
-      const auto at = [&](std::size_t c, std::size_t r) {
-        return static_cast<double>(shade.points[r * shade.width + c].*channel);
-      };
-      const double above = at(left, top) * (1 - across) + at(right, top) * across;
-      const double under = at(left, below) * (1 - across) + at(right, below) * across;
-      return static_cast<std::uint8_t>(above * (1 - down) + under * down + 0.5);
-    };
-    return {mix(&Colour::red), mix(&Colour::green), mix(&Colour::blue)};
+    }
   }
 
   template <class Path>
@@ -177,22 +182,44 @@ class Raster {
   }
 
   void add_text(const PictureText& given) {
-    const double height = given.height_mm * per_mm_;
-    agg::gsv_text letters;
-    letters.flip(true);
-    letters.size(height, height * kLetterWidth);
-    const std::string text = in_ascii(given.text);
-    letters.text(text.c_str());
-    double left = x(given.at.x);
-    if (given.centred) left -= letters.text_width() / 2;
-    letters.start_point(left, y(given.at.y));
-    constexpr double kPlain = 0.11, kBold = 0.17;
-    draw_strokes(letters, std::max(kLeastLetter, height * (given.bold ? kBold : kPlain)),
-                 given.colour);
+    drawing::Letterer letterer;
+    const drawing::LetteredText text = letterer.set(given.text);
+    const drawing::TrueTypeFont& font = letterer.font();
+    const double size = given.height_mm * per_mm_ * 1000 / font.metrics().cap_height;
+    double left = x(given.at.x) - (given.centred ? text.width * size / 2 : 0);
+    agg::path_storage letters;
+    for (const drawing::GlyphId glyph : text.glyphs) {
+      for (const drawing::GlyphContour& contour : outline_of(font, glyph))
+        add_contour(letters, contour, left, y(given.at.y), size / 1000);
+      left += font.advance(glyph) * size / 1000;
+    }
+    agg::conv_curve<agg::path_storage> curves(letters);
+    fill(curves, given.colour);
+    // The font has no bold letters.
+    constexpr double kBold = 0.06;
+    if (given.bold) draw_strokes(curves, kBold * size, given.colour);
+  }
+
+  /// Adds a contour of a letter whose origin is at a point, y down.
+  static void add_contour(agg::path_storage& path, const drawing::GlyphContour& contour,
+                          double left, double baseline, double scale) {
+    const auto right = [&](const drawing::OutlinePoint& p) { return left + p.x * scale; };
+    const auto down = [&](const drawing::OutlinePoint& p) { return baseline - p.y * scale; };
+    path.move_to(right(contour[0]), down(contour[0]));
+    for (std::size_t i = 1; i < contour.size(); ++i) {
+      const drawing::OutlinePoint& p = contour[i];
+      if (p.on) {
+        path.line_to(right(p), down(p));
+        continue;
+      }
+      const drawing::OutlinePoint& end = contour[(i + 1) % contour.size()];
+      path.curve3(right(p), down(p), right(end), down(end));
+      ++i;
+    }
+    path.close_polygon();
   }
 
   static constexpr double kDashMm = 1.4, kGapMm = 1.0;
-  static constexpr double kLetterWidth = 0.85, kLeastLetter = 0.9;
 
   const ClashPicture& picture_;
   std::uint32_t width_, height_;

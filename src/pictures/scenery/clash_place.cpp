@@ -47,10 +47,6 @@ double size_near(const model::Scene& scene, ObjectId id, const geometry::Vec3d& 
 
 }  // namespace
 
-const Pair& pair_of(const report::ClashContents& contents, const ResultRef& ref) {
-  return contents.findings.tests[ref.test].pairs[ref.pair];
-}
-
 Status check_subject(const report::ClashContents& contents, const Subject& subject) {
   const std::vector<clash::Report>& tests = contents.findings.tests;
   const bool known =

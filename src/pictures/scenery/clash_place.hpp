@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pictures/viewpoint.hpp"
+#include "report/clash/contents.hpp"
 #include "strake/core/result.hpp"
 
 namespace strake::pictures {
@@ -29,10 +30,6 @@ class Roles {
   model::ObjectId a_{}, b_{};
   std::vector<std::pair<model::ObjectId, Role>> roles_;  ///< by object
 };
-
-/// Returns a result of the contents.
-[[nodiscard]] const clash::Pair& pair_of(const report::ClashContents& contents,
-                                         const clash::ResultRef& ref);
 
 /// Checks that a subject is of the contents. Errors: usage.
 [[nodiscard]] Status check_subject(const report::ClashContents& contents, const Subject& subject);

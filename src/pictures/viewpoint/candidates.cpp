@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
 
-#include "pictures/viewpoint/item_buffer.hpp"
+#include "pictures/viewpoint/sight_buffer.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::pictures {
@@ -31,33 +30,34 @@ void add_about(const Vec3d& away, std::vector<Vec3d>& out) {
     out.push_back(unit(square));
 }
 
-/// What a window shows of the two.
-struct Seen {
-  double a = 0, b = 0;  ///< shares of the window
-  double at_point = 0;  ///< the share of the two of what lies round the point
-};
-
-Seen count(const ItemBuffer& buffer, std::span<const NearTriangle> triangles) {
-  constexpr double kMiddle = kPoints * 0.5, kWindow = kMiddle * kMiddle, kPoint = kPoints / 9.0;
-  std::uint32_t window = 0, point = 0, of_a = 0, of_b = 0, both_at_point = 0;
-  for (std::uint32_t row = 0; row < kPoints; ++row)
-    for (std::uint32_t column = 0; column < kPoints; ++column) {
-      const double x = column + 0.5 - kMiddle, y = row + 0.5 - kMiddle, square = x * x + y * y;
-      if (square > kWindow) continue;
-      const std::uint32_t triangle = buffer.at(column, row).triangle;
-      const Role role = triangle == ItemBuffer::kNothing ? Role::other : triangles[triangle].role;
-      ++window;
-      of_a += role == Role::a ? 1 : 0;
-      of_b += role == Role::b ? 1 : 0;
-      if (square > kPoint * kPoint) continue;
-      ++point;
-      both_at_point += role != Role::other ? 1 : 0;
-    }
-  const auto share = [](std::uint32_t part, std::uint32_t whole) {
-    return static_cast<double>(part) / static_cast<double>(whole);
-  };
-  return {share(of_a, window), share(of_b, window), share(both_at_point, point)};
+Window window_of(const Vec3d& viewer, const Sight& sight) {
+  Window window{Axes::towards(viewer),
+                sight.half_mm,
+                sight.half_mm,
+                kPoints,
+                kPoints,
+                std::min(sight.eye_mm, sight.cut_mm)};
+  window.closes_cuts = sight.cut_mm < sight.eye_mm;
+  return window;
 }
+
+/// Returns how well the two are seen in what a window shows.
+double visibility(const SeenShares& seen) {
+  if (seen.a == 0 || seen.b == 0) return 0;
+  constexpr double kWithoutPoint = 0.2;
+  return 2 * seen.a * seen.b / (seen.a + seen.b) *
+         (kWithoutPoint + (1 - kWithoutPoint) * seen.at_point);
+}
+
+Candidate candidate_of(const Vec3d& viewer, double share) {
+  return {viewer, share, worth(share) * liking(viewer)};
+}
+
+/// A direction and what it shows of the two where nothing else stands before them.
+struct Bound {
+  SightBuffer sight;
+  Candidate alone;
+};
 
 }  // namespace
 
@@ -81,26 +81,11 @@ std::vector<Vec3d> candidate_directions(const Vec3d& away) {
   return out;
 }
 
-double visible_share(std::span<const NearTriangle> triangles, const Vec3d& viewer,
-                     const Sight& sight) {
-  Window window{Axes::towards(viewer),
-                sight.half_mm,
-                sight.half_mm,
-                kPoints,
-                kPoints,
-                std::min(sight.eye_mm, sight.cut_mm)};
-  window.closes_cuts = sight.cut_mm < sight.eye_mm;
-  std::vector<NearTriangle> two;
-  if (!sight.others) {
-    std::ranges::copy_if(triangles, std::back_inserter(two),
-                         [](const NearTriangle& t) { return t.role != Role::other; });
-    triangles = two;
-  }
-  const Seen seen = count(ItemBuffer(window, triangles), triangles);
-  if (seen.a == 0 || seen.b == 0) return 0;
-  constexpr double kWithoutPoint = 0.2;
-  return 2 * seen.a * seen.b / (seen.a + seen.b) *
-         (kWithoutPoint + (1 - kWithoutPoint) * seen.at_point);
+double visible_share(const NearTriangles& triangles, const Vec3d& viewer, const Sight& sight) {
+  const Window window = window_of(viewer, sight);
+  SightBuffer buffer(window, triangles);
+  buffer.cover(window, triangles);
+  return visibility(buffer.shares());
 }
 
 double liking(const Vec3d& viewer) {
@@ -116,47 +101,41 @@ double worth(double share) {
   return share / (share + kHalf);
 }
 
-Result<std::vector<Candidate>> judge(std::span<const NearTriangle> triangles,
+Result<std::vector<Candidate>> judge(const NearTriangles& triangles,
                                      std::span<const Vec3d> directions, const Sight& sight,
                                      const parallel::Context& context) {
   return parallel::transform(
       context, {.name = "viewpoints", .n = directions.size()}, [&](std::size_t i) {
-        const double share = visible_share(triangles, directions[i], sight);
-        return Candidate{directions[i], share, worth(share) * liking(directions[i])};
+        return candidate_of(directions[i], visible_share(triangles, directions[i], sight));
       });
 }
 
-Result<Candidate> find_best(std::span<const NearTriangle> triangles,
-                            std::span<const Vec3d> directions, const Sight& sight,
-                            const parallel::Context& context) {
-  std::vector<NearTriangle> two;
-  std::ranges::copy_if(triangles, std::back_inserter(two),
-                       [](const NearTriangle& t) { return t.role != Role::other; });
-  const Result<std::vector<Candidate>> bounds = judge(two, directions, sight, context);
+Result<Found> find_best(const NearTriangles& triangles, std::span<const Vec3d> directions,
+                        const Sight& sight, const parallel::Context& context) {
+  Result<std::vector<Bound>> bounds = parallel::transform(
+      context, {.name = "viewpoints", .n = directions.size()}, [&](std::size_t i) {
+        SightBuffer alone(window_of(directions[i], sight), triangles);
+        const double share = visibility(alone.shares());
+        return Bound{std::move(alone), candidate_of(directions[i], share)};
+      });
   if (!bounds) return bounds.error();
-  if (!sight.others) return best_of(*bounds);
+  const auto before = [&](std::size_t i) { return std::pair(-(*bounds)[i].alone.rank, i); };
   std::vector<std::size_t> order(directions.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(-(*bounds)[i].rank, i); });
+  std::ranges::sort(order, {}, before);
   // Others only take from what is seen, so that no rank is above its bound.
-  constexpr std::size_t kAtOnce = 4;
   std::optional<std::pair<Candidate, std::size_t>> best;
-  for (std::size_t first = 0; first < order.size(); first += kAtOnce) {
-    if (best && (*bounds)[order[first]].rank < best->first.rank) break;
-    std::vector<Vec3d> some;
-    for (std::size_t k = first; k < std::min(order.size(), first + kAtOnce); ++k)
-      some.push_back(directions[order[k]]);
-    const Result<std::vector<Candidate>> judged = judge(triangles, some, sight, context);
-    if (!judged) return judged.error();
-    for (std::size_t k = 0; k < some.size(); ++k) {
-      const Candidate& one = (*judged)[k];
-      const std::size_t number = order[first + k];
-      if (!best || one.rank > best->first.rank ||
-          (one.rank == best->first.rank && number < best->second))
-        best.emplace(one, number);
-    }
+  for (const std::size_t number : order) {
+    Bound& bound = (*bounds)[number];
+    if (best && bound.alone.rank < best->first.rank) break;
+    if (context.stop.stop_requested()) return Error{ErrorCode::cancelled, "cancelled", {}, {}};
+    bound.sight.cover(window_of(directions[number], sight), triangles);
+    const Candidate one = candidate_of(directions[number], visibility(bound.sight.shares()));
+    if (!best || one.rank > best->first.rank ||
+        (one.rank == best->first.rank && number < best->second))
+      best.emplace(one, number);
   }
-  return best->first;
+  return Found{best->first, (*bounds)[order.front()].alone};
 }
 
 const Candidate& best_of(std::span<const Candidate> candidates) {

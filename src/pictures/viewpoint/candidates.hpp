@@ -24,13 +24,12 @@ struct Sight {
   double half_mm = 1;     ///< half of the window's side, which is square
   double eye_mm = 1e300;  ///< how far away the eye is
   double cut_mm = 1e300;  ///< what lies nearer to the viewer than this is cut away
-  bool others = true;     ///< whether others than the two may stand before them
 };
 
 /// Returns how well the two objects are seen in a direction, 0 to 1: the harmonic mean of their
 /// shares of the window, less where neither shows at the point of the clash.
-[[nodiscard]] double visible_share(std::span<const NearTriangle> triangles,
-                                   const geometry::Vec3d& viewer, const Sight& sight);
+[[nodiscard]] double visible_share(const NearTriangles& triangles, const geometry::Vec3d& viewer,
+                                   const Sight& sight);
 
 /// Returns how people like to look in a direction, 0 to 1: from above and askew best.
 [[nodiscard]] double liking(const geometry::Vec3d& viewer);
@@ -46,16 +45,22 @@ struct Candidate {
 };
 
 /// Returns all candidates in their order. Errors: cancelled.
-[[nodiscard]] Result<std::vector<Candidate>> judge(std::span<const NearTriangle> triangles,
+[[nodiscard]] Result<std::vector<Candidate>> judge(const NearTriangles& triangles,
                                                    std::span<const geometry::Vec3d> directions,
                                                    const Sight& sight,
                                                    const parallel::Context& context);
 
+/// The best of some directions.
+struct Found {
+  Candidate best;
+  Candidate alone;  ///< the best where nothing else stood in the way
+};
+
 /// Returns what best_of(judge()) returns, without a look at directions that cannot be the best even
-/// if nothing else stood in the way. Errors: cancelled.
-[[nodiscard]] Result<Candidate> find_best(std::span<const NearTriangle> triangles,
-                                          std::span<const geometry::Vec3d> directions,
-                                          const Sight& sight, const parallel::Context& context);
+/// if nothing else stood in the way. There must be one. Errors: cancelled.
+[[nodiscard]] Result<Found> find_best(const NearTriangles& triangles,
+                                      std::span<const geometry::Vec3d> directions,
+                                      const Sight& sight, const parallel::Context& context);
 
 /// Returns the candidate of the highest rank, of equals the first; there must be one.
 [[nodiscard]] const Candidate& best_of(std::span<const Candidate> candidates);

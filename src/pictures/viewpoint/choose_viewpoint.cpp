@@ -41,21 +41,17 @@ class ViewpointSearch {
         context_(context) {}
 
   Result<Choice> run(double reach_mm) const {
-    const Result<Candidate> whole = best(sight_);
+    const Result<Found> whole = best(sight_);
     if (!whole) return whole.error();
-    Sight alone = sight_;
-    alone.others = false;
-    const Result<Candidate> possible = best(alone);
-    if (!possible) return possible.error();
-    if (is_enough(*whole, possible->share)) return Choice{*whole, {}};
-    Choice chosen{*whole, {}};
+    Choice chosen{whole->best, {}};
+    if (is_enough(whole->best, whole->alone.share)) return chosen;
     for (const double cut : kCuts) {
       Sight cut_open = sight_;
       cut_open.cut_mm = cut * reach_mm;
-      const Result<Candidate> found = best(cut_open);
+      const Result<Found> found = best(cut_open);
       if (!found) return found.error();
-      if (found->rank > chosen.candidate.rank) chosen = {*found, cut_open.cut_mm};
-      if (is_enough(*found, possible->share)) break;
+      if (found->best.rank > chosen.candidate.rank) chosen = {found->best, cut_open.cut_mm};
+      if (is_enough(found->best, whole->alone.share)) break;
     }
     return chosen;
   }
@@ -66,11 +62,11 @@ class ViewpointSearch {
            candidate.share >= kEnough * std::min(possible, kWellSeen);
   }
 
-  Result<Candidate> best(const Sight& sight) const {
+  Result<Found> best(const Sight& sight) const {
     return find_best(triangles_, directions_, sight, context_);
   }
 
-  std::vector<NearTriangle> triangles_;
+  NearTriangles triangles_;
   std::vector<Vec3d> directions_;
   Sight sight_;
   const parallel::Context& context_;

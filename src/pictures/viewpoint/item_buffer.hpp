@@ -1,54 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "pictures/scenery/surroundings.hpp"
-#include "pictures/viewpoint/camera.hpp"
+#include "pictures/viewpoint/window.hpp"
 
 namespace strake::pictures {
 
-/// What an item buffer shows: a window about the point that triangles are reckoned from.
-struct Window {
-  Axes axes;
-  double half_width_mm = 1, half_height_mm = 1;
-  std::uint32_t columns = 1, rows = 1;
-  double eye_mm = 1e300;  ///< what lies nearer to the viewer than this is behind the eye
-  /// What lies outside is not there.
-  std::optional<geometry::Box3d> box = std::nullopt;
-  std::vector<ClippingPlane> planes = {};  ///< mm from the same point
-  /// Close what is cut open: a face of the clash that is seen from within covers all before it.
-  bool closes_cuts = false;
-};
-
 /// Item buffer: which triangle each point of a view shows (Weghorst, Hooper and Greenberg 1984), by
-/// depth; of equals the clash's own, then the first.
+/// depth; of equals the clash's own, then the first. It has some rows of a window, so that it stays
+/// small however fine the window is.
 class ItemBuffer {
  public:
-  static constexpr std::uint32_t kNothing = 0xffffffffU;
+  static constexpr std::uint32_t kNothing = 0x7fffffffU;
   struct Item {
-    std::uint32_t triangle = kNothing;
-    bool back = false;      ///< its back is seen
-    bool own = false;       ///< it is of the clash
-    double depth = -1e300;  ///< mm towards the viewer
+    float depth = -1e30F;  ///< mm towards the viewer
+    std::uint32_t triangle : 31 = kNothing;
+    std::uint32_t own : 1 = 0;  ///< it is of the clash
   };
 
-  ItemBuffer(const Window& window, std::span<const NearTriangle> triangles);
+  /// The window must outlast it.
+  ItemBuffer(const Window& window, std::uint32_t first_row, std::uint32_t end_row);
 
-  /// Rows from above.
+  /// Adds triangles of seen_triangles() by their numbers there, in their order.
+  void add(std::span<const SeenTriangle> triangles, std::span<const std::uint32_t> numbers);
+
+  /// The row is that of the window, from above.
   [[nodiscard]] const Item& at(std::uint32_t column, std::uint32_t row) const {
-    return items_[std::size_t{row} * columns_ + column];
+    return items_[place(column, row)];
   }
 
  private:
-  void add(const Window& window, std::uint32_t number, const NearTriangle& triangle);
+  [[nodiscard]] std::size_t place(std::uint32_t column, std::uint32_t row) const {
+    return std::size_t{row - first_row_} * window_.columns + column;
+  }
+  void add(const SeenTriangle& triangle, std::uint32_t number);
+  void close_cuts(std::span<const SeenTriangle> triangles);
 
-  void close_cuts(std::span<const NearTriangle> triangles);
-
-  std::uint32_t columns_;
+  const Window& window_;
+  std::uint32_t first_row_, end_row_;
   std::vector<Item> items_;
   std::vector<Item> own_;  ///< the same of the clash's own triangles, where cuts are closed
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/number.hpp"
+#include "core/text/counted.hpp"
 #include "pictures/folder/shown_subjects.hpp"
 #include "pictures/scenery/clash_place.hpp"
 #include "pictures/viewpoint/camera.hpp"
@@ -46,8 +47,9 @@ class Overview {
     picture_.width_mm = 420;
     picture_.height_mm = 297;
     picture_.view_mm = 297;
-    picture_.title = "Clashes: " + std::to_string(shown_.size()) +
-                     (contents.grouping != nullptr ? " groups" : " marked");
+    picture_.title =
+        "Clashes: " + (contents.grouping != nullptr ? counted(shown_.size(), "group")
+                                                    : std::to_string(shown_.size()) + " marked");
   }
 
   Result<ClashPicture> draw(const parallel::Context& context) && {
@@ -148,20 +150,17 @@ class Overview {
       counts[1] += test.count_clearance;
       counts[2] += test.count_contact;
     }
-    constexpr std::array kNames{"hits", "clearance violations", "contacts"};
+    constexpr std::array kNames{"hit", "clearance violation", "contact"};
     for (std::size_t k = 0; k < kClasses.size(); ++k) {
       picture_.blocks.push_back({{left, line - 2.6}, 3, 3, colour_of_class(kClasses[k])});
-      picture_.texts.push_back({{left + 5, line},
-                                kLegendText,
-                                std::to_string(counts[k]) + " " + kNames[k],
-                                kDark,
-                                false,
-                                false});
+      picture_.texts.push_back(
+          {{left + 5, line}, kLegendText, counted(counts[k], kNames[k]), kDark, false, false});
       line += 6;
     }
     line += 3;
-    text(std::to_string(shown_.size()) +
-             (contents_.grouping != nullptr ? " groups, as numbered" : " marked, 1 is the worst"),
+    text(contents_.grouping != nullptr
+             ? counted(shown_.size(), "group, as numbered", "groups, as numbered")
+             : std::to_string(shown_.size()) + " marked, 1 is the worst",
          kLegendText, false);
     if (shown_.size() > kMostNumbers)
       text("the first " + std::to_string(kMostNumbers) + " have numbers", kLegendText, false);

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "report/text/columns.hpp"
 #include "report/text/formatting.hpp"
@@ -19,10 +20,6 @@ namespace {
 /// As people read it; scripts have change_name().
 std::string_view kind_title(ChangeKind kind) {
   return kind == ChangeKind::reattributed ? "re-attributed" : change_name(kind);
-}
-
-std::string counted(std::uint64_t count, std::string_view of) {
-  return fmt::format("{} {}{}", count, of, count == 1 ? "" : "s");
 }
 
 /// Returns a line for a file that came or went.

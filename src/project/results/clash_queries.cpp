@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "project/results/clash_queries.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <utility>
@@ -166,13 +168,15 @@ Result<std::uint64_t> decide(Database& database, std::span<const std::string> ke
     if (after == before) continue;
     ++changed;
     if (const Status status = rows->update(after); !status) return status.error();
-    const ClashEvent event{before.id,
-                           std::nullopt,
-                           decision.at,
-                           decision.by,
-                           before.status(run),
-                           after.status(run),
-                           told(before, after, decision)};
+    ClashEvent event{before.id,
+                     std::nullopt,
+                     decision.at,
+                     decision.by,
+                     before.status(run),
+                     after.status(run),
+                     told(before, after, decision)};
+    const std::string said = decision.comment.value_or(std::string());
+    if (event.comment != said) event.said = Said{.text = said};
     if (event.before == event.after && event.comment.empty()) continue;
     if (const Status status = rows->add(event); !status) return status.error();
   }
@@ -202,8 +206,8 @@ Result<std::vector<ClashEvent>> read_events(Database& database, const std::strin
   const Result<std::optional<ClashRow>> row = rows->find(std::string_view(key));
   if (!row) return row.error();
   if (!*row) return no_clash(key);
-  Result<Statement> select = database.prepare(
-      "SELECT run, at, who, before, after, comment FROM event WHERE clash = ?1 ORDER BY id");
+  Result<Statement> select = database.prepare(fmt::format(
+      "SELECT clash,{} FROM {} WHERE clash = ?1 ORDER BY id", kEventColumns, kEventTables));
   if (!select) return select.error();
   select->bind(1, (**row).id);
   std::vector<ClashEvent> events;
@@ -211,12 +215,9 @@ Result<std::vector<ClashEvent>> read_events(Database& database, const std::strin
     const Result<bool> there = select->step();
     if (!there) return there.error();
     if (!*there) return events;
-    const auto before = status_of(select->text(3)), after = status_of(select->text(4));
-    if (!before || !after) return database.damaged("an event has a status that is none");
-    std::optional<std::int64_t> run;
-    if (!select->is_null(0)) run = select->integer(0);
-    events.push_back({(**row).id, run, std::string(select->text(1)), std::string(select->text(2)),
-                      *before, *after, std::string(select->text(5))});
+    Result<ClashEvent> event = event_of(database, *select);
+    if (!event) return event.error();
+    events.push_back(std::move(*event));
   }
 }
 

@@ -117,14 +117,43 @@ Result<ClashRow> row_of(const Database& database, const Statement& at) {
   return row;
 }
 
+report::DecisionComment ClashEvent::spoken() const {
+  if (run) return {};
+  if (!said) return {at, who, comment};
+  return {at, who, said->text, said->guid, said->topic, said->first_at, said->first_by};
+}
+
+Result<ClashEvent> event_of(const Database& database, const Statement& at) {
+  ClashEvent event;
+  event.clash = at.integer(0);
+  if (!at.is_null(1)) event.run = at.integer(1);
+  event.at = at.text(2);
+  event.who = at.text(3);
+  const auto before = value_of(report::kDecisionStatuses, at.text(4));
+  const auto after = value_of(report::kDecisionStatuses, at.text(5));
+  if (!before || !after) return database.damaged("an event has a status that is none");
+  event.before = *before;
+  event.after = *after;
+  event.comment = at.text(6);
+  if (at.is_null(7)) return event;
+  Said said;
+  int column = 7;
+  for (std::string* const text :
+       {&said.text, &said.guid, &said.topic, &said.first_at, &said.first_by})
+    *text = at.text(column++);
+  event.said = std::move(said);
+  return event;
+}
+
 ClashRows::ClashRows(Database& database, Statement by_id, Statement by_key, Statement insert,
-                     Statement update, Statement event)
+                     Statement update, Statement event, Statement said)
     : database_(&database),
       by_id_(std::move(by_id)),
       by_key_(std::move(by_key)),
       insert_(std::move(insert)),
       update_(std::move(update)),
-      event_(std::move(event)) {}
+      event_(std::move(event)),
+      said_(std::move(said)) {}
 
 Result<ClashRows> ClashRows::of(Database& database) {
   const std::string_view columns = kClashColumns.substr(kClashColumns.find(',') + 1);
@@ -148,8 +177,12 @@ Result<ClashRows> ClashRows::of(Database& database) {
       "INSERT INTO event (clash, run, at, who, before, after, comment) "
       "VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
   if (!event) return event.error();
+  Result<Statement> said = database.prepare(
+      "INSERT INTO said (event, text, guid, topic, first_at, first_by) "
+      "VALUES (?1, ?2, ?3, ?4, ?5, ?6)");
+  if (!said) return said.error();
   return ClashRows(database, std::move(*by_id), std::move(*by_key), std::move(*insert),
-                   std::move(*update), std::move(*event));
+                   std::move(*update), std::move(*event), std::move(*said));
 }
 
 Result<std::optional<ClashRow>> ClashRows::take(Statement& statement) {
@@ -194,7 +227,16 @@ Status ClashRows::add(const ClashEvent& event) {
   event.run ? to.put(*event.run) : to.null();
   to.text(event.at).text(event.who).text(name(event.before)).text(name(event.after));
   to.text(event.comment);
-  return event_.run();
+  if (const Status status = event_.run(); !status || !event.said) return status;
+  const Said& said = *event.said;
+  Binder(said_)
+      .put(database_->last_insert_id())
+      .text(said.text)
+      .text_or_null(said.guid)
+      .text_or_null(said.topic)
+      .text_or_null(said.first_at)
+      .text_or_null(said.first_by);
+  return said_.run();
 }
 
 }  // namespace strake::project

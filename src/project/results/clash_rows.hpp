@@ -62,14 +62,31 @@ struct NewClash {
   geometry::Vec3d point_mm;
 };
 
+/// What somebody said, where that is not all that an event tells, or another program has a name for
+/// it.
+struct Said {
+  std::string text = {};                     ///< empty: nothing
+  std::string guid = {}, topic = {};         ///< as report::DecisionComment has them
+  std::string first_at = {}, first_by = {};  ///< likewise
+};
+
 /// A change of status.
 struct ClashEvent {
   std::int64_t clash = 0;
   std::optional<std::int64_t> run;  ///< the run that did it; absent: a person, between runs
   std::string at, who;
   report::DecisionStatus before{}, after{};
-  std::string comment;
+  std::string comment;            ///< what it tells
+  std::optional<Said> said = {};  ///< absent: what it tells is what was said
+
+  /// Returns what somebody said; of what a program did, nothing.
+  [[nodiscard]] report::DecisionComment spoken() const;
 };
+
+/// The columns of an event and of what was said in it, which event_of() reads, and where they are.
+inline constexpr std::string_view kEventColumns =
+    "run,at,who,before,after,comment,text,guid,topic,first_at,first_by";
+inline constexpr std::string_view kEventTables = "event LEFT JOIN said ON said.event = event.id";
 
 /// The columns of `clash` in the order in which row_of() reads them.
 inline constexpr std::string_view kClashColumns =
@@ -80,6 +97,10 @@ inline constexpr std::string_view kClashColumns =
 /// Returns the row that a statement stands at, of kClashColumns from column 0 on. Errors: input for
 /// words that are none.
 [[nodiscard]] Result<ClashRow> row_of(const Database& database, const Statement& at);
+
+/// Returns the event that a statement stands at, of a column `clash` and of kEventColumns from
+/// column 1 on. Errors: input for words that are none.
+[[nodiscard]] Result<ClashEvent> event_of(const Database& database, const Statement& at);
 
 /// Reads and writes rows with statements that are prepared once.
 class ClashRows {
@@ -97,10 +118,10 @@ class ClashRows {
 
  private:
   ClashRows(Database& database, Statement by_id, Statement by_key, Statement insert,
-            Statement update, Statement event);
+            Statement update, Statement event, Statement said);
   Result<std::optional<ClashRow>> take(Statement& statement);
   Database* database_;
-  Statement by_id_, by_key_, insert_, update_, event_;
+  Statement by_id_, by_key_, insert_, update_, event_, said_;
 };
 
 }  // namespace strake::project

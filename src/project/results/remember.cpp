@@ -96,19 +96,22 @@ class DecidedBuilder {
   }
 
   /// Adds all that people said of the clashes that decisions are about.
-  Status add_comments(Database& database) {
+  Status add_comments(Database& database, RunComments comments) {
     Result<Statement> select = database.prepare(
-        "SELECT clash, at, who, comment FROM event WHERE run IS NULL AND comment <> '' ORDER BY "
-        "id");
+        fmt::format("SELECT clash,{} FROM {} WHERE run IS NULL AND comment <> '' ORDER BY id",
+                    kEventColumns, kEventTables));
     if (!select) return select.error();
     for (;;) {
       const Result<bool> there = select->step();
       if (!there) return there.error();
       if (!*there) return {};
-      if (const auto at = decision_of_.find(select->integer(0)); at != decision_of_.end())
-        decisions_[at->second].comments.push_back({std::string(select->text(1)),
-                                                   std::string(select->text(2)),
-                                                   std::string(select->text(3))});
+      const auto at = decision_of_.find(select->integer(0));
+      if (at == decision_of_.end()) continue;
+      const Result<ClashEvent> event = event_of(database, *select);
+      if (!event) return event.error();
+      report::DecisionComment comment = event->spoken();
+      if (comments == RunComments::with_history) comment.text = event->comment;
+      if (!comment.text.empty()) decisions_[at->second].comments.push_back(std::move(comment));
     }
   }
 
@@ -204,8 +207,9 @@ class RunMemory {
   }
 
   Status finish() {
-    if (facts_.with_comments)
-      if (const Status status = decided_.add_comments(database_); !status) return status;
+    if (facts_.comments != RunComments::none)
+      if (const Status status = decided_.add_comments(database_, facts_.comments); !status)
+        return status;
     decided_.finish(database_.file().filename().string(), facts_.deeper_mm);
     return {};
   }

@@ -60,6 +60,13 @@ struct TestTrend {
   std::uint64_t written = 0;   ///< rows of clashes that were written
 };
 
+/// What decisions have of what people said.
+enum class RunComments : std::uint8_t {
+  none,          ///< what holds now
+  said,          ///< all that was said
+  with_history,  ///< and what was set along with it: who sees to a clash, comments taken back
+};
+
 struct RunFacts {
   std::string started;  ///< UTC, as 2026-01-31T23:59:59Z
   std::string who;
@@ -67,7 +74,7 @@ struct RunFacts {
   double deeper_mm = 1;  ///< an approved clash that is deeper by more comes back
   std::optional<report::RulesSource> rules = {};  ///< the rules file, if there was one
   RunGrouping grouping = {};
-  bool with_comments = false;  ///< decisions are to have all that people said
+  RunComments comments = RunComments::none;  ///< what decisions are to have
 };
 
 /// A run that is remembered.

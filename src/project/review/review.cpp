@@ -49,7 +49,7 @@ Ruling ruling_on_assignee(const ReviewedTopic& topic, const std::string& now,
 }
 
 /// What people said, in the form in which it is compared: who, what and when.
-using Said = std::tuple<std::string, std::string, std::string>;
+using ComparedSaid = std::tuple<std::string, std::string, std::string>;
 
 class ReviewTaker {
  public:
@@ -119,43 +119,64 @@ class ReviewTaker {
     return rules_.prefers_review;
   }
 
-  [[nodiscard]] Said said(const report::DecisionComment& comment) const {
+  [[nodiscard]] ComparedSaid said(const report::DecisionComment& comment) const {
     return {rules_.compared(comment.by), rules_.compared(comment.text), comment.at};
   }
 
   /// Whether people said this; where it is not known when, whether they said it at any time.
-  static bool is_known(const std::set<Said>& known, const Said& said) {
+  static bool is_known(const std::set<ComparedSaid>& known, const ComparedSaid& said) {
     if (!std::get<2>(said).empty()) return known.contains(said);
     const auto same = known.lower_bound(said);
     return same != known.end() && std::get<0>(*same) == std::get<0>(said) &&
            std::get<1>(*same) == std::get<1>(said);
   }
 
-  Status take_comments(const ReviewedTopic& topic) {
-    if (topic.comments.empty()) return {};
-    std::set<Said> known;
-    std::map<std::string, std::string> last;  // when the comment of a clash was said, by key
+  /// What is known of what was said of the clashes of a topic.
+  struct KnownComments {
+    std::set<ComparedSaid> said;
+    /// The last words of comments that other programs name, by their GUIDs.
+    std::map<std::string, std::string> by_guid;
+    std::map<std::string, std::string> last;  ///< when the comment of a clash was said, by key
+  };
+
+  Result<KnownComments> known_comments(const ReviewedTopic& topic) {
+    KnownComments known;
     for (const ReviewedClash& clash : topic.clashes) {
       const Result<std::vector<ClashEvent>> events = read_events(database_, clash.key);
       if (!events) return events.error();
       const std::string& comment = listed(clash.key)->row.comment;
       for (const ClashEvent& event : *events) {
         if (event.run || event.comment.empty()) continue;
-        known.insert(said({event.at, event.who, event.comment}));
+        const report::DecisionComment spoken = event.spoken();
+        known.said.insert(said(spoken));
+        // It may have gone out with all that its event tells.
+        known.said.insert(said({event.at, event.who, event.comment}));
+        if (!spoken.guid.empty()) known.by_guid[spoken.guid] = rules_.compared(spoken.text);
         // Behind a comment an event tells what else was set.
         if (!comment.empty() && event.comment.starts_with(comment))
-          last[clash.key] = std::max(last[clash.key], event.at);
+          known.last[clash.key] = std::max(known.last[clash.key], event.at);
       }
     }
+    return known;
+  }
+
+  Status take_comments(const ReviewedTopic& topic) {
+    if (topic.comments.empty()) return {};
+    Result<KnownComments> known = known_comments(topic);
+    if (!known) return known.error();
     for (report::DecisionComment comment : topic.comments) {
-      if (is_known(known, said(comment))) {
+      const auto named = known->by_guid.find(comment.guid);
+      const bool is_same =
+          named != known->by_guid.end() && named->second == rules_.compared(comment.text);
+      if (is_same || is_known(known->said, said(comment))) {
         ++taken_.known_comments;
         continue;
       }
       if (comment.at.empty()) comment.at = topic.at;
-      known.insert(said(comment));
+      known->said.insert(said(comment));
+      if (!comment.guid.empty()) known->by_guid[comment.guid] = rules_.compared(comment.text);
       for (const ReviewedClash& clash : topic.clashes) {
-        std::string& latest = last[clash.key];
+        std::string& latest = known->last[clash.key];
         if (const Status status = add(comment, clash.key, comment.at >= latest); !status)
           return status;
         latest = std::max(latest, comment.at);
@@ -178,7 +199,10 @@ class ReviewTaker {
     }
     const DecisionStatus now = row.status(listed(key)->last_run);
     ++taken_.comments;
-    return rows_.add({row.id, std::nullopt, comment.at, comment.by, now, now, text});
+    ClashEvent event{row.id, std::nullopt, comment.at, comment.by, now, now, text};
+    if (!comment.guid.empty())
+      event.said = Said{text, comment.guid, comment.topic, comment.first_at, comment.first_by};
+    return rows_.add(event);
   }
 
   Database& database_;

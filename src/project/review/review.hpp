@@ -68,8 +68,9 @@ struct TakenReview {
 /// 2. What changed in the review and not in the project is taken.
 /// 3. What changed in both, to something else, is a conflict, as is a decision about which it is
 ///    not known what the review started from: ReviewRules::prefers_review says which one holds.
-/// 4. A comment is known if one of the clashes of its topic has it, of the same time and author;
-///    of the same author, where it has no time.
+/// 4. A comment is known if one of the clashes of its topic has it: of the same GUID and words, or
+///    of the same time, author and words; of the same author, where it has no time. One whose GUID
+///    is known and whose words are others was edited, and is added with the GUID.
 /// 5. Of topics about one clash the first holds: what a later one says against it is a conflict.
 ///
 /// To be called within a transaction. Errors: as of decide(); usage for a key that no clash has.

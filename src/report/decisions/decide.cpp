@@ -23,6 +23,14 @@ auto objects_of(const DecidedResult& r) { return std::tuple(r.a, r.b); }
 
 }  // namespace
 
+DecisionStatus current_status(const DecidedResult* decided) {
+  if (decided == nullptr) return DecisionStatus::undecided;
+  const DecisionStatus said = decided->decision->status;
+  if (decided->reopened == Reopened::no || said < DecisionStatus::approved) return said;
+  return decided->reopened == Reopened::found_again ? DecisionStatus::undecided
+                                                    : DecisionStatus::active;
+}
+
 std::string_view name(Reopened reopened) {
   switch (reopened) {
     case Reopened::no:

@@ -11,12 +11,13 @@
 
 #include "clash/results/clash_key.hpp"
 #include "report/clash/attribute_columns.hpp"
-#include "report/exchange/review_status.hpp"
+#include "report/clash/contents.hpp"
 #include "report/text/formatting.hpp"
 #include "report/text/ordered_lines.hpp"
 #include "report/text/uuid.hpp"
 #include "strake/drawing/write.hpp"
 #include "strake/report/clash.hpp"
+#include "strake/report/decisions.hpp"
 
 namespace strake::report {
 namespace {
@@ -101,19 +102,21 @@ void xml_date(std::string& out, std::string_view name, std::string_view day) {
   out.append(" hour=\"0\" minute=\"0\" second=\"0\"/></").append(name).append(">");
 }
 
-void review_decision(std::string& out, const Review& review) {
-  if (review.decided == nullptr) return;
-  const Decision& decision = *review.decided->decision;
-  if (review.status == DecisionStatus::approved) {
+void review_decision(std::string& out, const DecidedResult* decided) {
+  if (decided == nullptr) return;
+  const Decision& decision = *decided->decision;
+  if (current_status(decided) == DecisionStatus::approved) {
     if (!decision.by.empty()) xml_element(out, "approvedby", decision.by);
     xml_date(out, "approveddate", decision.date);
   }
   std::string comment = decision.comment;
-  if (review.decided->reopened != Reopened::no)
-    comment.append(comment.empty() ? "" : "\n")
-        .append(name(decision.status))
-        .append(", and back: ")
-        .append(name(review.decided->reopened));
+  if (decided->reopened != Reopened::no) {
+    comment.append(comment.empty() ? "" : "\n");
+    // A project states what holds in place of what was decided.
+    if (decision.status >= DecisionStatus::approved)
+      comment.append(name(decision.status)).append(", and back: ");
+    comment.append(name(decided->reopened));
+  }
   if (comment.empty()) return;
   out += "<comments><comment id=\"1\">";
   xml_element(out, "user", decision.by);
@@ -163,15 +166,16 @@ void begin_element(std::string& out, std::string_view tag, std::string_view name
 void clash_result(std::string& out, const ClashContents& contents, std::size_t t, std::uint32_t p) {
   const Report& test = contents.findings.tests[t];
   const Pair& pair = test.pairs[p];
-  const Review review = review_of(contents, t, pair);
+  const DecidedResult* const decided = decided_of(contents, t, pair);
+  const DecisionStatus status = current_status(decided);
   begin_element(
       out, "clashresult", "Clash" + std::to_string(p + 1),
       uuid_from_key(kClashNamespace, clash::pair_key(test.name, contents.model, pair.a, pair.b)),
-      review.status, pair.d_mm);
+      status, pair.d_mm);
   xml_element(out, "description", review_description(pair.cls));
-  xml_element(out, "resultstatus", titled(review.status));
+  xml_element(out, "resultstatus", titled(status));
   clash_point(out, pair.point_mm);
-  review_decision(out, review);
+  review_decision(out, decided);
   out += "<clashobjects>";
   clash_object(out, contents, pair.a);
   clash_object(out, contents, pair.b);
@@ -183,9 +187,7 @@ DecisionStatus group_status(const ClashContents& contents, std::size_t t,
                             const clash::Group& group) {
   DecisionStatus least = DecisionStatus::resolved;
   for (const clash::ResultRef& r : group.results)
-    if (r.test == t)
-      least =
-          std::min(least, review_of(contents, t, contents.findings.tests[t].pairs[r.pair]).status);
+    if (r.test == t) least = std::min(least, current_status(decided_of(contents, r)));
   return least;
 }
 
@@ -211,7 +213,7 @@ ReviewTest review_test(const ClashContents& contents, std::size_t t) {
   const auto add = [&](std::uint32_t p) {
     written[p] = true;
     review.lines.push_back({ReviewLine::Kind::result, p});
-    ++review.counts[static_cast<std::size_t>(review_of(contents, t, pairs[p]).status)];
+    ++review.counts[static_cast<std::size_t>(current_status(decided_of(contents, t, pairs[p])))];
   };
   const std::size_t groups = contents.grouping == nullptr ? 0 : contents.grouping->groups.size();
   for (std::uint32_t g = 0; g < groups; ++g) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/number.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "report/table/group_table.hpp"
 #include "report/table/pair_table.hpp"
@@ -157,11 +158,7 @@ std::string_view label(const model::Model& model, model::ObjectId id) {
   return o.name.empty() ? o.id : o.name;
 }
 
-std::string counted(std::uint64_t n, std::string_view one, std::string_view many) {
-  return std::to_string(n) + ' ' + std::string(n == 1 ? one : many);
-}
-
-std::string counted(const ClassRows& c, std::size_t n) { return counted(n, c.one, c.many); }
+std::string counted_as(const ClassRows& c, std::size_t n) { return counted(n, c.one, c.many); }
 
 /// Returns how many results brackets leave open: the classes counted are those of the nominal d.
 std::string uncertain(const ShownTest& test) {
@@ -251,7 +248,7 @@ std::string summary_of(const ShownTest& test, const std::array<ClassRows, 3>& cl
   const Report& report = test.report;
   std::string summary;
   for (const ClassRows& c : classes) {
-    summary += (summary.empty() ? "" : ", ") + counted(c, c.count);
+    summary += (summary.empty() ? "" : ", ") + counted_as(c, c.count);
     summary += not_listed(c);
   }
   if (report.count_allowed > 0) summary += ", " + std::to_string(report.count_allowed) + " allowed";
@@ -347,7 +344,8 @@ std::string test_table(const ShownTest& test, const TableOptions& options,
     const TableBlock worst = worst_of(test, classes[c].cls, classes[c].rows, options.sort);
     for (const std::size_t i : worst.pairs)
       blocks[c].rows.push_back(row_of(test, test.report.pairs[i]));
-    if (worst.hidden > 0) blocks[c].more = "… and " + counted(classes[c], worst.hidden) + " more\n";
+    if (worst.hidden > 0)
+      blocks[c].more = "… and " + counted_as(classes[c], worst.hidden) + " more\n";
   }
   std::string out = pair_table(blocks, head_of(test.report, test.model, options));
   if (!out.empty()) out += "\n";

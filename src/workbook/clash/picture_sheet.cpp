@@ -18,10 +18,6 @@ namespace {
 using clash::ResultRef;
 using report::ClashContents;
 
-const clash::Pair& pair_of(const ClashContents& contents, const ResultRef& r) {
-  return contents.findings.tests[r.test].pairs[r.pair];
-}
-
 std::vector<ResultRef> worst_results(const ClashContents& contents) {
   std::vector<ResultRef> all;
   for (std::uint32_t t = 0; t < contents.findings.tests.size(); ++t) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/number.hpp"
+#include "core/text/xml_text.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::workbook {
@@ -16,21 +17,6 @@ bool begins_as_escape(std::string_view text) {
   constexpr std::string_view kHex = "0123456789abcdefABCDEF";
   return text.size() >= kLength && text.starts_with("_x") && text[kLength - 1] == '_' &&
          text.substr(2, 4).find_first_not_of(kHex) == std::string_view::npos;
-}
-
-void append_character(std::string& out, const TakenCharacter& c) {
-  if (c.code == '\n' || c.code == '\t' || is_printable(c)) {
-    if (c.code == '&')
-      out += "&amp;";
-    else if (c.code == '<')
-      out += "&lt;";
-    else if (c.code == '>')
-      out += "&gt;";
-    else
-      out += c.bytes;
-  } else if (c.code != '\r' || c.length == 0) {
-    out += kReplacement;
-  }
 }
 
 }  // namespace
@@ -62,7 +48,8 @@ void append_cell_text(std::string& out, std::string_view raw) {
       raw = rest;
       break;
     }
-    append_character(out, c);
+    // Line ends of Windows are those of all.
+    if (c.code != '\r' || c.length == 0) append_xml(out, c, XmlCharacters::lines);
     words += wide;
   }
   if (!raw.empty()) out += "\xE2\x80\xA6";

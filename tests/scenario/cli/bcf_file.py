@@ -63,7 +63,8 @@ class Bcf:
         self.check(three or not {'Comments', 'Viewpoints'} & {e.tag for e in topic}, 'what is within a topic')
         comments = list(topic.find('Comments') if three else markup.findall('Comment'))
         views = list(topic.find('Viewpoints') if three else markup.findall('Viewpoints'))
-        for date in [topic.findtext('CreationDate'), *(c.findtext('Date') for c in comments)]:
+        changed = [c.findtext('ModifiedDate') for c in comments if c.find('ModifiedDate') is not None]
+        for date in [topic.findtext('CreationDate'), *(c.findtext('Date') for c in comments), *changed]:
             self.check(DATE.fullmatch(date), f'the date {date}')
         for guid in [e.get('Guid') for e in [*comments, *views]]:
             self.check(GUID.fullmatch(guid), f'the GUID {guid}')
@@ -74,6 +75,10 @@ class Bcf:
                 'assignee': topic.findtext('AssignedTo'), 'description': topic.findtext('Description'),
                 'files': [e.findtext('Filename') for e in markup.iter('File')],
                 'comments': [(c.findtext('Date'), c.findtext('Author'), c.findtext('Comment')) for c in comments],
+                'comment_guids': [c.get('Guid') for c in comments],
+                'edited': [(c.findtext('ModifiedDate'), c.findtext('ModifiedAuthor')) for c in comments],
+                'projects': [e.get('IfcProject') for e in markup.iter('File')],
+                'file_dates': [e.findtext('Date') for e in markup.iter('File')],
                 'view': self.view(folder, views[0]) if views else None}
 
     def view(self, folder, pointer):

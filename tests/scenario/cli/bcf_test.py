@@ -1,12 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """bcf_test.py STRAKE: clashes as BCF for other programs, and what people decided there taken back into the project."""
+import csv
 import io
+import json
 import os
 import random
 import struct
 import time
 import unittest
+import xml.etree.ElementTree as ElementTree
 import zipfile
 from pathlib import Path
 
@@ -93,6 +96,18 @@ class BcfOut(RowProject):
         self.done('clash', 'm.gltf', '-o', 'x.bcf')
         self.assertEqual(sorted(self.bcf().topics[0]['view']['selection']), sorted(guids))
 
+    def test_the_head_of_an_ifc_is_named(self):
+        """As the importer of IFC has the groups at the top inherit it."""
+        origin = {'ProjectId': '0$WU4A9R19$vKWO$AdOnKA', 'FileDate': '2026-01-30T10:00:00+02:00'}
+        self.write('m.gltf', gltf(('site', origin, None, [(f'e{i}', {}, .05 * i, []) for i in range(2)])))
+        told = self.done('clash', 'm.gltf', '-o', 'x.bcf').stderr
+        self.assertNotIn('dated', told)
+        topic, = self.bcf().topics
+        self.assertEqual((topic['created'], topic['projects'], topic['file_dates']),
+                         ('2026-01-30T08:00:00Z', ['0$WU4A9R19$vKWO$AdOnKA'], ['2026-01-30T08:00:00Z']))
+        self.assertIn('its topics are dated 1970-01-01', self.clash('-o', 'x.bcf').stderr)
+        self.assertNotIn('dated', self.clash('-o', 'x.bcf', '--bcf-date', '2026-01-31').stderr)
+
     def test_misuse(self):
         for options, told in ((['--bcf-version', '2.1'], 'no .bcf is written'), (['--bcf-most', '5'], 'no .bcf is written'),
                               (['-o', 'x.bcf', '--bcf-date', 'today'], 'is no date'),
@@ -154,7 +169,7 @@ class BcfBack(BcfProject):
                                   ('2026-02-03T10:00:00Z', 'Ödön', '<b>move it</b>'),
                                   ('2026-02-03T10:00:01Z', 'Ann', '<b>move it</b>')})
                 if version == '2.1':
-                    self.assertIn('3 topics, 1 statuses and 1 assignees changed, 3 comments added, 0 comments were there', told)
+                    self.assertIn('3 topics, 1 status and 1 assignee changed, 3 comments added, 0 comments were there', told)
 
     def test_the_same_file_again_changes_nothing(self):
         self.edit(self.decide)
@@ -172,6 +187,76 @@ class BcfBack(BcfProject):
         topic = next(t for t in Bcf(self.folder / 'now.bcf', self.fail).topics if 'c0' in t['title'])
         self.assertEqual((topic['status'], topic['comments']),
                          ('Approved', [('2026-02-03T10:00:00Z', 'Ann', 'as agreed\nby phone')]))
+
+    def comments(self, *options, name='now.bcf', of='c0'):
+        """The comments of a topic in a file that is written now: GUID, date, author, text and who edited it."""
+        self.out(*options, name=name)
+        topics = Bcf(self.folder / name, self.fail).topics
+        guids = [guid for topic in topics for guid in topic['comment_guids']]
+        self.assertEqual(len(guids), len(set(guids)), 'no GUID stands for two comments')
+        topic = next(t for t in topics if of in t['title'])
+        return [(guid, *said, *edited) for guid, said, edited in zip(topic['comment_guids'], topic['comments'], topic['edited'])]
+
+    def test_comments_of_others_keep_their_guids(self):
+        ours = self.listed()[0]['key']
+        self.set(ours, '--comment', 'ours', '--by', 'Eve')
+        self.edit(self.decide)
+        self.take()
+        ann = ('11111111-1111-4111-8111-111111111111', '2026-02-03T10:00:00Z', 'Ann', 'as agreed\nby phone', None, None)
+        for version in ('2.1', '3.0'):
+            said = self.comments('--bcf-version', version)
+            self.assertIn(ann, said)
+            self.assertEqual([s[0] for s in self.comments('--bcf-version', version, of='c3')],
+                             ['22222222-2222-4222-8222-222222222222', '33333333-3333-4333-8333-333333333333'])
+        # In a group it is another comment, for the single clash has the GUID.
+        grouped = self.comments('--group-by', 'test', name='g.bcf', of='clash')
+        self.assertIn('Ödön', [s[2] for s in grouped])
+        self.assertNotIn('22222222-2222-4222-8222-222222222222', [s[0] for s in grouped])
+
+    def test_comments_that_were_edited_have_their_last_form(self):
+        self.edit(self.decide)
+        self.take()
+        self.out()
+
+        def change(topic, markup):
+            for comment in markup.iter('Comment'):
+                if comment.get('Guid') == '11111111-1111-4111-8111-111111111111':
+                    comment.find('Comment').text = 'not agreed'
+                    for name, value in (('ModifiedDate', '2026-02-04T10:00:00Z'), ('ModifiedAuthor', 'Bob')):
+                        ElementTree.SubElement(comment, name).text = value
+        self.edit(change, name='edited.bcf')
+        self.assertIn('1 comment added, 2 comments were there', self.take(name='edited.bcf').stderr)
+        self.assertIn('0 comments added', self.take(name='edited.bcf').stderr)
+        self.assertEqual(self.comments(), [('11111111-1111-4111-8111-111111111111', '2026-02-03T10:00:00Z', 'Ann', 'not agreed',
+                                            '2026-02-04T10:00:00Z', 'Bob')])
+        self.assertIn('0 comments added', self.take(name='now.bcf').stderr)
+
+    def test_who_sees_to_it_is_no_comment(self):
+        key, = next(row for row in self.query("SELECT key FROM clash WHERE a_name = 'c0'"))
+        self.set(key, '--assignee', 'Bob', '--by', 'Eve')
+        self.set(key, '--assignee', 'Ann', '--comment', 'her deck', '--by', 'Eve')
+        self.assertEqual([s[3] for s in self.comments()], ['her deck'])
+        topic = next(t for t in Bcf(self.folder / 'now.bcf', self.fail).topics if 'c0' in t['title'])
+        self.assertEqual(topic['assignee'], 'Ann')
+        told = [s[3] for s in self.comments('--bcf-history', name='told.bcf')]
+        self.assertEqual(sorted(told), ['assigned to Bob', 'her deck; assigned to Ann'])
+        before = self.state()
+        for name in ('now.bcf', 'told.bcf'):
+            self.assertIn('0 comments added', self.take(name=name).stderr)
+        self.assertEqual(self.state(), before)
+
+    def test_one_word_for_each_status(self):
+        """What was resolved and is found again is New everywhere."""
+        for row in self.listed():
+            self.set(row['key'], '--status', 'resolved')
+        self.out('-o', 'x.xml', '-o', 'x.json', '-o', 'x.csv', name='again.bcf')
+        self.assertEqual({t['status'] for t in Bcf(self.folder / 'again.bcf', self.fail).topics}, {'New'})
+        xml = ElementTree.parse(self.folder / 'x.xml')
+        self.assertEqual({e.get('status') for e in xml.iter('clashresult')}, {'new'})
+        self.assertEqual({r['decision']['status'] for r in json.loads((self.folder / 'x.json').read_text())['results']}, {'new'})
+        with open(self.folder / 'x.csv', encoding='utf-8', newline='') as lines:
+            self.assertEqual({row['status'] for row in csv.DictReader(lines)}, {'new'})
+        self.assertEqual({row['status'] for row in self.listed()}, {'new'})
 
     def test_an_untouched_file_does_not_take_decisions_back(self):
         key = self.listed()[0]['key']
@@ -209,9 +294,9 @@ class BcfBack(BcfProject):
                 topic.set('TopicStatus', 'closed')
         self.edit(change)
         told = self.take().stderr
-        self.assertRegex(told, r"1 topics are about no clash of the project\n.*HIT, .*c0 / c1")
-        self.assertIn("the status 'Whatever' of 1 topics means none of a clash", told)
-        self.assertIn('1 statuses', told)
+        self.assertRegex(told, r"1 topic is about no clash of the project\n.*HIT, .*c0 / c1")
+        self.assertIn("the status 'Whatever' of 1 topic means none of a clash: its own stays", told)
+        self.assertIn('1 status and', told)
         self.assertEqual(sorted(row[1] for row in self.state()[0]), ['new', 'new', 'resolved'])
 
     def test_topics_without_their_description_are_known_by_their_guid(self):
@@ -220,7 +305,7 @@ class BcfBack(BcfProject):
             if 'c0' in topic.findtext('Title'):
                 topic.set('TopicStatus', 'Approved')
         self.edit(change)
-        self.assertIn('1 statuses', self.take().stderr)
+        self.assertIn('1 status and', self.take().stderr)
         self.assertEqual(sorted(row[1] for row in self.state()[0]), ['approved', 'new', 'new'])
 
     def test_groups_are_decided_at_once(self):
@@ -236,7 +321,7 @@ class BcfBack(BcfProject):
                          [('active', None), ('reviewed', 'both'), ('reviewed', 'both')])
         self.out('--group-by', 'element', name='g.bcf')
         before = self.state()
-        self.assertIn('0 comments added, 1 comments were there', self.take(name='g.bcf').stderr)
+        self.assertIn('0 comments added, 1 comment was there', self.take(name='g.bcf').stderr)
         self.assertEqual(self.state(), before)
 
     def test_topics_that_contradict_each_other_are_a_conflict(self):

@@ -20,8 +20,10 @@ TopicFacts facts() {
           .assignee = "Bob",
           .description = "one\ntwo",
           .comments = {{"11111111-1111-4111-8111-111111111111", "2026-02-01T10:00:00Z", "Ann",
-                        "move it"}},
-          .files = {"a.rvm"}};
+                        "move it"},
+                       {"22222222-2222-4222-8222-222222222222", "2026-02-01T11:00:00Z", "Eve",
+                        "edited", "2026-02-02T10:00:00Z", "Ann"}},
+          .files = {{"a.ifc", "2026-01-30T10:00:00Z", "0$WU4A9R19$vKWO$AdOnKA"}, {"b.rvm"}}};
 }
 
 TEST(Markup, OfVersion21HasCommentsBehindTheTopic) {
@@ -29,8 +31,12 @@ TEST(Markup, OfVersion21HasCommentsBehindTheTopic) {
             R"(<?xml version="1.0" encoding="UTF-8"?>
 <Markup>
   <Header>
+    <File IfcProject="0$WU4A9R19$vKWO$AdOnKA">
+      <Filename>a.ifc</Filename>
+      <Date>2026-01-30T10:00:00Z</Date>
+    </File>
     <File>
-      <Filename>a.rvm</Filename>
+      <Filename>b.rvm</Filename>
     </File>
   </Header>
   <Topic Guid="d0094c1a-85e8-5a4f-a794-1be75c49d629" TopicType="Clash" TopicStatus="Reviewed">
@@ -51,6 +57,13 @@ two</Description>
     <Author>Ann</Author>
     <Comment>move it</Comment>
   </Comment>
+  <Comment Guid="22222222-2222-4222-8222-222222222222">
+    <Date>2026-02-01T11:00:00Z</Date>
+    <Author>Eve</Author>
+    <Comment>edited</Comment>
+    <ModifiedDate>2026-02-02T10:00:00Z</ModifiedDate>
+    <ModifiedAuthor>Ann</ModifiedAuthor>
+  </Comment>
   <Viewpoints Guid="eeb1bf3a-f4e8-5ed1-acfc-2f1cea528ac7">
     <Viewpoint>viewpoint.bcfv</Viewpoint>
     <Snapshot>snapshot.png</Snapshot>
@@ -69,8 +82,12 @@ TEST(Markup, OfVersion30HasAllWithinTheTopic) {
 <Markup>
   <Header>
     <Files>
+      <File IfcProject="0$WU4A9R19$vKWO$AdOnKA">
+        <Filename>a.ifc</Filename>
+        <Date>2026-01-30T10:00:00Z</Date>
+      </File>
       <File>
-        <Filename>a.rvm</Filename>
+        <Filename>b.rvm</Filename>
       </File>
     </Files>
   </Header>
@@ -90,6 +107,13 @@ two</Description>
         <Date>2026-02-01T10:00:00Z</Date>
         <Author>Ann</Author>
         <Comment>move it</Comment>
+      </Comment>
+      <Comment Guid="22222222-2222-4222-8222-222222222222">
+        <Date>2026-02-01T11:00:00Z</Date>
+        <Author>Eve</Author>
+        <Comment>edited</Comment>
+        <ModifiedDate>2026-02-02T10:00:00Z</ModifiedDate>
+        <ModifiedAuthor>Ann</ModifiedAuthor>
       </Comment>
     </Comments>
   </Topic>

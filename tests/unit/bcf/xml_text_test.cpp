@@ -8,12 +8,6 @@
 namespace strake::bcf {
 namespace {
 
-std::string as_xml(std::string_view text) {
-  std::string out;
-  append_xml(out, text);
-  return out;
-}
-
 TEST(XmlText, IsReadAsItIs) {
   const std::string text = "a<b>&\"'\r\n\t ]]> \xC3\xA4 \xF0\x9F\x9A\xA2";
   XmlWriter writer("Root");
@@ -25,13 +19,6 @@ TEST(XmlText, IsReadAsItIs) {
   EXPECT_TRUE(child(root, "Empty"));
   EXPECT_FALSE(child(root, "None"));
   EXPECT_EQ(child_text(root, "Text"), text);
-}
-
-TEST(XmlText, HasNothingThatXmlCannotHold) {
-  EXPECT_EQ(as_xml(std::string("a\0b\x01\x1F\xFF", 6)),
-            "a\xEF\xBF\xBD"
-            "b\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
-  EXPECT_EQ(as_xml("\xEF\xBF\xBE\xEF\xBF\xBF"), "\xEF\xBF\xBD\xEF\xBF\xBD");
 }
 
 TEST(XmlText, IsComparedWithoutItsLayout) {

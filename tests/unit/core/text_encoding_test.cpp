@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/text/counted.hpp"
+
 namespace strake {
 namespace {
 
@@ -60,6 +62,13 @@ TEST(Text, json_strings) {
       EXPECT_EQ(quoted(before + one + after), '"' + before + inner + after + '"') << code;
     }
   }
+}
+
+TEST(Text, things_are_counted) {
+  EXPECT_EQ(counted(0, "topic"), "0 topics");
+  EXPECT_EQ(counted(1, "topic"), "1 topic");
+  EXPECT_EQ(counted(2, "clash", "clashes"), "2 clashes");
+  EXPECT_EQ(counted(1, "clash is", "clashes are"), "1 clash is");
 }
 
 }  // namespace

@@ -116,6 +116,17 @@ TEST(ClashPicture, HostileNamesAreText) {
   EXPECT_TRUE(png_of(*picture, 400, 300));
 }
 
+TEST(ClashPicture, APngTellsLettersApart) {
+  const auto png_with = [](const std::string& name) {
+    const PicturedClash clash(crossing(name, "beam"));
+    return png_of(*picture_of(clash, clash.subject(name, "beam")), 400, 300).value();
+  };
+  EXPECT_NE(png_with("Труба"), png_with("?????"));
+  EXPECT_NE(png_with("Труба"), png_with("Трубы"));
+  EXPECT_NE(png_with("Σωλήνας"), png_with("???????"));
+  EXPECT_EQ(png_with("配管"), png_with("船体")) << "what the font lacks are boxes";
+}
+
 TEST(ClashPicture, APngHasTheSizeThatIsAskedFor) {
   const PicturedClash clash(crossing());
   const auto picture = picture_of(clash, clash.subject("pipe", "beam"));

@@ -154,15 +154,15 @@ TEST(Viewpoint, TheBestOfAllCandidatesIsChosen) {
     const Subject subject = clash.subject("bar a", "bar b");
     const Scenery scenery = clash.scenery();
     const clash::Pair& pair = pair_of(*clash.contents, subject.results[0]);
-    const auto triangles =
-        triangles_near(scenery, Roles(*clash.contents, subject), grid_point(pair.point_mm), 2000);
+    const NearTriangles triangles(
+        triangles_near(scenery, Roles(*clash.contents, subject), grid_point(pair.point_mm), 2000));
     const Sight sight{150, 1000};
     const auto all = judge(triangles, candidate_directions(pair.away), sight, {}).value();
     const Candidate& best = best_of(all);
     for (const double cut : {1e300, 60.0, 0.0}) {
       const Sight cut_open{150, 1000, cut};
       const auto directions = candidate_directions(pair.away);
-      const Candidate found = find_best(triangles, directions, cut_open, {}).value();
+      const Candidate found = find_best(triangles, directions, cut_open, {}).value().best;
       const auto judged = judge(triangles, directions, cut_open, {}).value();
       EXPECT_EQ(found.viewer, best_of(judged).viewer) << cut;
       EXPECT_EQ(found.rank, best_of(judged).rank) << cut;
@@ -171,7 +171,7 @@ TEST(Viewpoint, TheBestOfAllCandidatesIsChosen) {
       EXPECT_GE(best.rank, one.rank);
       EXPECT_NEAR(one.rank, worth(one.share) * liking(one.viewer), 1e-12);
       const RayShares rays =
-          test::shares_by_rays(triangles, one.viewer, sight.half_mm, sight.eye_mm);
+          test::shares_by_rays(triangles.all(), one.viewer, sight.half_mm, sight.eye_mm);
       const double sum = rays.a + rays.b;
       const double mean = sum == 0 ? 0 : 2 * rays.a * rays.b / sum;
       EXPECT_LE(one.share, mean + 0.06);

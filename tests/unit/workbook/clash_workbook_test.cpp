@@ -11,6 +11,7 @@
 #include "strake/parallel/team.hpp"
 #include "strake/report/clash.hpp"
 #include "support/clash_model.hpp"
+#include "support/row_of_boxes.hpp"
 #include "support/zip_reader.hpp"
 #include "workbook/clash/clash_sheets.hpp"
 #include "workbook/clash/picture_sheet.hpp"
@@ -21,6 +22,8 @@ namespace {
 
 using report::ClashContents;
 using test::ClashModel;
+using test::findings_up_to_25_mm;
+using test::row_of_boxes;
 
 std::string written(const ClashContents& contents, const parallel::Context& context = {}) {
   std::string bytes;
@@ -30,18 +33,6 @@ std::string written(const ClashContents& contents, const parallel::Context& cont
 
 bool has(std::string_view text, std::string_view part) { return text.find(part) != text.npos; }
 
-/// Boxes that hit by 20.5 mm, touch and stand 10 mm apart.
-ClashModel row_of_boxes() {
-  ClashModel m;
-  m.box("a", {0, 0, 0}, {100, 100, 100}).box("b", {79.5, 0, 0}, {200, 100, 100});
-  m.box("c", {200, 0, 0}, {300, 100, 100}).box("d", {310, 0, 0}, {400, 100, 100});
-  return m;
-}
-
-clash::Findings findings_of(const ClashModel& m) {
-  return {{m.detect({.tolerances = {.clearance_mm = 25}})}, {}};
-}
-
 /// The smallest PNG there is, but for its size: 16 x 12 it says.
 std::string tiny_png() {
   return std::string("\x89PNG\r\n\x1A\n\0\0\0\rIHDR\0\0\0\x10\0\0\0\x0C\x08\2\0\0\0", 29);
@@ -49,7 +40,7 @@ std::string tiny_png() {
 
 TEST(ClashWorkbook, HasASummaryAndTheResultsWithFilterColoursAndAListOfStatuses) {
   const ClashModel m = row_of_boxes();
-  const clash::Findings findings = findings_of(m);
+  const clash::Findings findings = findings_up_to_25_mm(m);
   auto files = test::files_of_zip(written({findings, m.model}));
   ASSERT_TRUE(files.contains("[Content_Types].xml"));
   EXPECT_TRUE(has(files["xl/workbook.xml"], "<sheet name=\"Summary\" sheetId=\"1\""));
@@ -67,7 +58,7 @@ TEST(ClashWorkbook, BytesAreThoseOfAnyTeam) {
   ClashModel m;
   for (int i = 0; i < 3000; ++i)
     m.box("box " + std::to_string(i), {i * 90.0, 0, 0}, {i * 90.0 + 100, 100, 100});
-  const clash::Findings findings = findings_of(m);
+  const clash::Findings findings = findings_up_to_25_mm(m);
   ASSERT_GT(findings.tests[0].pairs.size(), 2048U);
   const std::string one = written({findings, m.model});
   for (const unsigned threads : {2U, 3U, 8U}) {
@@ -78,7 +69,7 @@ TEST(ClashWorkbook, BytesAreThoseOfAnyTeam) {
 
 TEST(ClashWorkbook, GroupsAndPicturesHaveSheets) {
   const ClashModel m = row_of_boxes();
-  const clash::Findings findings = findings_of(m);
+  const clash::Findings findings = findings_up_to_25_mm(m);
   const Result<clash::Grouping> grouping =
       clash::group_results(findings, m.model, {.by = clash::GroupBy::element});
   ASSERT_TRUE(grouping);
@@ -108,7 +99,7 @@ TEST(ClashWorkbook, GroupsAndPicturesHaveSheets) {
 
 TEST(ClashWorkbook, WhatAPictureFailsByIsTheErrorOfTheWriter) {
   const ClashModel m = row_of_boxes();
-  const clash::Findings findings = findings_of(m);
+  const clash::Findings findings = findings_up_to_25_mm(m);
   ClashContents contents{findings, m.model};
   contents.picture_of = [](const clash::ResultRef&, const parallel::Context&) {
     return Result<std::string>(Error{ErrorCode::memory, "no memory", {}, {}});
@@ -120,7 +111,7 @@ TEST(ClashWorkbook, WhatAPictureFailsByIsTheErrorOfTheWriter) {
 
 TEST(ClashWorkbook, RowsThatASheetCannotHaveStandOnFurtherOnes) {
   const ClashModel m = row_of_boxes();
-  const clash::Findings findings = findings_of(m);
+  const clash::Findings findings = findings_up_to_25_mm(m);
   const ClashContents contents{findings, m.model};
   const report::GroupNumbers numbers(contents);
   std::vector<Sheet> sheets;
@@ -137,7 +128,7 @@ TEST(ClashWorkbook, RowsThatASheetCannotHaveStandOnFurtherOnes) {
 
 TEST(ClashWorkbook, ACancelledRunIsAnError) {
   const ClashModel m = row_of_boxes();
-  const clash::Findings findings = findings_of(m);
+  const clash::Findings findings = findings_up_to_25_mm(m);
   const std::stop_source stop;
   stop.request_stop();
   const Status status = write_clash_workbook({findings, m.model}, [](std::string_view) {},

@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <optional>
 
-#include "bcf/input/read_bcf.hpp"
 #include "bcf/output/write_bcf.hpp"
 #include "bcf/xml/xml_text.hpp"
 #include "cli/options/options.hpp"
 #include "cli/output/console.hpp"
 #include "cli/verbs/clash/clash_project.hpp"
 #include "core/output_format.hpp"
+#include "core/text/dates.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::cli {
@@ -26,6 +26,7 @@ const char* first_given(const BcfInput& input) {
   if (!input.most.empty()) return "--bcf-most";
   if (!input.date.empty()) return "--bcf-date";
   if (!input.author.empty()) return "--bcf-author";
+  if (input.history) return "--bcf-history";
   return input.contacts ? "--bcf-contacts" : nullptr;
 }
 
@@ -48,9 +49,14 @@ void add_bcf_options(CLI::App& command, BcfInput& options) {
                 "Topics for contacts, too, where there are no groups")
       ->group(kGroup);
   command
+      .add_flag("--bcf-history", options.history,
+                "Comments also tell what was set along with them, as who sees to a clash")
+      ->group(kGroup);
+  command
       .add_option("--bcf-date", options.date,
                   "When topics were made, as 2026-01-31 or 2026-01-31T12:00:00Z (default: the run "
-                  "of the project; without one 1970-01-01, so that equal runs write equal files)")
+                  "of the project; without one when the newest model file says that it was "
+                  "written; where none says so 1970-01-01: equal runs write equal files)")
       ->type_name("DATE")
       ->group(kGroup);
   command
@@ -73,8 +79,8 @@ Result<report::BcfForm> bcf_form(const BcfInput& input, bool is_written) {
     form.most = static_cast<std::size_t>(most);
   }
   if (!input.date.empty()) {
-    std::optional<std::string> date = bcf::utc_of(input.date);
-    if (!date) date = bcf::utc_of(input.date + "T00:00:00");
+    std::optional<std::string> date = utc_of(input.date);
+    if (!date) date = utc_of(input.date + "T00:00:00");
     if (!date)
       return Error{ErrorCode::usage, in_quotes(input.date) + " is no date", "--bcf-date",
                    "write it as 2026-01-31 or 2026-01-31T12:00:00Z"};
@@ -89,11 +95,21 @@ Result<report::BcfForm> bcf_form(const BcfInput& input, bool is_written) {
   return form;
 }
 
+project::RunComments comments_of_run(const BcfInput& input, bool is_written) {
+  if (!is_written) return project::RunComments::none;
+  return input.history ? project::RunComments::with_history : project::RunComments::said;
+}
+
 bool is_bcf(const std::string& file) { return suffix_of(file).starts_with(".bcf"); }
 
 void tell_left_out(Console& console, const std::string& file,
                    const report::ClashContents& contents) {
   if (!is_bcf(file)) return;
+  if (!bcf::is_dated(contents))
+    console.note(
+        fmt::format("{}: its topics are dated 1970-01-01, for no model file says when it was "
+                    "written (--bcf-date)",
+                    file));
   if (const std::string text = bcf::left_out_of_bcf(contents); !text.empty())
     console.note(
         fmt::format("{}: without {} (--bcf-most, --bcf-contacts, --group-by)", file, text));

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "project/results/remember.hpp"
 #include "strake/core/result.hpp"
 #include "strake/report/clash.hpp"
 
@@ -18,7 +19,7 @@ class ProjectClashes;
 /// What is said of BCF on the command line, as written.
 struct BcfInput {
   std::string version, most, date, author;
-  bool contacts = false;
+  bool contacts = false, history = false;
 };
 
 void add_bcf_options(CLI::App& command, BcfInput& options);
@@ -27,10 +28,13 @@ void add_bcf_options(CLI::App& command, BcfInput& options);
 /// written.
 [[nodiscard]] Result<report::BcfForm> bcf_form(const BcfInput& input, bool is_written);
 
+/// Returns what a run of a project tells of what people said.
+[[nodiscard]] project::RunComments comments_of_run(const BcfInput& input, bool is_written);
+
 /// Whether the name of a file asks for BCF.
 [[nodiscard]] bool is_bcf(const std::string& file);
 
-/// Says what a file does not have, if it is BCF.
+/// Says what a file does not have, if it is BCF, its date included.
 void tell_left_out(Console& console, const std::string& file,
                    const report::ClashContents& contents);
 

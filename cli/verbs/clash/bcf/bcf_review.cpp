@@ -19,6 +19,7 @@
 #include "cli/run/load.hpp"
 #include "cli/run/person.hpp"
 #include "cli/run/utc_time.hpp"
+#include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "project/results/clash_queries.hpp"
 #include "project/review/review.hpp"
@@ -66,8 +67,9 @@ class TopicMatcher {
     reviewed.by = topic.changer.empty() ? by_ : bcf::compared_text(topic.changer);
     reviewed.at = topic.changed.empty() ? at_ : topic.changed;
     for (const bcf::ReadComment& comment : topic.comments)
-      reviewed.comments.push_back(
-          {comment.date, comment.author.empty() ? by_ : comment.author, comment.text});
+      reviewed.comments.push_back({comment.date, comment.author.empty() ? by_ : comment.author,
+                                   comment.text, comment.guid, topic.guid, comment.first_date,
+                                   comment.first_author});
     matched_.topics.push_back(std::move(reviewed));
   }
 
@@ -112,20 +114,21 @@ void list(Console& console, const std::vector<std::string>& texts) {
 
 void tell(Console& console, const MatchedTopics& matched, const project::TakenReview& taken,
           const std::string& file, std::size_t topics) {
-  console.note(fmt::format(
-      "{}: {} topics, {} statuses and {} assignees changed, {} comments added, "
-      "{} comments were there",
-      file, topics, taken.statuses, taken.assignees, taken.comments, taken.known_comments));
+  console.note(fmt::format("{}: {}, {} and {} changed, {} added, {} there", file,
+                           counted(topics, "topic"), counted(taken.statuses, "status", "statuses"),
+                           counted(taken.assignees, "assignee"), counted(taken.comments, "comment"),
+                           counted(taken.known_comments, "comment was", "comments were")));
   for (const auto& [word, count] : matched.strange_words)
-    console.warn(fmt::format("{}: the status {} of {} topics means none of a clash: theirs stay",
-                             file, in_quotes(word), count));
+    console.warn(fmt::format("{}: the status {} of {} means none of a clash: {}", file,
+                             in_quotes(word), counted(count, "topic"),
+                             count == 1 ? "its own stays" : "theirs stay"));
   if (!taken.conflicts.empty()) {
-    console.warn(fmt::format("{}: {} conflicts", file, taken.conflicts.size()));
+    console.warn(fmt::format("{}: {}", file, counted(taken.conflicts.size(), "conflict")));
     list(console, taken.conflicts);
   }
   if (!matched.unknown.empty()) {
-    console.warn(fmt::format("{}: {} topics are about no clash of the project", file,
-                             matched.unknown.size()));
+    console.warn(fmt::format("{}: {} about no clash of the project", file,
+                             counted(matched.unknown.size(), "topic is", "topics are")));
     list(console, matched.unknown);
   }
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "cli/options/options.hpp"
+#include "core/text/counted.hpp"
 #include "pictures/folder.hpp"
 
 namespace strake::cli {
@@ -59,7 +60,7 @@ Status write_pictures(Session& session, const PictureInput& given,
   const auto count =
       pictures::write_picture_folder(contents, given.folder, *options, session.context());
   if (!count) return count.error();
-  std::string told = fmt::format("wrote {}: {} pictures", given.folder, count->drawn);
+  std::string told = fmt::format("wrote {}: {}", given.folder, counted(count->drawn, "picture"));
   if (count->left_out > 0)
     told += fmt::format(", {} more left out (--top-pictures)", count->left_out);
   if (count->cut_open > 0) told += fmt::format(", {} cut open", count->cut_open);

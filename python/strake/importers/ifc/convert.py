@@ -18,7 +18,7 @@ from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.georeference import read_map_conversion
 from strake.importers.ifc.kernels import SAG_M
 from strake.importers.ifc.products import Ids, Products, choose_products, tell_of_left_out
-from strake.importers.ifc.source import open_model
+from strake.importers.ifc.source import open_model, origin_of
 from strake.importers.ifc.spatial import SpatialGroups
 from strake.importers.ifc.units import Units
 from strake.importers.report import Report
@@ -50,7 +50,8 @@ def _write(job: Job, model: Model, units: Units, products: Products, conversion:
     ids = Ids(report)
     attributes = AttributeReader(model, units)
     with job.scene(unit_mm=1.0) as scene:
-        groups = SpatialGroups(model, scene, attributes)
+        origin = origin_of(model)
+        groups = SpatialGroups(model, scene, attributes, origin)
         for product in products.solid:
             number = product.id()
             placed = conversion.placed.get(number)
@@ -64,6 +65,8 @@ def _write(job: Job, model: Model, units: Units, products: Products, conversion:
             if shape.middle != placed.middle:
                 shape = type(shape)(shape.mesh, placed.middle)
             parent, stated = _read(groups, attributes, product, report, object_id)
+            if parent is None:
+                stated = {**origin, **stated}
             scene.object(object_id, product.Name or product.is_a(), shape, placed.matrix(), parent, stated)
             if remarks := conversion.remarks_of(number):
                 message = f"{product.is_a()} '{product.Name or ''}': {'; '.join(remarks)[:_MOST_MESSAGE]}"

@@ -107,6 +107,17 @@ def _opened(path: Path, report: Report) -> Model:
     return model
 
 
+def origin_of(model: Model) -> dict[str, str]:
+    """Returns what a file says of itself, as attributes: `Project` and `ProjectId`, the GlobalId of its IfcProject, and
+    `FileDate`, when it was written."""
+    origin = {}
+    for project in model.by_type("IfcProject")[:1]:
+        origin = {"Project": project.Name or project.is_a(), "ProjectId": project.GlobalId}
+    if date := str(model.header.file_name.time_stamp or ""):
+        origin["FileDate"] = date
+    return origin
+
+
 def _first_fault(log: Any) -> str:
     """Returns the first fault that IfcOpenShell found while it read, where it found any."""
     for message in log.log_messages():

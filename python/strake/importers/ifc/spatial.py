@@ -28,8 +28,9 @@ _MOST_LEVELS = 32
 class SpatialGroups:
     """Makes the groups that products need."""
 
-    def __init__(self, model: Model, scene: SceneWriter, attributes: AttributeReader) -> None:
+    def __init__(self, model: Model, scene: SceneWriter, attributes: AttributeReader, origin: dict[str, str]) -> None:
         self._scene = scene
+        self._origin = origin
         self._attributes = attributes
         self._groups: dict[int, Group] = {}
         self._map = map_attributes(model)
@@ -48,7 +49,8 @@ class SpatialGroups:
         for entity in reversed(chain):
             known = self._groups.get(entity.id())
             if known is None:
-                known = self._scene.group(entity.Name or entity.is_a(), group, self._of(entity))
+                stated = self._of(entity) if group else {**self._origin, **self._of(entity)}
+                known = self._scene.group(entity.Name or entity.is_a(), group, stated)
                 self._groups[entity.id()] = known
             group = known
         return group
