@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Composing a sheet from its description, and the public SheetFile.
+// Composing a sheet from its description.
 #include "sheets/compose_sheet.hpp"
 
 #include <algorithm>
@@ -13,7 +13,6 @@
 
 #include "drawing/layout/expected_extent.hpp"
 #include "drawing/layout/view_plane.hpp"
-#include "settings/text_file.hpp"
 #include "sheets/annotation/dimensions.hpp"
 #include "sheets/annotation/tags.hpp"
 #include "sheets/annotation/title_block.hpp"
@@ -30,7 +29,6 @@
 #include "strake/drawing/hatching.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/model/selection.hpp"
-#include "strake/sheets/sheet_file.hpp"
 
 namespace strake::sheets {
 
@@ -62,6 +60,7 @@ class Composer {
         room_(sheet_area_of(what)) {}
 
   Result<Sheet> run() {
+    sheet_.name = what_.name;
     sheet_.width_mm = what_.width_mm;
     sheet_.height_mm = what_.height_mm;
     check_uncut();
@@ -552,29 +551,6 @@ class Composer {
 Result<Sheet> compose(const SheetSpec& what, const model::Scene& scene,
                       const ComposeOptions& options, const parallel::Context& context) {
   return Composer(what, scene, options, context).run();
-}
-
-Result<SheetFile> SheetFile::parse(std::string_view text, std::string_view file,
-                                   ReadTemplate read_template) {
-  Result<SheetSpec> found = parse_sheet_spec(text, file, read_template);
-  if (!found) return found.error();
-  return SheetFile(std::make_shared<const SheetSpec>(std::move(*found)));
-}
-
-Result<SheetFile> SheetFile::read(const std::filesystem::path& file) {
-  const Result<std::string> text =
-      settings::read_text_file(file, "sheet file", "; models come before --sheet");
-  if (!text) return text.error();
-  return parse(*text, file.filename().string(), [&](std::string_view name) {
-    return settings::read_text_file(file.parent_path() / name, "template", "");
-  });
-}
-
-const std::string& SheetFile::template_name() const { return what_->template_name; }
-
-Result<Sheet> SheetFile::compose(const model::Scene& scene, const ComposeOptions& options,
-                                 const parallel::Context& context) const {
-  return sheets::compose(*what_, scene, options, context);
 }
 
 }  // namespace strake::sheets

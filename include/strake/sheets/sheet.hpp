@@ -122,6 +122,7 @@ struct PlacedView {
 };
 
 struct Sheet {
+  std::string name;   ///< among the sheets of its file; empty where it is the only one
   std::string title;  ///< title of the file that is written
   double width_mm = 420, height_mm = 297;
   LineStyles styles;

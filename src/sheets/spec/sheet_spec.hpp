@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -145,9 +146,11 @@ struct StyleSpec {
   std::optional<model::Color> color;
 };
 
-/// The contents of a sheet description.
+/// What a file says of one sheet.
 struct SheetSpec {
   std::string file;
+  std::string name;                ///< among the sheets of its file; empty: it is no [[sheet]]
+  std::size_t number = 1, of = 1;  ///< which of how many of its file it is
   double width_mm = 420, height_mm = 297;
   std::string size = "A3";
   bool frame = true;
@@ -173,7 +176,9 @@ struct SheetSpec {
   bool split_hidden = false;  ///< what an object hides itself has a layer of its own
 };
 
-[[nodiscard]] Result<SheetSpec> parse_sheet_spec(std::string_view text, std::string_view file,
-                                                 ReadTemplate read_template);
+/// Returns the sheets of a file, one at least, in its order.
+[[nodiscard]] Result<std::vector<SheetSpec>> parse_sheet_specs(std::string_view text,
+                                                               std::string_view file,
+                                                               ReadTemplate read_template);
 
 }  // namespace strake::sheets
