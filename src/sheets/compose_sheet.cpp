@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -118,6 +119,7 @@ class Composer {
         for (const settings::Chooser& chooser : hatch.select) ask(chooser);
       for (const settings::Chooser& chooser : view.uncut) ask(chooser);
     }
+    for (const ObjectStyleSpec& style : what_.object_styles) ask(*style.select);
     for (const TagSpec& tag : what_.tags) ask(*tag.select);
     for (const PartsListSpec& list : what_.parts_lists) ask(*list.select);
     Result<Picks> picked = model::pick(selections, scene_, context_);
@@ -304,19 +306,29 @@ class Composer {
       if (!pens || own.edge < pens->edge) pens = own;
     }
     sheet_.styles = styles_of(what_.styles, pens.value_or(drawing::Pens{}));
+    const std::shared_ptr<const drawing::ObjectStyles> styles = object_styles();
     for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
       const HiddenLines hidden = what_.views[v].hidden;
       auto chosen = drawing::choose_ink(sheet_.views[v].drawing,
                                         {.hidden = hidden != HiddenLines::off,
                                          .clean_up = hidden != HiddenLines::all,
                                          .split_hidden = what_.split_hidden,
-                                         .pens = pens_of(sheet_.styles)},
+                                         .pens = pens_of(sheet_.styles),
+                                         .styles = styles},
                                         context_);
       if (!chosen) return chosen.error();
       sheet_.views[v].ink = std::move(*chosen);
       if (const Status status = centre_lines(v); !status) return status;
     }
     return {};
+  }
+
+  /// Returns the styles of the objects; null: they all look alike.
+  [[nodiscard]] std::shared_ptr<const drawing::ObjectStyles> object_styles() {
+    if (what_.object_styles.empty()) return nullptr;
+    drawing::ObjectStyles styles(scene_.model->objects.size());
+    for (const ObjectStyleSpec& spec : what_.object_styles) styles.add(spec.style, next_picks(1));
+    return std::make_shared<const drawing::ObjectStyles>(std::move(styles));
   }
 
   Status centre_lines(std::size_t v) {

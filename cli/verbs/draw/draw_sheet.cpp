@@ -14,7 +14,7 @@
 
 #include "cli/verbs/draw/draw_summary.hpp"
 #include "core/output_format.hpp"
-#include "sheets/output/sheet_writers.hpp"
+#include "publish/sheet_formats.hpp"
 #include "strake/drawing/drawing.hpp"
 
 namespace strake::cli {
@@ -74,9 +74,15 @@ void print_sheet_summary(Session& session, const sheets::Sheet& sheet, const mod
 /// "SVG": the formats of sheets in a sentence.
 std::string format_names() {
   std::string names;
-  for (const sheets::SheetWriter& writer : sheets::sheet_writers())
+  const std::vector<sheets::SheetWriter> writers = publish::sheet_writers();
+  for (const sheets::SheetWriter& writer : writers)
     names.append(names.empty() ? "" : " or ").append(writer.name);
   return names;
+}
+
+std::vector<OutputFormat> sheet_formats() {
+  const std::vector<sheets::SheetWriter> writers = publish::sheet_writers();
+  return formats_of(std::span(writers));
 }
 
 /// A file that is written, and the sheets in it.
@@ -104,7 +110,8 @@ std::vector<std::string> sheet_names(const SheetRequest& request,
 /// Returns the files that an output stands for: one with all sheets, or one for each of them.
 Result<std::vector<SheetOutput>> files_of_output(const std::string& output,
                                                  std::span<const std::string> names) {
-  const Result<sheets::SheetWriter> writer = find_writer(sheets::sheet_writers(), output);
+  const std::vector<sheets::SheetWriter> writers = publish::sheet_writers();
+  const Result<sheets::SheetWriter> writer = find_writer(std::span(writers), output);
   if (!writer) return writer.error();
   const std::size_t place = output.find(kSheetInName);
   if (place == std::string::npos) {
@@ -112,7 +119,7 @@ Result<std::vector<SheetOutput>> files_of_output(const std::string& output,
       return Error{ErrorCode::usage,
                    fmt::format("'{}' holds one sheet, and {} are given", output, names.size()),
                    "-o",
-                   fmt::format("write all to a .pdf or .dxf, or each to a file of its own: "
+                   fmt::format("write all to a .pdf, .dxf or .html, or each to a file of its own: "
                                "'NAME-{}{}'",
                                kSheetInName, writer->format.suffix)};
     return std::vector{SheetOutput{output, 0, names.size(), *writer}};
@@ -141,8 +148,7 @@ Result<std::vector<SheetOutput>> outputs_of(Session& session, const SheetRequest
       outputs.push_back(std::move(file));
     }
   }
-  if (const Status status = session.files().add_outputs(paths, formats_of(sheets::sheet_writers()));
-      !status)
+  if (const Status status = session.files().add_outputs(paths, sheet_formats()); !status)
     return status.error();
   return outputs;
 }
@@ -165,12 +171,13 @@ Result<std::vector<sheets::SheetFile>> read_sheet_files(Session& session,
 
 /// Writes the sheets to all outputs.
 Status write_sheets(Session& session, std::span<const SheetOutput> outputs,
-                    std::span<const sheets::Sheet> sheets, const model::Model& model) {
+                    const sheets::SheetContents& contents) {
   for (const SheetOutput& output : outputs) {
+    const sheets::SheetContents some{contents.sheets.subspan(output.first, output.count),
+                                     contents.model, contents.scene};
     Diagnostics noticed;
     const Status status = session.write(output.file, [&](Session::Sink sink) -> Status {
-      Result<Diagnostics> written = output.writer.write(sheets.subspan(output.first, output.count),
-                                                        model, sink, session.context());
+      Result<Diagnostics> written = output.writer.write(some, sink, session.context());
       if (!written) return written.error();
       noticed = std::move(*written);
       return {};
@@ -191,7 +198,7 @@ bool is_lacking(const sheets::Sheet& sheet) {
 
 Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
                             const InputOptions& input, const model::SceneOptions& scene) {
-  const std::vector<OutputFormat> formats = formats_of(sheets::sheet_writers());
+  const std::vector<OutputFormat> formats = sheet_formats();
   const std::string mend = fmt::format("write -o FILE{}", formats.front().suffix);
   if (session.json())
     return Error{ErrorCode::usage, fmt::format("a sheet is written as {} only", format_names()),
@@ -224,7 +231,9 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
       sheets.push_back(std::move(sheet));
     }
   }
-  if (const Status status = write_sheets(session, *outputs, sheets, *loaded->model); !status)
+  if (const Status status =
+          write_sheets(session, *outputs, {sheets, *loaded->model, &loaded->scene});
+      !status)
     return status.error();
   const bool lacking = std::ranges::any_of(sheets, is_lacking);
   return input.strict && lacking ? ExitCode::partial : strict_exit_code(input, *loaded);

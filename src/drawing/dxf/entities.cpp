@@ -12,7 +12,8 @@ Groups begin(std::string& out, std::string_view type, const EntityHead& head,
   Groups groups(out);
   groups.text(0, type).handle(5, head.handle);
   const bool on_paper = head.space == Space::paper;
-  groups.handle(330, on_paper ? kPaperSpace : kModelSpace).text(100, "AcDbEntity");
+  const Handle paper = head.paper != 0 ? head.paper : kPaperSpace;
+  groups.handle(330, on_paper ? paper : kModelSpace).text(100, "AcDbEntity");
   if (on_paper) groups.whole(67, 1);
   groups.text(8, head.layer);
   if (head.dash_stretch == 0)

@@ -21,6 +21,7 @@ struct EntityHead {
   Handle handle = 0;
   std::string_view layer;
   double dash_stretch = 1;  ///< factor of the layer's dashes; 0: continuous
+  Handle paper = 0;         ///< the block of the layout that it lies on; 0: the first
 };
 
 void append_line(std::string& out, const EntityHead& head, const PaperPoint& a,

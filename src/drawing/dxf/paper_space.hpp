@@ -18,8 +18,9 @@ namespace strake::drawing::dxf {
 /// on a drawing's sheet, with y downwards; layers by their numbers.
 class PaperSpace {
  public:
-  PaperSpace(double width_mm, double height_mm, std::span<const LayerStyle> layers,
-             std::size_t viewport_layer);
+  /// `block` is that of its layout; handles of entities count from `first`, the paper itself.
+  PaperSpace(const PaperSize& size, std::span<const LayerStyle> layers, std::size_t viewport_layer,
+             Handle block, Handle first);
 
   void add_viewport(const PaperFrame& window, const PaperPoint& looks_at, double scale);
   /// Points joined by straight lines; closed when the last is the first.
@@ -42,6 +43,7 @@ class PaperSpace {
   [[nodiscard]] std::vector<PaperPoint> all_up(std::span<const PaperPoint> points) const;
 
   double height_mm_;
+  Handle block_;
   std::span<const LayerStyle> layers_;
   std::size_t viewport_layer_;
   std::string text_;

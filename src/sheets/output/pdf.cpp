@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "drawing/pdf/pdf_document.hpp"
 #include "drawing/pdf/pdf_path.hpp"
@@ -17,11 +18,11 @@ namespace strake::sheets {
 
 namespace {
 
+using drawing::LinePen;
 using drawing::PdfDocument;
 using drawing::PdfLayerId;
-using drawing::PdfPen;
 
-PdfPen pen_of(const LineStyle& style) { return {style.width_mm, style.dash_mm, style.color}; }
+LinePen pen_of(const LineStyle& style) { return {style.width_mm, style.dash_mm, style.color}; }
 
 /// The part of its width by which a text lies before its place.
 double anchor_of(Align align) {
@@ -36,10 +37,14 @@ class PageWriter {
 
   Status write(const Sheet& sheet) {
     sheet_ = &sheet;
-    document_.begin_page({sheet.width_mm, sheet.height_mm}, sheet.title);
+    document_.begin_page({sheet.width_mm, sheet.height_mm},
+                         sheet.name.empty() ? sheet.title : sheet.name);
     if (const Status status = write_artwork(); !status) return status;
     write_layer(sheet.frame, "Frame", std::nullopt);
     write_layer(sheet.notes, "Notes", std::nullopt);
+    std::vector<const drawing::Ink*> inks;
+    for (const PlacedView& view : sheet.views) inks.push_back(&view.ink);
+    styles_ = drawing::add_style_layers(document_, inks);
     for (const PlacedView& view : sheet.views)
       if (const Status status = write_view(view); !status) return status;
     return {};
@@ -64,13 +69,11 @@ class PageWriter {
     document_.add_bookmark(view.title.empty() ? view.name : view.title,
                            {view.box.left, view.box.top, view.box.right, view.box.bottom});
     const auto pen = [&](const drawing::Layer& of, drawing::LineState state) {
-      const LineClass line =
-          of.hidden ? hidden_class(view.ink, state) : class_of(of.kind, of.hidden);
-      return pen_of(style_of(sheet_->styles, line));
+      return pen_of_layer(sheet_->styles, view.ink, of, state);
     };
-    const Status status =
-        drawing::add_pdf_view(document_, layer, view.drawing.curves, view.ink, model_,
-                              {pen, pen_of(style_of(sheet_->styles, LineClass::centre))}, context_);
+    const Status status = drawing::add_pdf_view(
+        document_, layer, view.drawing.curves, view.ink, model_,
+        {pen, pen_of(style_of(sheet_->styles, LineClass::centre)), styles_}, context_);
     if (!status) return status;
     write_layer(view.frame, "Frame", layer);
     write_layer(view.grid, "Grid", layer);
@@ -124,6 +127,7 @@ class PageWriter {
   const model::Model& model_;
   const parallel::Context& context_;
   const Sheet* sheet_ = nullptr;
+  drawing::PdfStyleLayers styles_;
   Diagnostics diagnostics_;
 };
 

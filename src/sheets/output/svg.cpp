@@ -15,6 +15,7 @@
 #include "drawing/strokes/layers.hpp"
 #include "drawing/svg/svg_layers.hpp"
 #include "drawing/svg/svg_path.hpp"
+#include "drawing/svg/svg_styles.hpp"
 #include "model/attributes.hpp"
 #include "sheets/output/line_styles.hpp"
 #include "sheets/spec/text_metrics.hpp"
@@ -105,6 +106,12 @@ void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>
   for (const double height : heights)
     out << fmt::format(".strake text.{} {{ font-size: {}px; }}\n", height_class(height),
                        shortest(std::round(height * kFontSize * 1000) / 1000));
+  std::vector<const drawing::Ink*> inks;
+  for (const PlacedView& view : sheet.views) inks.push_back(&view.ink);
+  out << drawing::svg_style_rules(inks, ".strake ",
+                                  [&](const drawing::Layer& layer, drawing::LineState state) {
+                                    return pen_of_layer(sheet.styles, *inks.front(), layer, state);
+                                  });
   out << ".strake .paper { fill: #fff; stroke: none; }\n</style>\n";
 }
 
@@ -190,12 +197,10 @@ void write_view(BufferedWriter& out, const PlacedView& view, const LineStyles& s
   out << "<g class=\"view\" id=\"" << id << "\" inkscape:groupmode=\"layer\" inkscape:label=\""
       << xml_escaped(view.name) << "\" data-view=\"" << xml_escaped(view.name) << "\" data-scale=\""
       << view.drawing.sheet.scale_text << "\">\n";
-  const auto dash_mm = [&](drawing::LineState state) {
-    return style_of(styles, hidden_class(view.ink, state)).dash_mm;
-  };
-  drawing::write_layers(
-      out, view.drawing.curves, view.ink, model, id + "-",
-      {dash_mm(drawing::LineState::hidden_by_self), dash_mm(drawing::LineState::hidden_by_other)});
+  drawing::write_layers(out, view.drawing.curves, view.ink, model, id + "-",
+                        [&](const drawing::Layer& layer, drawing::LineState state) {
+                          return pen_of_layer(styles, view.ink, layer, state);
+                        });
   drawing::write_centre_lines(out, view.ink, id + "-", style_of(styles, LineClass::centre).dash_mm);
   write_layer(out, view.frame, id + "-frame", "Frame");
   write_layer(out, view.grid, id + "-grid", "Grid");

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/parse/note_reader.hpp"
 #include "sheets/parse/paper_reader.hpp"
+#include "sheets/parse/style_reader.hpp"
 #include "sheets/parse/table_readers.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "sheets/spec/text_metrics.hpp"
@@ -74,7 +76,7 @@ class SheetParser {
     }
     fields();
     defaults();
-    views_and_marks({1, 1}, "write arrangement = \"first-angle\" at the top, or [[view]] tables");
+    views_and_marks();
     return std::move(found_);
   }
 
@@ -91,8 +93,7 @@ class SheetParser {
     paper_.read(top_);
     fields();
     defaults();
-    views_and_marks(top_.at(),
-                    "write arrangement = \"first-angle\" in it, or [[sheet.view]] tables");
+    views_and_marks();
     return std::move(found_);
   }
 
@@ -113,9 +114,16 @@ class SheetParser {
   void styles() {
     MarkReader marks(reading_, sets_, found_);
     if (const Value* const value = top_.table("styles")) marks.styles(*value);
+    // What a sheet says itself comes before what it has in common with others.
+    std::vector<ObjectStyleSpec> common = std::exchange(found_.object_styles, {});
+    for (const Value* value : top_.tables("style"))
+      found_.object_styles.push_back(read_object_style(reading_, sets_, *value));
+    std::ranges::move(common, std::back_inserter(found_.object_styles));
+    if (found_.object_styles.size() > drawing::kMostObjectStyles)
+      reading_.fault(top_.at(), "a sheet of more than 1000 styles", "keep those that are seen");
   }
 
-  void views_and_marks(SourcePosition at, const std::string& how_to_add_views) {
+  void views_and_marks() {
     arrangement();
     for (const Value* value : top_.tables("view")) view(*value);
     if (found_.views.size() > kMostViews)
@@ -136,7 +144,6 @@ class SheetParser {
     for (const Value* value : top_.tables("dimension")) notes.dimension(*value);
     for (std::size_t v = 0; v < found_.views.size(); ++v)
       notes.check_names(found_.views[v], places_[v]);
-    if (found_.views.empty()) reading_.fault(at, "the sheet has no views", how_to_add_views);
   }
 
   void fields() {
@@ -373,11 +380,11 @@ class SheetSetParser {
                      "make several files of it");
     std::vector<SheetSpec> found;
     for (const Value& value : sheets) {
-      TableReader table(reading_, value, "[[sheet]]");
-      const std::string name = name_of(table, found);
-      SheetParser parser(reading_, table, sets_, read_template_);
-      parser.begin_with(common);
-      found.push_back(parser.run_as(name));
+      found.push_back(sheet(value, common, found));
+      if (found.back().views.empty())
+        reading_.fault(value.at, "the sheet '" + found.back().name + "' has no views",
+                       "write arrangement = \"first-angle\" below its [[sheet]], or "
+                       "[[sheet.view]] tables");
     }
     for (std::size_t s = 0; s < found.size(); ++s) {
       found[s].number = s + 1;
@@ -395,6 +402,15 @@ class SheetSetParser {
         reading_.fault(value->at,
                        "'" + std::string(key) + "' stands beside [[sheet]], and belongs to one",
                        "write sheet." + std::string(key) + " below its [[sheet]]");
+  }
+
+  SheetSpec sheet(const Value& value, const SheetParser& common,
+                  const std::vector<SheetSpec>& before) {
+    TableReader table(reading_, value, "[[sheet]]");
+    const std::string name = name_of(table, before);
+    SheetParser parser(reading_, table, sets_, read_template_);
+    parser.begin_with(common);
+    return parser.run_as(name);
   }
 
   std::string name_of(TableReader& table, const std::vector<SheetSpec>& before) {
@@ -451,8 +467,10 @@ Result<std::vector<SheetSpec>> parse_sheet_specs(std::string_view text, std::str
   if (!document) return document.error();
   ParseContext reading{std::string(file)};
   std::vector<SheetSpec> found = read_document(reading, *document, read_template);
-  if (reading.good() && found.empty())
-    reading.fault({1, 1}, "the file has no sheets", "write [[sheet]] tables");
+  if (found.empty()) reading.fault({1, 1}, "the file has no sheets", "write [[sheet]] tables");
+  if (found.size() == 1 && found.front().name.empty() && found.front().views.empty())
+    reading.fault({1, 1}, "the sheet has no views",
+                  "write arrangement = \"first-angle\" at the top, or [[view]] tables");
   if (!reading.good()) return reading.error();
   return found;
 }

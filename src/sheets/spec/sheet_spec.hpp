@@ -14,6 +14,7 @@
 #include "settings/named_sets.hpp"
 #include "sheets/spec/template.hpp"
 #include "strake/drawing/centre_lines.hpp"
+#include "strake/drawing/object_styles.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/sheets/sheet_file.hpp"
@@ -146,6 +147,13 @@ struct StyleSpec {
   std::optional<model::Color> color;
 };
 
+/// How the lines of some objects are drawn.
+struct ObjectStyleSpec {
+  std::string where;
+  std::optional<settings::Chooser> select;
+  drawing::ObjectStyle style;
+};
+
 /// What a file says of one sheet.
 struct SheetSpec {
   std::string file;
@@ -173,6 +181,7 @@ struct SheetSpec {
   std::vector<RevisionSpec> revisions;
   std::vector<DimensionSpec> dimensions;
   std::array<StyleSpec, kLineClasses> styles;
+  std::vector<ObjectStyleSpec> object_styles;  ///< the first that picks an object holds for it
   bool split_hidden = false;  ///< what an object hides itself has a layer of its own
 };
 
