@@ -436,7 +436,7 @@ class Composer {
       for (std::size_t w = 0; w < sheet_.views.size(); ++w) {
         const ViewSpec& other = what_.views[w];
         if (w != v && !other.section_mark.empty())
-          cut[w] = mark_section(other, in, letters, marks) || cut[w];
+          cut[w] = mark_section(other, in, letters, sheet_.views[v].grid, marks) || cut[w];
       }
       for (std::size_t w = 0; w < sheet_.views.size(); ++w) {
         const ViewSpec& other = what_.views[w];

@@ -101,6 +101,7 @@ struct Text {
   Align align = Align::start;
   std::string text;
   bool clears = false;  ///< clears the paper behind it: lines end there
+  double turn_deg = 0;  ///< about `at`, against the clock: more than -90, at most 90
 };
 
 /// Lines and texts that are drawn beside the lines of the model.

@@ -18,11 +18,11 @@ void add_title(dxf::PaperSpace& paper, const NeutralDrawing& drawing) {
   const double right = sheet.width_mm - 10, base = sheet.height_mm - 6;
   const std::vector<PaperPoint> rule{{10, sheet.height_mm - 11}, {right, sheet.height_mm - 11}};
   paper.add_lines(dxf::kFrameOfDrawing, rule);
-  paper.add_text(dxf::kTitleOfDrawing, {10, base}, kTitleHeightMm, dxf::TextAlign::start,
+  paper.add_text(dxf::kTitleOfDrawing, {{10, base}, kTitleHeightMm, dxf::TextAlign::start},
                  drawing.title);
   // A view in perspective has no scale to measure by.
   if (!drawing.view.perspective)
-    paper.add_text(dxf::kTitleOfDrawing, {right, base}, kTitleHeightMm, dxf::TextAlign::end,
+    paper.add_text(dxf::kTitleOfDrawing, {{right, base}, kTitleHeightMm, dxf::TextAlign::end},
                    "scale " + sheet.scale_text);
 }
 

@@ -68,13 +68,13 @@ void append_ellipse(std::string& out, const EntityHead& head, const PaperPoint& 
       .number(42, to_rad);
 }
 
-void append_text(std::string& out, const EntityHead& head, const PaperPoint& at, double height,
-                 TextAlign align, std::string_view text) {
+void append_text(std::string& out, const EntityHead& head, const TextPlace& place,
+                 std::string_view text) {
+  const auto& [at, height, align, turn_deg] = place;
   Groups groups = begin(out, "TEXT", head, "AcDbText");
-  groups.point_in_space(10, at.x, at.y)
-      .number(40, height)
-      .text(1, shown_text(text))
-      .text(7, kTextStyle);
+  groups.point_in_space(10, at.x, at.y).number(40, height).text(1, shown_text(text));
+  if (turn_deg != 0) groups.number(50, turn_deg);
+  groups.text(7, kTextStyle);
   if (align != TextAlign::start)
     groups.whole(72, align == TextAlign::middle ? 1 : 2).point_in_space(11, at.x, at.y);
   groups.text(100, "AcDbText");
@@ -98,15 +98,15 @@ void append_filled(std::string& out, const EntityHead& head, std::span<const Pap
   groups.whole(97, 0).whole(75, 0).whole(76, 1).whole(98, 0);
 }
 
-void append_cover(std::string& out, const EntityHead& head, const PaperPoint& low,
-                  const PaperPoint& high) {
+void append_cover(std::string& out, const EntityHead& head, const CoverCorners& corners) {
+  const auto& [low, right, up] = corners;
   // An image of one dot, as large as the area and clipped by its own rim.
   constexpr int kShownClippedWithAll = 7;
   begin(out, "WIPEOUT", head, "AcDbWipeout")
       .whole(90, 0)
       .point_in_space(10, low.x, low.y)
-      .point_in_space(11, high.x - low.x, 0)
-      .point_in_space(12, 0, high.y - low.y)
+      .point_in_space(11, right.x - low.x, right.y - low.y)
+      .point_in_space(12, up.x - low.x, up.y - low.y)
       .point(13, 1, 1)
       .handle(340, 0)
       .whole(70, kShownClippedWithAll)

@@ -44,14 +44,17 @@ void PaperSpace::add_circle(std::size_t layer, const PaperPoint& centre, double 
   append_circle(text_, head(layer), up(centre), radius_mm);
 }
 
-void PaperSpace::add_text(std::size_t layer, const PaperPoint& at, double height_mm,
-                          TextAlign align, std::string_view text) {
+void PaperSpace::add_text(std::size_t layer, const TextPlace& place, std::string_view text) {
   // An audit throws texts of nothing away.
-  if (!text.empty()) append_text(text_, head(layer), up(at), height_mm, align, text);
+  if (text.empty()) return;
+  TextPlace there = place;
+  there.at = up(place.at);
+  append_text(text_, head(layer), there, text);
 }
 
-void PaperSpace::add_cover(std::size_t layer, const PaperFrame& area) {
-  append_cover(text_, head(layer), up({area.left, area.bottom}), up({area.right, area.top}));
+void PaperSpace::add_cover(std::size_t layer, const CoverCorners& corners) {
+  append_cover(text_, head(layer),
+               {up(corners.lower_left), up(corners.lower_right), up(corners.upper_left)});
 }
 
 EntityHead PaperSpace::head(std::size_t layer) {

@@ -27,11 +27,9 @@ class PaperSpace {
   void add_lines(std::size_t layer, std::span<const PaperPoint> points);
   void add_filled(std::size_t layer, std::span<const PaperPoint> points);
   void add_circle(std::size_t layer, const PaperPoint& centre, double radius_mm);
-  /// A text of a height of capitals, from a point of its base line.
-  void add_text(std::size_t layer, const PaperPoint& at, double height_mm, TextAlign align,
-                std::string_view text);
+  void add_text(std::size_t layer, const TextPlace& place, std::string_view text);
   /// Covers what was added before.
-  void add_cover(std::size_t layer, const PaperFrame& area);
+  void add_cover(std::size_t layer, const CoverCorners& corners);
 
   [[nodiscard]] const std::string& text() const { return text_; }
   /// The first handle that is free.

@@ -163,8 +163,8 @@ drawing::dxf::TextAlign dxf_align_of(Align align) {
 void add_dxf_marks(PaperSpace& paper, const Marks& marks) {
   for (const Text& text : marks.texts) {
     if (!text.clears) continue;
-    const PaperBox box = box_of(text);
-    paper.add_cover(dxf_layer_of(text.line), {box.left, box.top, box.right, box.bottom});
+    const std::array<PaperPoint, 4> corners = corners_of(text);
+    paper.add_cover(dxf_layer_of(text.line), {corners[0], corners[1], corners[3]});
   }
   for (const Path& path : marks.paths) {
     if (path.filled)
@@ -175,8 +175,8 @@ void add_dxf_marks(PaperSpace& paper, const Marks& marks) {
   for (const Circle& circle : marks.circles)
     paper.add_circle(dxf_layer_of(circle.line), circle.center, circle.radius_mm);
   for (const Text& text : marks.texts)
-    paper.add_text(dxf_layer_of(text.line), text.at, text.height_mm, dxf_align_of(text.align),
-                   text.text);
+    paper.add_text(dxf_layer_of(text.line),
+                   {text.at, text.height_mm, dxf_align_of(text.align), text.turn_deg}, text.text);
 }
 
 /// Gives layers of a sheet that look otherwise than those of their names before it the number of

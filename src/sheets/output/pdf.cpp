@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // PDF of sheets: a page for each, with the layers of its views and its marks.
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -94,7 +95,7 @@ class PageWriter {
 
   void append_marks(std::string& out, const Marks& marks) {
     for (const Text& text : marks.texts)
-      if (text.clears) append_cleared(out, box_of(text));
+      if (text.clears) append_cleared(out, corners_of(text));
     for (const Path& path : marks.paths) {
       const LineStyle& style = style_of(sheet_->styles, path.line);
       out += path.filled ? "q\n" + drawing::pdf_color(style.color) + "rg\n"
@@ -110,16 +111,13 @@ class PageWriter {
     for (const Text& text : marks.texts)
       document_.append_text(out, text.text,
                             {text.at, text.height_mm * kFontSize, anchor_of(text.align),
-                             style_of(sheet_->styles, text.line).color});
+                             style_of(sheet_->styles, text.line).color, text.turn_deg});
   }
 
-  static void append_cleared(std::string& out, const PaperBox& box) {
+  static void append_cleared(std::string& out, const std::array<PaperPoint, 4>& corners) {
+    const auto& [lower_left, lower_right, upper_right, upper_left] = corners;
     out += "1 g\n";
-    drawing::append_pdf_chain(out, {{box.left, box.top},
-                                    {box.right, box.top},
-                                    {box.right, box.bottom},
-                                    {box.left, box.bottom},
-                                    {box.left, box.top}});
+    drawing::append_pdf_chain(out, {upper_left, upper_right, lower_right, lower_left, upper_left});
     out += "f\n0 g\n";
   }
 

@@ -153,15 +153,22 @@ void write_metadata(BufferedWriter& out, const Sheet& sheet, const model::Model&
   out << "</sheet>\n</metadata>\n";
 }
 
+/// Returns the attribute that turns a text; SVG counts with the clock.
+std::string turn_of(const Text& text) {
+  if (text.turn_deg == 0) return {};
+  return fmt::format(" transform=\"rotate({} {} {})\"", shortest(-text.turn_deg),
+                     shortest(text.at.x), shortest(text.at.y));
+}
+
 void write_marks(BufferedWriter& out, const Marks& marks) {
   for (const Text& text : marks.texts) {
     if (!text.clears) continue;
-    const PaperBox box = box_of(text);
-    out << fmt::format("<rect class=\"paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n",
+    const PaperBox box = level_box_of(text);
+    out << fmt::format("<rect class=\"paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}/>\n",
                        shortest(drawing::rounded_paper(box.left)),
                        shortest(drawing::rounded_paper(box.top)),
                        shortest(drawing::rounded_paper(box.width())),
-                       shortest(drawing::rounded_paper(box.height())));
+                       shortest(drawing::rounded_paper(box.height())), turn_of(text));
   }
   for (const Path& path : marks.paths) {
     out << "<path class=\"" << class_name(path.line) << (path.filled ? " filled" : "") << "\" d=\"";
@@ -175,9 +182,9 @@ void write_marks(BufferedWriter& out, const Marks& marks) {
   constexpr std::array<std::string_view, 3> kAnchors{"", " text-anchor=\"middle\"",
                                                      " text-anchor=\"end\""};
   for (const Text& text : marks.texts)
-    out << fmt::format("<text class=\"{} {}\" x=\"{}\" y=\"{}\"{}>", class_name(text.line),
+    out << fmt::format("<text class=\"{} {}\" x=\"{}\" y=\"{}\"{}{}>", class_name(text.line),
                        height_class(text.height_mm), shortest(text.at.x), shortest(text.at.y),
-                       kAnchors.at(static_cast<std::size_t>(text.align)))
+                       kAnchors.at(static_cast<std::size_t>(text.align)), turn_of(text))
         << xml_escaped(text.text) << "</text>\n";
 }
 
