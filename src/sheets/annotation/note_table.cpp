@@ -7,9 +7,9 @@
 #include <map>
 #include <utility>
 
-#include "core/natural_order.hpp"
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/annotation/tags.hpp"
+#include "sheets/spec/natural_order.hpp"
 #include "sheets/spec/template.hpp"
 #include "sheets/spec/text_metrics.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/natural_order.hpp"
+#include "sheets/spec/natural_order.hpp"
 
 #include <algorithm>
 #include <cstddef>
 
-namespace strake {
+namespace strake::sheets {
 
 namespace {
 
@@ -45,4 +45,4 @@ bool natural_less(std::string_view a, std::string_view b) {
   return by_zeros < 0;
 }
 
-}  // namespace strake
+}  // namespace strake::sheets
