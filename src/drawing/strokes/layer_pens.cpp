@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drawing/strokes/layer_pens.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "drawing/ink/dash_fit.hpp"
 #include "drawing/ink/hidden_ink.hpp"
 
 namespace strake::drawing {
+
+namespace {
+
+/// Rounds to tenths of a micrometre of paper, which keeps numbers short.
+double in_whole_steps(double mm) { return std::round(mm * 1e4) / 1e4; }
+
+}  // namespace
 
 LinePen usual_pen(const Layer& layer, const Pens& pens) {
   const bool polyline = layer.kind == hlr::EdgeKind::polyline;
@@ -33,15 +40,15 @@ LinePen styled_pen(LinePen usual, const Layer& layer, const ObjectStyles& styles
   if (number == ObjectStyles::kPlain) return usual;
   const ObjectStyle& style = styles.all()[number - 1];
   const double wider = styles.widening(number, edge_mm);
-  usual.width_mm *= wider;
+  usual.width_mm = in_whole_steps(usual.width_mm * wider);
   if (style.color) usual.color = *style.color;
   if (!layer.hidden && layer.kind != hlr::EdgeKind::hatch && style.line) {
     usual.dash_mm = style.line->dashes;
     if (style.line->in_widths)
-      for (double& dash : usual.dash_mm) dash *= usual.width_mm;
+      for (double& dash : usual.dash_mm) dash = in_whole_steps(dash * usual.width_mm);
   } else {
     // Dashes are as long as the pen asks for.
-    for (double& dash : usual.dash_mm) dash *= wider;
+    for (double& dash : usual.dash_mm) dash = in_whole_steps(dash * wider);
   }
   return usual;
 }

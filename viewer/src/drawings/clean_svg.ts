@@ -46,8 +46,9 @@ export interface CleanDrawing {
 
 /** Reads a drawing, or returns undefined where it is no SVG. It gets a class of its own, for its rules. */
 export function cleanSvg(text: string, ownClass: string): CleanDrawing | undefined {
-  // Its style would not be taken either; this spares the browser a complaint that the page forbids it.
-  const parsed = new DOMParser().parseFromString(text.replace(/<style>[^<]*<\/style>/g, ''), 'image/svg+xml');
+  // Styles would not be taken either; this spares the browser a complaint about each that the page forbids it.
+  const plain = text.replace(/<style>[^<]*<\/style>/g, '').replace(/ style="stroke-dasharray:/g, ' data-dash="');
+  const parsed = new DOMParser().parseFromString(plain, 'image/svg+xml');
   const root = parsed.documentElement;
   if (root.localName !== 'svg' || root.namespaceURI !== SVG || parsed.querySelector('parsererror')) return undefined;
   const found: CleanDrawing = { svg: undefined as unknown as SVGSVGElement, layers: [], styles: new Map(), rules: styleRules(text, `.paper .${ownClass}`), objects: [] };
@@ -71,8 +72,8 @@ function taken(from: Element, found: CleanDrawing, depth: number, layers: number
     const value = from.getAttribute(attribute);
     if (value !== null && PLAIN_PAINT.test(value) && !/url/i.test(value)) element.setAttribute(attribute, value);
   }
-  // Dashes are fitted to each line, and stand in its style; all else of that is left.
-  const dashes = /^stroke-dasharray:([\d. ]+|none)$/.exec(from.getAttribute('style') ?? '')?.[1];
+  // Dashes are fitted to each line, and stand at it.
+  const dashes = /^([\d. ]+|none)$/.exec(from.getAttribute('data-dash') ?? '')?.[1];
   if (dashes !== undefined) element.style.strokeDasharray = dashes;
   if (name === 'g' && from.getAttributeNS(INKSCAPE, 'groupmode') === 'layer') {
     found.layers.push({ label: from.getAttributeNS(INKSCAPE, 'label') ?? from.id, group: element as SVGGElement, depth: layers });
