@@ -2,10 +2,20 @@
 #include "drawing/dxf/entities.hpp"
 
 #include "drawing/dxf/handles.hpp"
+#include "drawing/dxf/layer_style.hpp"
 
 namespace strake::drawing::dxf {
 
 namespace {
+
+void append_pen(Groups& groups, const EntityPen& pen) {
+  groups.whole(62, color_number(pen.color));
+  if (pen.width_mm > 0) groups.whole(370, line_weight(pen.width_mm));
+  // True black would not be seen on black: number 7 shows white there.
+  const std::int64_t color = std::int64_t{pen.color.red} * 0x10000 +
+                             std::int64_t{pen.color.green} * 0x100 + pen.color.blue;
+  if (color != 0) groups.whole(420, color);
+}
 
 Groups begin(std::string& out, std::string_view type, const EntityHead& head,
              std::string_view subclass) {
@@ -20,6 +30,7 @@ Groups begin(std::string& out, std::string_view type, const EntityHead& head,
     groups.text(6, "Continuous");
   else if (head.dash_stretch != 1)
     groups.number(48, head.dash_stretch);
+  if (head.pen) append_pen(groups, *head.pen);
   return groups.text(100, subclass);
 }
 

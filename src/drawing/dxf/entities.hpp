@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,6 +16,12 @@ namespace strake::drawing::dxf {
 /// The space that an entity lies in. Here y points up.
 enum class Space : std::uint8_t { model, paper };
 
+/// A colour and a width that are not those of the layer.
+struct EntityPen {
+  model::Color color;
+  double width_mm = 0;  ///< 0: that of the layer
+};
+
 /// What every entity says first.
 struct EntityHead {
   Space space = Space::model;
@@ -22,6 +29,7 @@ struct EntityHead {
   std::string_view layer;
   double dash_stretch = 1;  ///< factor of the layer's dashes; 0: continuous
   Handle paper = 0;         ///< the block of the layout that it lies on; 0: the first
+  std::optional<EntityPen> pen = std::nullopt;  ///< none: as its layer
 };
 
 void append_line(std::string& out, const EntityHead& head, const PaperPoint& a,

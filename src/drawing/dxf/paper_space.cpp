@@ -58,7 +58,7 @@ void PaperSpace::add_cover(std::size_t layer, const CoverCorners& corners) {
 }
 
 EntityHead PaperSpace::head(std::size_t layer) {
-  return {Space::paper, next_++, layers_[layer].name, 1, block_};
+  return {Space::paper, next_++, layers_[layer].name, 1, block_, pen_};
 }
 
 PaperPoint PaperSpace::up(const PaperPoint& p) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,9 @@ class PaperSpace {
   /// `block` is that of its layout; handles of entities count from `first`, the paper itself.
   PaperSpace(const PaperSize& size, std::span<const LayerStyle> layers, std::size_t viewport_layer,
              Handle block, Handle first);
+
+  /// Gives what is added from now on a pen of its own; none: that of its layer.
+  void use_pen(std::optional<EntityPen> pen) { pen_ = pen; }
 
   void add_viewport(const PaperFrame& window, const PaperPoint& looks_at, double scale);
   /// Points joined by straight lines; closed when the last is the first.
@@ -47,6 +51,7 @@ class PaperSpace {
   std::string text_;
   Handle next_;
   int viewports_ = 1;
+  std::optional<EntityPen> pen_;
 };
 
 }  // namespace strake::drawing::dxf

@@ -17,6 +17,7 @@
 #include "drawing/dxf/layer_style.hpp"
 #include "drawing/dxf/paper_space.hpp"
 #include "drawing/dxf/sheet_file.hpp"
+#include "sheets/output/artwork/dxf_artwork.hpp"
 #include "sheets/output/line_styles.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/sheets/write.hpp"
@@ -247,8 +248,12 @@ Result<Diagnostics> write_dxf(std::span<const Sheet> sheets, const model::Model&
     for (const PlacedView& view : sheet.views) layout.views.push_back({view.drawing, view.ink});
     file.sheets.push_back(std::move(layout));
   }
+  Diagnostics noticed;
+  Status drawn;
   const auto add_all_marks = [&](std::size_t number, PaperSpace& paper) {
     const Sheet& sheet = sheets[number];
+    if (sheet.artwork && drawn)
+      drawn = add_dxf_artwork(paper, dxf_layer_of(LineClass::frame), sheet, noticed);
     add_dxf_marks(paper, sheet.frame);
     add_dxf_marks(paper, sheet.notes);
     for (const PlacedView& view : sheet.views)
@@ -257,10 +262,7 @@ Result<Diagnostics> write_dxf(std::span<const Sheet> sheets, const model::Model&
   };
   const Status status = write_sheet_file(file, add_all_marks, model, sink, context);
   if (!status) return status.error();
-  Diagnostics noticed;
-  if (std::ranges::any_of(sheets, [](const Sheet& sheet) { return sheet.artwork.has_value(); }))
-    noticed.add(Severity::warning, "template-left-out",
-                "the DXF has the sheet without its template, which is SVG", "the template");
+  if (!drawn) return drawn.error();
   return noticed;
 }
 
