@@ -9,6 +9,8 @@
 #include "core/units.hpp"
 #include "drawing/ink/hidden_ink.hpp"
 
+// Decision 0102 says why styles are ink, and whose style a line has that several objects share.
+
 namespace strake::drawing {
 
 namespace {

@@ -174,6 +174,30 @@ class SheetSet(Scenario):
         self.assertEqual(done.returncode, 2)
         self.assertIn('--style', done.stderr)
 
+    def test_a_template_is_drawn_in_a_layout(self):
+        self.models()
+        self.write('f.svg', '<svg width="210mm" height="297mm" viewBox="0 0 210 297">'
+                            '<rect x="5" y="5" width="200" height="287" fill="none" stroke="#c00000" stroke-width="0.7"/>'
+                            '<g transform="translate(20 250)"><circle cx="10" cy="10" r="8" fill="none" stroke="#000"/>'
+                            '<text x="100" y="20" font-size="7" text-anchor="middle">{{number}}</text></g>'
+                            '<path d="M20 280h20v5h-20z" fill="#0000c0"/><image href="data:image/png;base64,AA==" width="5" height="5"/></svg>')
+        self.write('t.toml', '[sheet]\ntemplate = "f.svg"\n[fields]\nnumber = "N-100%"\n[[view]]\nname = "v"\ndirection = "top"\n')
+        done = self.draw('t.dxf', sheet='t.toml')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r'template-part-left-out.*the DXF has the template without this: <image>')
+        document, faults = read(self.folder / 't.dxf')
+        self.assertEqual(faults, [])
+        layout = document.layouts.get('Sheet')
+        border = next(entity for entity in layout.query('LWPOLYLINE') if entity.dxf.layer == 'AM_BOR' and entity.rgb == (0xc0, 0, 0))
+        self.assertEqual(border.dxf.lineweight, 70)
+        self.assertEqual([tuple(round(v, 3) for v in p[:2]) for p in border.get_points()][:3], [(5, 292), (205, 292), (205, 5)])
+        text = next(text for text in layout.query('TEXT') if 'N-100' in text.dxf.text)
+        self.assertEqual((round(text.dxf.align_point.x, 3), round(text.dxf.align_point.y, 3), text.dxf.height, text.dxf.halign), (120, 27, 5, 1))
+        hatch = next(iter(layout.query('HATCH')))
+        self.assertEqual(hatch.rgb, (0, 0, 0xc0))
+        circle = [entity for entity in layout.query('LWPOLYLINE') if len(entity) > 20]
+        self.assertTrue(any(all(abs(((p[0] - 30) ** 2 + (p[1] - 37) ** 2) ** 0.5 - 8) < 0.01 for p in entity.get_points()) for entity in circle))
+
     def test_what_is_wrong_is_told(self):
         self.models()
         done = self.draw('s.svg')
