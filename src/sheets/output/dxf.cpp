@@ -155,12 +155,6 @@ static_assert([] {
   return true;
 }());
 
-drawing::dxf::TextAlign dxf_align_of(Align align) {
-  return align == Align::start    ? drawing::dxf::TextAlign::start
-         : align == Align::middle ? drawing::dxf::TextAlign::middle
-                                  : drawing::dxf::TextAlign::end;
-}
-
 void add_dxf_marks(PaperSpace& paper, const Marks& marks) {
   for (const Text& text : marks.texts) {
     if (!text.clears) continue;

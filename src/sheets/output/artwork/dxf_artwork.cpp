@@ -22,7 +22,7 @@ namespace {
 using Outline = std::vector<PaperPoint>;
 
 /// Reads a path of PDF back as straight lines.
-class PathReader {
+class OutlineReader {
  public:
   std::vector<Outline> read(std::string_view operators) {
     while (!operators.empty()) {
@@ -82,12 +82,6 @@ class PathReader {
   std::vector<Outline> outlines_;
 };
 
-drawing::dxf::TextAlign dxf_anchor(Align align) {
-  return align == Align::start    ? drawing::dxf::TextAlign::start
-         : align == Align::middle ? drawing::dxf::TextAlign::middle
-                                  : drawing::dxf::TextAlign::end;
-}
-
 class DxfCanvas final : public ArtworkCanvas {
  public:
   DxfCanvas(drawing::dxf::PaperSpace& paper, std::size_t layer) : paper_(paper), layer_(layer) {}
@@ -101,7 +95,7 @@ class DxfCanvas final : public ArtworkCanvas {
 
   void paint(const PathBuilder& path, const SvgStyle& style, double scale,
              TellStyle tell) override {
-    const std::vector<Outline> outlines = PathReader().read(path.operators());
+    const std::vector<Outline> outlines = OutlineReader().read(path.operators());
     if (style.fill && path.has_inside()) {
       if (outlines.size() > 1) tell("what lies within filled paths");
       paper_.use_pen({{*style.fill, 0}});
@@ -125,7 +119,7 @@ class DxfCanvas final : public ArtworkCanvas {
     paper_.use_pen({{*text.style.fill, 0}});
     paper_.add_text(layer_,
                     {m(share * text.width, 0), std::round(size / kFontSize * 1e3) / 1e3,
-                     dxf_anchor(align), std::round(turn * 1e6) / 1e6 + 0.0},
+                     dxf_align_of(align), std::round(turn * 1e6) / 1e6 + 0.0},
                     text.text);
     paper_.use_pen({});
   }
@@ -137,6 +131,12 @@ class DxfCanvas final : public ArtworkCanvas {
 };
 
 }  // namespace
+
+drawing::dxf::TextAlign dxf_align_of(Align align) {
+  return align == Align::start    ? drawing::dxf::TextAlign::start
+         : align == Align::middle ? drawing::dxf::TextAlign::middle
+                                  : drawing::dxf::TextAlign::end;
+}
 
 Status add_dxf_artwork(drawing::dxf::PaperSpace& paper, std::size_t layer, const Sheet& sheet,
                        Diagnostics& diagnostics) {

@@ -11,6 +11,8 @@
 
 namespace strake::sheets {
 
+[[nodiscard]] drawing::dxf::TextAlign dxf_align_of(Align align);
+
 /// Adds a template to the paper, on one layer: lines, shapes and paths as polylines, curves within
 /// 0.01 mm, filled shapes without what lies within them, texts. Pens and colours are those of the
 /// template, each at its entity. Adds "template-part-left-out" for each kind of thing that is not
