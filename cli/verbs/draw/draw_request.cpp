@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/run/object_selection.hpp"
+#include "cli/verbs/draw/styles/style_option.hpp"
 #include "core/output_format.hpp"
 #include "core/units.hpp"
 #include "drawing/drawing_writers.hpp"
@@ -218,6 +219,7 @@ Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool 
   if (!hatches) return hatches.error();
   if (const auto centre_lines = centre_line_options(given); !centre_lines)
     return centre_lines.error();
+  if (const auto styles = parse_styles(given.styles); !styles) return styles.error();
   return DrawRequest{*scene,
                      *view,
                      *options,

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
+#include "strake/drawing/object_styles.hpp"
 #include "strake/parallel/context.hpp"
 
 namespace strake::drawing {
@@ -30,6 +32,7 @@ struct InkOptions {
   /// their own.
   bool split_hidden = false;
   std::optional<Pens> pens = std::nullopt;  ///< none: chosen by the density of the drawing
+  std::shared_ptr<const ObjectStyles> styles = nullptr;  ///< null: all objects look alike
 };
 
 /// A centre line on paper: straight from point to point.
@@ -46,6 +49,7 @@ struct Ink {
   std::uint64_t left_out = 0;            ///< hidden lines that were left out in part or wholly
   std::vector<CentreLine> centre_lines;  ///< those of find_centre_lines(), where they are wanted
   bool split_hidden = false;  ///< as InkOptions has it; the states of the lines tell which is which
+  std::shared_ptr<const ObjectStyles> styles = nullptr;  ///< null: all objects look alike
 };
 
 /// Returns the pens for a drawing: the widest group that suits the sheet's size, or a narrower one

@@ -85,12 +85,19 @@ bool is_large(const Sheet& sheet) {
   return std::max(sheet.width_mm, sheet.height_mm) > kA2LongerSideMm;
 }
 
-double width_of(const Line& line, const Pens& pens) {
+/// Returns the width of a line as it is of objects without a style.
+double usual_width(const Line& line, const Pens& pens) {
   if (line.state != LineState::visible || line.kind == hlr::EdgeKind::polyline ||
       line.kind == hlr::EdgeKind::hatch || line.kind == hlr::EdgeKind::smooth)
     return pens.thin;
   if (line.kind == hlr::EdgeKind::section) return pens.section;
   return line.kind == hlr::EdgeKind::contour ? pens.outline : pens.edge;
+}
+
+double width_of(const Line& line, const Ink& ink) {
+  const double width = usual_width(line, ink.pens);
+  if (ink.styles == nullptr) return width;
+  return width * ink.styles->widening(ink.styles->number_of(line), ink.pens.edge);
 }
 
 /// Returns whether a line may be dashed. Dashed hatching would suggest a cut hidden face, and a
@@ -141,14 +148,14 @@ class OnPaper {
   Vec3d origin_;
 };
 
-std::vector<PlaneSegment> flatten(const std::vector<Line>& lines, const OnPaper& on_paper,
-                                  const Pens& pens, double touch) {
+std::vector<PlaneSegment> flatten(const Ink& ink, const OnPaper& on_paper, double touch) {
+  const std::vector<Line>& lines = ink.lines;
   std::vector<PlaneSegment> flat(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Line& line = lines[i];
     PlaneSegment& f = flat[i];
     f = on_paper(line);
-    f.reach = (width_of(line, pens) + touch) / 2;
+    f.reach = (width_of(line, ink) + touch) / 2;
     if (is_hidden(line.state))
       f.rank = Rank::hidden;
     else if (f.length() > 0)
@@ -214,7 +221,7 @@ Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
                           .hidden_covers = false,
                           .shortest = kDashGap * thin + touch};
   const OnPaper on_paper(ink.lines, axes, scale);
-  const std::vector<PlaneSegment> flat = flatten(ink.lines, on_paper, ink.pens, touch);
+  const std::vector<PlaneSegment> flat = flatten(ink, on_paper, touch);
   const auto overlaps = cut_overlaps(flat, along, context);
   if (!overlaps) return overlaps.error();
   const auto kept =
@@ -258,7 +265,8 @@ Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
   Ink ink{.pens = options.pens ? *options.pens : choose_pens(drawing),
           .lines = {},
           .centre_lines = {},
-          .split_hidden = options.split_hidden};
+          .split_hidden = options.split_hidden,
+          .styles = options.styles};
   for (const Line& line : drawing.lines)
     if (line.state == LineState::visible || (options.hidden && may_be_dashed(line)))
       ink.lines.push_back(line);
