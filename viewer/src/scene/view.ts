@@ -2,7 +2,7 @@
 // The 3D view. A picture is drawn when something changes, and in pieces: the two objects of the clash and what is near
 // first, within a frame, and then the rest as long as nothing moves. So it answers at once however large the model is.
 import {
-  Box3, BufferAttribute, BufferGeometry, Color, ColorManagement, EdgesGeometry, Frustum, LineSegments, Matrix4, Mesh, type Object3D, type PerspectiveCamera,
+  Box3, BufferAttribute, BufferGeometry, Color, ColorManagement, Frustum, LineSegments, Matrix4, Mesh, type Object3D, type PerspectiveCamera,
   Scene, type ShaderMaterial, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
@@ -11,6 +11,7 @@ import type { Model } from '../payload/payload.ts';
 import { type Batch, distanceTo, makeBatches } from './batches.ts';
 import { distanceFor, distanceForBox, LOOKS, makeCamera, setDepth, type Side } from './camera.ts';
 import { type BatchMaterials, GpuBatches } from './gpu_batches.ts';
+import { sharpEdges } from './edges.ts';
 import { type Items, isLine, itemsOf, linePieces, makeItems, meshOf, objectBox, type Vec } from './items.ts';
 import { Marks } from './marks.ts';
 import { makeMaterial, NOTHING, ObjectColours, type SharedUniforms } from './materials.ts';
@@ -45,6 +46,8 @@ const COLOUR_SECTION = 0x8a63d2;
 
 const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
 const FAR = 1e12;
+// Of finer objects the outline takes longer than a click may, and shows less.
+const MOST_OUTLINED = 60000;
 // A line is thinner than a finger.
 const PIXELS_BESIDE = 5;
 
@@ -343,8 +346,10 @@ export class View {
       const behind = new Mesh(geometry, paint.behind);
       behind.frustumCulled = false;
       this.hiddenPair.add(behind);
-      if (mesh.index.length < 60000) {
-        const rim = new LineSegments(new EdgesGeometry(geometry, 30), paint.rim);
+      if (mesh.index.length < MOST_OUTLINED) {
+        const outline = new BufferGeometry();
+        outline.setAttribute('position', new BufferAttribute(sharpEdges(mesh, 30), 3));
+        const rim = new LineSegments(outline, paint.rim);
         rim.frustumCulled = false;
         this.pair.add(rim);
       }

@@ -89,7 +89,7 @@ test('every limit of the list limits groups, which count what it leaves', () => 
     const f = noFilter();
     change(f);
     assert.equal(isUnlimited(f), false, name);
-    const listed = [...rows.filter(f)];
+    const listed = Array.from(rows.filter(f));
     const { list, counts } = filterGroups(rows, f);
     const members = Array.from({ length: 7 }, (_, g) => listed.filter((i) => group![i] === g));
     assert.deepEqual([...list], members.flatMap((m, g) => (m.length > 0 ? [g] : [])), name);
@@ -123,7 +123,7 @@ test('a search finds groups by their names, with all their results, and by names
   assert.equal(counts.results[3], r.groups!.results[3]);
   const object = r.objects!.id.at(150);
   const found = filterGroups(rows, { ...noFilter(), text: object });
-  const expected = new Set([...rows.filter({ ...noFilter(), text: object })].map((i) => r.results!.group![i]!).filter((g) => g < 7));
+  const expected = new Set(Array.from(rows.filter({ ...noFilter(), text: object })).map((i) => r.results!.group![i]!).filter((g) => g < 7));
   assert.deepEqual([...found.list], [...expected].sort((p, q) => p - q));
   const hits = sortGroups(r, list, counts, 'hits', true);
   for (let i = 1; i < hits.length; ++i) assert.ok(counts.hits[hits[i - 1]!]! >= counts.hits[hits[i]!]!);
