@@ -112,7 +112,7 @@ export class App {
     const chosen = this.place === 'list' && this.row !== undefined
       ? h('div', { class: 'print-chosen' }, this.scene.print(), resultDetails(this.report, this.row, this.detailEvents()))
       : undefined;
-    fill(this.printed, drawing ?? printSheet(this.report, this.list?.shown ?? new Uint32Array(0), chosen));
+    fill(this.printed, drawing ?? printSheet(this.report, this.list?.listed ?? { rows: new Uint32Array(0), groups: undefined }, chosen));
   }
 
   private go(place: Place): void {

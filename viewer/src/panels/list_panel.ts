@@ -8,6 +8,7 @@ import { NONE8 } from '../payload/payload.ts';
 import { classCell, type Column, ResultTable } from '../table/result_table.ts';
 import { classMark, fill, h, shortName, toggle, wrappedName } from '../ui/dom.ts';
 import { FurtherLimits } from './further_limits.ts';
+import type { Listed } from './print_sheet.ts';
 
 export interface ListEvents {
   chosen(row: number): void;
@@ -107,8 +108,9 @@ export class ListPanel {
     else this.say(rows.length, this.report.head.counts.results, 'result');
   }
 
-  get shown(): Uint32Array {
-    return this.table.shown;
+  /** What is listed now. */
+  get listed(): Listed {
+    return { rows: this.table.shown, groups: this.groupsShown ? { list: this.groupTable!.shown, counts: this.groupCounts! } : undefined };
   }
 
   choose(row: number): void {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sharp edges of a mesh, for the outlines of the two objects of a clash. A click waits for them, so they are found by
-// tables of numbers: three's own EdgesGeometry makes three texts of each corner, which takes thirty times as long.
+// tables of numbers: three's own EdgesGeometry makes three texts of each corner, which takes ten times as long.
 import type { Mesh } from './items.ts';
 
 /** A table that numbers what it is asked for: 32-bit words, a few for each entry. */

@@ -357,6 +357,18 @@ test('what is printed has the rows of the list', async () => {
   await page.context().close();
 });
 
+test('groups are printed where groups are listed', async () => {
+  const { page } = await openPage(browser, url);
+  await page.click('#tab-list');
+  await page.click('.segments >> text=Groups');
+  await page.click('.filters >> text=Hits');
+  const listed = Number(/^\d+/.exec((await page.textContent('.counted'))!)![0]);
+  await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
+  assert.equal(await page.locator('.print-sheet tbody tr').count(), listed);
+  assert.equal(await page.textContent('.print-sheet tbody tr:first-child td:nth-child(4)'), await page.textContent('#groups-row-0 [aria-colindex="4"]'));
+  await page.context().close();
+});
+
 test('a drawing that is looked at is printed, and a chosen clash before the list', async () => {
   const { page } = await openPage(browser, url);
   const print = (): Promise<boolean> => page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
