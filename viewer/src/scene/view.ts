@@ -46,6 +46,8 @@ const COLOUR_SECTION = 0x8a63d2;
 
 const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
 const FAR = 1e12;
+// How long the rest of a picture waits in software.
+const BREATH_MS = 120;
 // Of finer objects the outline takes longer than a click may, and shows less.
 const MOST_OUTLINED = 60000;
 // A line is thinner than a finger.
@@ -82,6 +84,8 @@ export class View {
   private width = 1;
   private height = 1;
   private scheduled = false;
+  private pause: ReturnType<typeof setTimeout> | undefined;
+  private fence: WebGLSync | undefined;
   private moving = false;
   /** triangles of the others in the first piece of a picture, while it is turned, and in each that follows */
   private readonly budgets: { first: number; moving: number; next: number };
@@ -115,7 +119,7 @@ export class View {
     this.renderer.autoClear = false;
     // Asking whether a program was compiled waits until it is; the tests read pixels instead.
     this.renderer.debug.checkShaderErrors = false;
-    this.budgets = this.software ? { first: 0, moving: 6000, next: 12000 } : { first: 1000000, moving: 1000000, next: 1500000 };
+    this.budgets = this.software ? { first: 0, moving: 6000, next: 30000 } : { first: 1000000, moving: 1000000, next: 1500000 };
     this.origin = head.origin_mm;
     this.items = makeItems(model, head, objects);
     this.batches = makeBatches(this.items);
@@ -308,14 +312,14 @@ export class View {
 
   redraw(): void {
     this.dirty = true;
-    if (this.scheduled) return;
-    this.scheduled = true;
-    requestAnimationFrame(() => this.frame());
+    clearTimeout(this.pause);
+    this.pause = undefined;
+    this.schedule();
   }
 
   /** Whether everything in view has been drawn. */
   get settled(): boolean {
-    return !this.scheduled && this.queue.length === 0;
+    return !this.scheduled && this.pause === undefined && this.queue.length === 0;
   }
 
   private local(point: Vec): Vec {
@@ -438,19 +442,41 @@ export class View {
     this.redraw();
   }
 
+  private schedule(): void {
+    if (this.scheduled) return;
+    this.scheduled = true;
+    requestAnimationFrame(() => this.frame());
+  }
+
   /** Draws a picture anew, or goes on with one. */
   private frame(): void {
     this.scheduled = false;
-    if (this.dirty) {
+    const anew = this.dirty;
+    if (anew) {
       this.dirty = false;
       this.begin();
     }
-    this.piece();
+    if (anew || !this.busy()) this.piece();
     if (this.queue.length > 0 && !this.moving) {
-      this.scheduled = true;
-      requestAnimationFrame(() => this.frame());
+      if (anew && this.software) this.pause = setTimeout(() => this.goOn(), BREATH_MS);
+      else this.schedule();
     }
     this.events.drawn();
+  }
+
+  private goOn(): void {
+    this.pause = undefined;
+    this.schedule();
+  }
+
+  /** Whether the last piece is still being drawn. */
+  private busy(): boolean {
+    if (!this.fence) return false;
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    if (!gl.isContextLost() && gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED) return true;
+    gl.deleteSync(this.fence);
+    this.fence = undefined;
+    return false;
   }
 
   private begin(): void {
@@ -460,7 +486,7 @@ export class View {
     this.renderer.clear();
     // Ghosts are of use near what one looks at; those of a whole ship are a fog.
     const across = this.camera.position.distanceTo(this.controls.target) * Math.tan((this.camera.fov * Math.PI) / 360);
-    this.shared.fade.value = Math.max(1200, 2 * across);
+    this.shared.fade.value = this.software ? Math.max(800, 1.3 * across) : Math.max(1200, 2 * across);
     this.shared.focus.value.set(...(this.focus ?? (this.controls.target.toArray() as Vec)));
     this.renderer.render(this.pair, this.camera);
     this.queue = this.others_ === 'hide' && this.highlighted.length > 0 ? [] : this.inView();
@@ -514,6 +540,11 @@ export class View {
     if (this.queue.length === 0 || this.ghostly) this.renderer.render(this.hiddenPair, this.camera);
     this.marks.size(this.camera, this.height);
     this.renderer.render(this.marks.scene, this.camera);
+    if (!this.software) return;
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    gl.deleteSync(this.fence ?? null);
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0) ?? undefined;
+    gl.flush();
   }
 
   private listen(): void {
