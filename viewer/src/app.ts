@@ -56,8 +56,8 @@ export class App {
   start(): void {
     this.list?.update();
     this.tellNothing();
-    const drawingFirst = !this.list && this.drawings;
-    if (!this.followAddress()) this.go(drawingFirst ? 'drawings' : this.list ? 'overview' : 'list');
+    const { clash, scene } = this.report.head;
+    if (!this.followAddress()) this.go(clash ? 'overview' : this.drawings ? 'drawings' : scene ? 'list' : 'overview');
     void this.scene.open();
   }
 
@@ -176,7 +176,7 @@ export class App {
   }
 
   private tellNothing(): void {
-    fill(this.details, h('p', { class: 'hint' }, this.list ? 'Choose a clash in the list, or an object in the model.' : 'Choose an object.'));
+    fill(this.details, h('p', { class: 'hint' }, `Choose ${[this.list && 'a clash in the list', this.report.head.scene && 'an object in the model', this.drawings && 'an object in a drawing'].filter(Boolean).join(', or ')}.`));
   }
 
   private detailEvents(object?: number): DetailEvents {

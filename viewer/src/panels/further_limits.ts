@@ -39,7 +39,7 @@ export class FurtherLimits {
     if (tests.length > 1) this.test = select('Test', tests.map((t) => t.name), (value) => set((f) => (f.test = value)));
     this.element = h('details', { class: 'further' }, h('summary', {}, 'More limits'), h('div', { class: 'further-fields' },
       this.names.length > 1 && h('span', {}, 'Between ', this.sides[0]!, ' and ', this.sides[1]!),
-      h('span', { title: 'Less than 0 is how deep they are in each other' }, 'd from ', this.depths[0]!, ' to ', this.depths[1]!, ' mm'),
+      h('span', {}, 'd from ', this.depths[0]!, ' to ', this.depths[1]!, ' mm ', h('span', { class: 'hint' }, '(less than 0: how deep in each other)')),
       this.test && h('span', {}, 'Test ', this.test)));
   }
 

@@ -85,7 +85,7 @@ export class ListPanel {
     this.further.tell(this.filter);
     this.makeBar();
     fill(this.holder, this.table.element);
-    this.element = h('div', { class: 'list' }, h('div', { class: 'list-head' }, this.search, this.bar, this.further.element, this.pills, this.counted), this.holder);
+    this.element = h('div', { class: 'list' }, h('div', { class: 'list-head' }, this.search, this.bar, this.pills, h('div', { class: 'list-foot' }, this.counted, this.further.element)), this.holder);
   }
 
   /** Limits the list, and shows it. */

@@ -129,7 +129,8 @@ function matrix(report: Report, events: OverviewEvents): HTMLElement | undefined
   const byDiscipline = hasDisciplines(report);
   const { names, counts } = matrixCounts(report, byDiscipline);
   const used = names.map((_, i) => i).filter((i) => names.some((__, j) => [0, 1, 2].some((c) => counts[3 * (Math.min(i, j) * names.length + Math.max(i, j)) + c]! > 0)));
-  if (used.length === 0 || used.length > 40) return undefined;
+  // A single one says nothing that the figures do not say.
+  if (used.length < 2 || used.length > 40) return undefined;
   const at = (i: number, j: number, cls: number): number => counts[3 * (Math.min(i, j) * names.length + Math.max(i, j)) + cls]!;
   const most = Math.max(1, ...used.flatMap((i) => used.map((j) => at(i, j, 0))));
   const cell = (i: number, j: number): HTMLElement => {

@@ -40,8 +40,8 @@ export class ScenePanel {
   private readonly told = h('div', { class: 'stage-note', role: 'status' });
   private readonly legend = h('div', { class: 'legend-pair', hidden: true });
   private readonly measured = h('div', { class: 'measure', role: 'status', hidden: true });
-  private readonly sectionSize = h('input', { type: 'range', min: 0, max: 100, value: 45, 'aria-label': 'Size of the section box' });
-  private readonly sectionTools = h('span', { class: 'section-tools', hidden: true }, this.sectionSize);
+  private readonly sectionSize = h('input', { type: 'range', min: 0, max: 100, value: 45 });
+  private readonly sectionTools = h('label', { class: 'section-tools', hidden: true }, 'Size of the box ', this.sectionSize);
   private sectionButton: HTMLButtonElement | undefined;
   private measureButton: HTMLButtonElement | undefined;
   private othersButtons: HTMLButtonElement[] = [];
@@ -53,7 +53,7 @@ export class ScenePanel {
     private readonly report: Report,
     private readonly events: SceneEvents,
   ) {
-    this.stage.append(this.canvas, this.cross, this.label, this.legend, this.measured, this.told, this.said);
+    this.stage.append(this.canvas, this.cross, this.label, this.legend, this.sectionTools, this.measured, this.told, this.said);
     this.element.append(this.tools(), this.stage);
     this.sectionSize.addEventListener('input', () => this.placeSection());
     this.canvas.addEventListener('keydown', (event) => this.key(event));
@@ -198,7 +198,6 @@ export class ScenePanel {
       h('span', { class: 'gap' }),
       h('div', { class: 'segments', role: 'group', 'aria-label': 'Other objects', title: 'Other objects (G)' }, ...this.othersButtons),
       this.sectionButton,
-      this.sectionTools,
       this.measureButton,
     );
   }
