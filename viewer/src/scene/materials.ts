@@ -150,7 +150,7 @@ export function makeMaterial(shared: SharedUniforms, options: MaterialOptions): 
       focus: shared.focus,
       fade: shared.fade,
       // A line in a pipe covers next to nothing of it, and has to be seen.
-      opacity: { value: options.ghost ? 0.08 : options.behind && !options.lines ? 0.4 : 1 },
+      opacity: { value: options.ghost ? 0.08 : options.behind && !options.lines ? 0.65 : 1 },
       tint: { value: new Color(options.colour ?? 0x888888) },
       tinted: { value: options.ghost ? 1 : 0 },
     },
