@@ -81,6 +81,7 @@ export class View {
   private readonly paints = new Map<number, Paint>();
   private queue: Batch[] = [];
   private dirty = false;
+  private visible = false;
   private width = 1;
   private height = 1;
   private scheduled = false;
@@ -434,7 +435,8 @@ export class View {
 
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement!;
-    if (width === 0 || height === 0) return;
+    this.visible = width > 0 && height > 0;
+    if (!this.visible) return;
     // Asking the page for it while a picture is made would have it laid out each time.
     [this.width, this.height] = [width, height];
     this.renderer.setSize(width, height, false);
@@ -451,6 +453,8 @@ export class View {
   /** Draws a picture anew, or goes on with one. */
   private frame(): void {
     this.scheduled = false;
+    // Nobody looks: the picture is made when the panel is shown, which tells its size.
+    if (!this.visible) return;
     const anew = this.dirty;
     if (anew) {
       this.dirty = false;
