@@ -127,20 +127,38 @@ ClashResultInput grouping_of_run(const project::LastRun& run) {
   return input;
 }
 
+/// Why the page cannot show the model beside the results; empty where it can.
+page::WithoutModel why_without_model(const ProjectFacts& facts, const Result<Loaded>& loaded,
+                                     const std::string& project) {
+  if (!loaded)
+    return {"The model cannot be read: " + project + " " + loaded.error().message + ".",
+            "What helps: " + loaded.error().mend + ". Then write this report once more."};
+  if (facts.run.findings.tests.empty() || has_same_objects(facts.run.model, *loaded->model))
+    return {};
+  return {
+      "The model changed after these results were found, so it is not shown beside them.",
+      "'strake clash -p " + project + "' tests it as it is now; then write this report once more."};
+}
+
 Status write_project_page(Session& session, const ReportOptions& given, const OpenedProject& opened,
-                          const Loaded& loaded, ProjectFacts& facts) {
+                          const Result<Loaded>& loaded, ProjectFacts& facts) {
   const project::LastRun& run = facts.run;
   const bool has_results = !run.findings.tests.empty();
-  const bool is_as_tested = !has_results || has_same_objects(run.model, *loaded.model);
-  if (!is_as_tested)
+  page::WithoutModel without =
+      why_without_model(facts, loaded, opened.project.path().filename().string());
+  const bool is_as_tested = without.why.empty();
+  if (!loaded)
+    session.console().warn(
+        fmt::format("the page has no model, which cannot be read: {}", loaded.error().text()));
+  else if (!is_as_tested)
     session.console().warn(
         "the model changed since the last run: the page has its results without the model "
         "('strake clash -p' tests what there is now)");
-  const model::Model& model = is_as_tested ? *loaded.model : run.model;
+  const model::Model& model = is_as_tested ? *loaded->model : run.model;
   const Result<std::optional<clash::Grouping>> grouping =
       group(session, grouping_of_run(run), run.findings, model, &facts.decisions.decided);
   if (!grouping) return grouping.error();
-  const Diagnostics loading = loaded.diagnostics();
+  const Diagnostics loading = is_as_tested ? loaded->diagnostics() : Diagnostics();
   const report::ClashContents clash{run.findings,
                                     model,
                                     *grouping ? &**grouping : nullptr,
@@ -158,8 +176,9 @@ Status write_project_page(Session& session, const ReportOptions& given, const Op
                                 model,
                                 has_results ? &clash : nullptr,
                                 assignee,
-                                is_as_tested ? &loaded.scene : nullptr,
+                                is_as_tested ? &loaded->scene : nullptr,
                                 page_geometry(given.page_geometry),
+                                std::move(without),
                                 {},
                                 std::move(facts.drawings),
                                 std::move(facts.trend)};
@@ -184,8 +203,10 @@ Result<ExitCode> run_report(Session& session, const ReportOptions& given) {
   if (!facts) return facts.error();
   // The page shows curves coarser than any test needs them.
   const Result<Loaded> loaded = load_project(session, *opened, {});
-  if (!loaded) return loaded.error();
-  if (const Status status = write_project_page(session, given, *opened, *loaded, *facts); !status)
+  // Results are worth a page although their model cannot be read.
+  const bool has_results = !facts->run.findings.tests.empty();
+  if (!loaded && (loaded.error().code != ErrorCode::input || !has_results)) return loaded.error();
+  if (const Status status = write_project_page(session, given, *opened, loaded, *facts); !status)
     return status.error();
   return ExitCode::done;
 }

@@ -37,6 +37,8 @@ Status write_drawing_page(const drawing::DrawingContents& contents, drawing::Sin
   PageContents page{.title = drawing.title,
                     .model = contents.model,
                     .scene = contents.scene,
+                    .without_model = {"This drawing was written from its lines alone.",
+                                      "To have the model, draw it again from the model's files."},
                     .drawn = drawn_objects(contents.drawing, contents.model)};
   page.drawings.push_back(std::move(drawing));
   return write_page(page, sink, context);

@@ -38,6 +38,12 @@ struct PageDrawing {
   std::string svg;            ///< as drawing::write_svg() writes it
 };
 
+/// Why a page has no model, and what whoever reads it can do about that: whole sentences. Decision
+/// 0104 says why a page is written all the same.
+struct WithoutModel {
+  std::string why, remedy;
+};
+
 /// What a page has; what is null or empty it has not.
 struct PageContents {
   std::string title;
@@ -47,6 +53,8 @@ struct PageContents {
   std::function<std::string_view(const PageRow&)> assignee = {};
   const model::Scene* scene = nullptr;  ///< of the same model
   report::ModelShown shown = report::ModelShown::automatic;
+  /// Told where the model would be if there is no scene. Empty: that it was not asked for.
+  WithoutModel without_model = {};
   /// The objects that drawings show: in a page without results these alone are of the model.
   /// Empty: all.
   std::vector<bool> drawn = {};

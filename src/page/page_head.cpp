@@ -61,6 +61,24 @@ void trend(std::string& out, const std::vector<TrendPoint>& points) {
       "\n  ");
 }
 
+/// Why there is no model, where the contents do not say.
+WithoutModel reason_of(const PageContents& contents) {
+  if (!contents.without_model.why.empty()) return contents.without_model;
+  return {"This page was written without the model.",
+          "To have it, write the page again without '--page-geometry none'."};
+}
+
+void no_model(std::string& out, const WithoutModel& reason) {
+  member(out, "no_model");
+  out += "{\"why\": ";
+  report::append_json(out, reason.why);
+  if (!reason.remedy.empty()) {
+    out += ", \"remedy\": ";
+    report::append_json(out, reason.remedy);
+  }
+  out += '}';
+}
+
 }  // namespace
 
 Result<std::string> page_head(const PageContents& contents, const HeadFacts& facts,
@@ -93,6 +111,8 @@ Result<std::string> page_head(const PageContents& contents, const HeadFacts& fac
   if (!facts.scene.empty()) {
     member(out, "scene");
     out += facts.scene;
+  } else {
+    no_model(out, reason_of(contents));
   }
   out += ",\n";
   report::append_list(out, "drawings", contents.drawings, [&](const PageDrawing& drawing) {

@@ -12,6 +12,11 @@ import { ScenePanel } from './panels/scene_panel.ts';
 import { fill, h } from './ui/dom.ts';
 import type { Vec } from './scene/items.ts';
 
+/** Whether letters are typed into it. */
+function isField(target: HTMLElement): boolean {
+  return target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement || (target instanceof HTMLInputElement && target.type !== 'range');
+}
+
 type Place = 'overview' | 'list' | 'drawings';
 const THEMES = ['auto', 'light', 'dark'] as const;
 
@@ -26,6 +31,7 @@ export class App {
   private readonly printed = h('div', { class: 'print-only' });
   private place: Place = 'overview';
   private row: number | undefined;
+  private addressTimer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(
     private readonly report: Report,
@@ -50,8 +56,8 @@ export class App {
   start(): void {
     this.list?.update();
     this.tellNothing();
-    const drawingFirst = !this.list && this.drawings;
-    if (!this.followAddress()) this.go(drawingFirst ? 'drawings' : this.list ? 'overview' : 'list');
+    const { clash, scene } = this.report.head;
+    if (!this.followAddress()) this.go(clash ? 'overview' : this.drawings ? 'drawings' : scene ? 'list' : 'overview');
     void this.scene.open();
   }
 
@@ -106,7 +112,7 @@ export class App {
     const chosen = this.place === 'list' && this.row !== undefined
       ? h('div', { class: 'print-chosen' }, this.scene.print(), resultDetails(this.report, this.row, this.detailEvents()))
       : undefined;
-    fill(this.printed, drawing ?? printSheet(this.report, this.list?.shown ?? new Uint32Array(0), chosen));
+    fill(this.printed, drawing ?? printSheet(this.report, this.list?.listed ?? { rows: new Uint32Array(0), groups: undefined }, chosen));
   }
 
   private go(place: Place): void {
@@ -135,7 +141,7 @@ export class App {
     this.details.scrollTop = 0;
     this.scene.showResult(row, fly);
     this.drawings?.mark([results.a[row]!, results.b[row]!]);
-    history.replaceState(null, '', `#clash=${results.key.at(row)}`);
+    this.tellAddress(`#clash=${results.key.at(row)}`);
   }
 
   private pick(object: number | undefined): void {
@@ -154,11 +160,23 @@ export class App {
     this.scene.showNothing();
     this.drawings?.mark([]);
     this.tellNothing();
-    history.replaceState(null, '', ' ');
+    this.tellAddress(' ');
+  }
+
+  /** The address is a link to what is chosen. Whoever runs through the list does not wait for it. */
+  private tellAddress(address: string): void {
+    clearTimeout(this.addressTimer);
+    this.addressTimer = setTimeout(() => {
+      try {
+        history.replaceState(null, '', address);
+      } catch {
+        // A browser that has had enough of it keeps the address; the page has a button for the link.
+      }
+    }, 100);
   }
 
   private tellNothing(): void {
-    fill(this.details, h('p', { class: 'hint' }, this.list ? 'Choose a clash in the list, or an object in the model.' : 'Choose an object.'));
+    fill(this.details, h('p', { class: 'hint' }, `Choose ${[this.list && 'a clash in the list', this.report.head.scene && 'an object in the model', this.drawings && 'an object in a drawing'].filter(Boolean).join(', or ')}.`));
   }
 
   private detailEvents(object?: number): DetailEvents {
@@ -215,13 +233,14 @@ export class App {
 
   private key(event: KeyboardEvent): void {
     const target = event.target as HTMLElement;
-    if (event.ctrlKey || event.metaKey || event.altKey || this.help.open) return;
+    // A panel has taken it already.
+    if (event.defaultPrevented || event.ctrlKey || event.metaKey || event.altKey || this.help.open) return;
     if (event.key === 'Escape') {
-      if (target instanceof HTMLInputElement) target.blur();
+      if (isField(target)) target.blur();
       else if (!this.scene.giveUp()) this.clear();
       return;
     }
-    if (target instanceof HTMLInputElement && target.type !== 'range') return;
+    if (isField(target)) return;
     const key = event.key.toLowerCase();
     if (event.key === '?') this.help.showModal();
     else if (event.key === '/' && this.list) {

@@ -34,6 +34,8 @@ struct BoxLattice {
 struct SceneBoxes {
   Box3l all = geometry::empty_box<std::int64_t>();
   std::vector<ObjectBox> of_objects;
+  /// Of each object that is shown the sum of its box's two corners, axis by axis.
+  std::array<std::vector<std::int64_t>, 3> corner_sums;
 };
 
 SceneBoxes boxes_of(const model::Scene& scene, const ShownObjects& shown) {
@@ -44,16 +46,27 @@ SceneBoxes boxes_of(const model::Scene& scene, const ShownObjects& shown) {
     for (const model::GridBody& body : scene.bodies_of(model::ObjectId{o}))
       box.include(body.box(scene.shapes[body.grid_shape]));
     boxes.all.include(box);
-    if (shown.of[o] == Shown::box && !box.empty()) boxes.of_objects.push_back({o, box});
+    if (box.empty()) continue;
+    for (int k = 0; k < 3; ++k)
+      boxes.corner_sums[static_cast<std::size_t>(k)].push_back(box.lo[k] + box.hi[k]);
+    if (shown.of[o] == Shown::box) boxes.of_objects.push_back({o, box});
   }
   return boxes;
 }
 
-/// The middle of a box in whole millimetres.
-Vec3d origin_of(const Box3l& box) {
-  if (box.empty()) return {};
-  const Vec3d sum = geometry::to_mm(box.lo) + geometry::to_mm(box.hi);
-  return {std::round(sum.x / 2), std::round(sum.y / 2), std::round(sum.z / 2)};
+/// Where most objects are, in whole millimetres: the median of their middles. The middle of all of
+/// them would lie far from everything where a single object is far off, and 32-bit numbers are
+/// coarse there (decision 0104).
+Vec3d origin_of(SceneBoxes& boxes) {
+  Vec3d origin{};
+  for (int k = 0; k < 3; ++k) {
+    std::vector<std::int64_t>& sums = boxes.corner_sums[static_cast<std::size_t>(k)];
+    if (sums.empty()) return {};
+    const auto middle = sums.begin() + static_cast<std::ptrdiff_t>(sums.size() / 2);
+    std::ranges::nth_element(sums, middle);
+    origin[k] = std::round(static_cast<double>(*middle) * geometry::kMmPerGrid / 2);
+  }
+  return origin;
 }
 
 BoxLattice lattice_of(const Box3l& box, const Vec3d& origin_mm) {
@@ -195,7 +208,7 @@ Result<ModelBlocks> model_blocks(const model::Scene& scene, const ShownObjects& 
                                  const std::shared_ptr<const std::vector<std::uint32_t>>& numbers,
                                  const parallel::Context& context) {
   SceneBoxes boxes = boxes_of(scene, shown);
-  const Vec3d origin = origin_of(boxes.all);
+  const Vec3d origin = origin_of(boxes);
   Result<PageShapes> made = page_shapes(scene, shown, origin, context);
   if (!made) return made.error();
   const auto shapes = std::make_shared<const PageShapes>(std::move(*made));

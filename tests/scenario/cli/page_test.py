@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The report page: every number in it is that of the JSON of the same run; the model and the drawings that stand in it."""
+import contextlib
 import json
 import math
 import os
 import re
+import sqlite3
 import sys
 from pathlib import Path
 
@@ -269,6 +271,14 @@ class ModelInPage(PageScenario):
                 self.assertAlmostEqual(box[0][k], coarse[its][0][k], delta=slack)
                 self.assertAlmostEqual(box[1][k], coarse[its][1][k], delta=slack)
 
+    def test_a_single_object_far_off_makes_the_others_no_coarser(self):
+        cubes = [(90 * i, 0, 0) for i in range(7)] + [(1e7, -1e7, 0)]
+        self.write('a.obj', ''.join(cube(f'c{i}', i, at, 100) for i, at in enumerate(cubes)))
+        self.run_ok('clash', 'a.obj', '-o', 'x.html')
+        page = self.page()
+        self.assertLess(max(map(abs, page.head['scene']['origin_mm'])), 1000)
+        self.assertEqual(len(self.boxes_of_instances(page)), 8)
+
     def test_near_has_what_clashes_as_it_is(self):
         self.ship(3000)
         self.run_ok('clash', 'ship.glb', '--page-geometry', 'near', '--clearance', '5mm', '-o', 'x.html')
@@ -288,6 +298,7 @@ class ModelInPage(PageScenario):
         self.ship(200)
         self.run_ok('clash', 'ship.glb', '--page-geometry', 'none', '-o', 'x.html')
         self.assertNotIn('scene', self.page().head)
+        self.assertIn("without '--page-geometry none'", self.page().head['no_model']['remedy'])
         done = self.run_strake('clash', 'ship.glb', '--page-geometry', 'none')
         self.assertEqual(done.returncode, 2)
         self.assertIn('no page is written', done.stderr)
@@ -316,6 +327,8 @@ class Drawings(PageScenario):
         self.run_ok('draw', 'ship.glb', '--view', 'top', '--select', 'PIP*', '-o', 'x.view')
         self.run_ok('draw', 'x.view', '-o', 'again.html')
         self.assertEqual(self.page('again.html').drawings, page.drawings)
+        self.assertIn('from its lines alone', self.page('again.html').head['no_model']['why'])
+        self.assertNotIn('no_model', page.head)
 
 
 class ProjectPage(PageScenario):
@@ -366,6 +379,27 @@ class ProjectPage(PageScenario):
         done = self.run_ok('report', '-p', 'p.strake', '-o', 'x.html')
         self.assertIn('the model changed since the last run', done.stderr)
         self.assertNotIn('scene', self.page().head)
+        self.assertIn('The model changed', self.page().head['no_model']['why'])
+        self.assertIn("'strake clash -p p.strake'", self.page().head['no_model']['remedy'])
+
+    def test_a_model_that_cannot_be_read(self):
+        self.run_ok('clash', '-p', 'p.strake', '--clearance', '25mm')
+        self.run_ok('report', '-p', 'p.strake', '-o', 'whole.html')
+        with contextlib.closing(sqlite3.connect(self.folder / 'p.strake')) as project:
+            project.execute("UPDATE file_block SET data = x'0102'")
+            project.commit()
+        done = self.run_ok('report', '-p', 'p.strake', '-o', 'x.html')
+        self.assertIn('the page has no model', done.stderr)
+        page, whole = self.page(), self.page('whole.html')
+        self.assertNotIn('scene', page.head)
+        self.assertIn('cannot be read: p.strake is damaged', page.head['no_model']['why'])
+        self.assertNotIn(str(self.folder), page.head['no_model']['why'])
+        self.assertIn('make it anew', page.head['no_model']['remedy'])
+        self.assertGreater(len(whole.rows('strake-results')), 10)
+        self.assertEqual([(row['key'], row['d']) for row in page.rows('strake-results')],
+                         [(row['key'], row['d']) for row in whole.rows('strake-results')])
+        self.assertEqual(page.columns['strake-objects']['id'],
+                         [whole.columns['strake-objects']['id'][o] for o in sorted({row[side] for row in whole.rows('strake-results') for side in 'ab'})])
 
 
 if __name__ == '__main__':

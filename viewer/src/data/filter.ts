@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which results the table shows, and in what order.
 import { NONE16, NONE32, NONE8, type Results } from '../payload/payload.ts';
-import { cellOf, objectName, type Report, shown } from './report.ts';
+import { cellOf, hasDisciplines, objectName, type Report, shown } from './report.ts';
 import { sortByValue } from './order.ts';
 
 export interface Filter {
@@ -9,19 +9,38 @@ export interface Filter {
   classes: Set<number>;
   statuses: Set<number>;
   test: number | undefined;
-  /** row and column of the matrix */
-  cell: [number, number] | undefined;
+  /** row and column of the matrix, in either order; undefined: any */
+  cell: [number | undefined, number | undefined];
+  /** least and greatest d in millimetres; undefined: no limit */
+  d: [number | undefined, number | undefined];
   group: number | undefined;
   object: number | undefined;
   /** only what is not certain */
   uncertain: boolean;
+  /** only what came back after a decision */
+  reopened: boolean;
   /** what a rule allows or people approved is shown, too */
   settled: boolean;
   text: string;
 }
 
 export function noFilter(): Filter {
-  return { classes: new Set(), statuses: new Set(), test: undefined, cell: undefined, group: undefined, object: undefined, uncertain: false, settled: true, text: '' };
+  return {
+    classes: new Set(), statuses: new Set(), test: undefined, cell: [undefined, undefined], d: [undefined, undefined], group: undefined, object: undefined,
+    uncertain: false, reopened: false, settled: true, text: '',
+  };
+}
+
+/** Whether a filter lets everything through. */
+export function isUnlimited(filter: Filter): boolean {
+  const given = [filter.test, filter.group, filter.object, ...filter.cell, ...filter.d];
+  return filter.classes.size + filter.statuses.size === 0 && given.every((value) => value === undefined) && !filter.uncertain && !filter.reopened && filter.settled && filter.text.trim() === '';
+}
+
+/** Whether the two sides of a result are of a cell of the matrix. */
+function inCell(sides: readonly [number, number], cell: Filter['cell']): boolean {
+  const is = (side: number, wanted: number | undefined): boolean => wanted === undefined || side === wanted;
+  return (is(sides[0], cell[0]) && is(sides[1], cell[1])) || (is(sides[1], cell[0]) && is(sides[0], cell[1]));
 }
 
 export type SortColumn = 'worst' | 'number' | 'class' | 'd' | 'relation' | 'a' | 'b' | 'place' | 'status';
@@ -50,7 +69,9 @@ export class Rows {
     if (!results) return new Uint32Array(0);
     const matches = this.matcher(filter.text);
     const rows = new Uint32Array(results.count);
-    const byDiscipline = report.head.disciplines.length > 0 && (!!results.discipline_a || !!report.objects?.discipline);
+    const byDiscipline = hasDisciplines(report);
+    const anyCell = filter.cell.some((wanted) => wanted !== undefined);
+    const [least, most] = filter.d;
     let n = 0;
     for (let i = 0; i < results.count; ++i) {
       if (filter.classes.size > 0 && !filter.classes.has(results.class[i]!)) continue;
@@ -58,13 +79,12 @@ export class Rows {
       if (filter.test !== undefined && results.test[i] !== filter.test) continue;
       if (filter.group !== undefined && (results.group?.[i] ?? NONE32) !== filter.group) continue;
       if (filter.object !== undefined && results.a[i] !== filter.object && results.b[i] !== filter.object) continue;
+      if (least !== undefined && results.d[i]! < least) continue;
+      if (most !== undefined && results.d[i]! > most) continue;
       if (filter.uncertain && (results.flags[i]! & UNCERTAIN) === 0) continue;
+      if (filter.reopened && (results.reopened?.[i] ?? 0) === 0) continue;
       if (!filter.settled && isSettled(report, i)) continue;
-      if (filter.cell) {
-        const [p, q] = [cellOf(report, i, 'a', byDiscipline), cellOf(report, i, 'b', byDiscipline)];
-        const [x, y] = filter.cell;
-        if (!((p === x && q === y) || (p === y && q === x))) continue;
-      }
+      if (anyCell && !inCell([cellOf(report, i, 'a', byDiscipline), cellOf(report, i, 'b', byDiscipline)], filter.cell)) continue;
       if (matches && !matches(i)) continue;
       rows[n++] = i;
     }
@@ -120,7 +140,7 @@ export class Rows {
     return this.ranks[object]!;
   }
 
-  /** All words must stand in the names, ids, files, the key or the comment of a result. */
+  /** All words must stand in the names, ids, files, the key, the comment or the people of a result. */
   private matcher(text: string): ((row: number) => boolean) | undefined {
     const words = text.toLowerCase().split(/\s+/).filter(Boolean);
     if (words.length === 0) return undefined;
@@ -140,16 +160,17 @@ export class Rows {
       }
       return found[object]!;
     };
-    const commentHas = new Map<number, string>();
+    const said = new Map<number, string>();
+    const textOf = (number: number): string => {
+      if (!said.has(number)) said.set(number, shown(results!.texts?.at(number) ?? '').toLowerCase());
+      return said.get(number)!;
+    };
+    const columns = [results!.comment, results!.assignee, results!.decided_by].filter((column) => column !== undefined);
     return (row) => {
       const bits = bitsOf(results!.a[row]!) | bitsOf(results!.b[row]!);
       return words.every((word, k) => {
         if (k < 31 && (bits >>> k) & 1) return true;
-        const comment = results!.comment?.[row] ?? 0;
-        if (comment > 0) {
-          if (!commentHas.has(comment)) commentHas.set(comment, (results!.texts?.at(comment) ?? '').toLowerCase());
-          if (commentHas.get(comment)!.includes(word)) return true;
-        }
+        if (columns.some((column) => column[row]! > 0 && textOf(column[row]!).includes(word))) return true;
         return word.length > 3 && results!.key.at(row).includes(word);
       });
     };

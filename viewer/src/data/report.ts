@@ -61,6 +61,12 @@ export async function openModel(head: Head): Promise<Model | undefined> {
   return { shapes, instances, boxes };
 }
 
+/** Why a page without a model has none, and what helps. */
+export function withoutModel(head: Head): [string, string | undefined] {
+  const { why, remedy } = head.no_model ?? { why: 'This page has the lists without the model.' };
+  return [shown(why), remedy === undefined ? undefined : shown(remedy)];
+}
+
 /** Reads the text of a drawing. Throws PayloadError. */
 export async function openDrawing(head: Head, number: number): Promise<string> {
   const id = `strake-drawing-${number}`;

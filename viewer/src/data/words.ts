@@ -6,7 +6,7 @@ export const CLASS_PLURALS = ['Hits', 'Contacts', 'Too close'] as const;
 export const CLASS_MEANINGS = [
   'The two run into each other.',
   'The two touch.',
-  'The two are nearer to each other than they may be.',
+  'The two are nearer than they may be.',
 ] as const;
 
 export const RELATION_WORDS: readonly string[] = [

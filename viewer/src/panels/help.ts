@@ -14,6 +14,8 @@ export const KEYS: [string, string][] = [
   ['B', 'section box round the clash'],
   ['M', 'measure between two points; Esc ends it'],
   ['Arrows, + and −', 'turn the model, nearer and farther, where it has the focus'],
+  ['Shift and arrows', 'move the model'],
+  ['Enter in the model', 'pick, or measure from, what is in the middle'],
   ['P', 'print'],
   ['Esc', 'close, or give up what is chosen'],
 ];

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // The list of results or of groups, with what it is limited to.
 import { type Filter, isSettled, noFilter, Rows, type SortColumn } from '../data/filter.ts';
-import { sortByValue } from '../data/order.ts';
-import { fileName, hasDisciplines, disciplineOf, objectName, type Report, shown } from '../data/report.ts';
+import { filterGroups, type GroupColumn, type GroupCounts, namedGroups, sortGroups } from '../data/groups.ts';
+import { disciplineOf, fileName, objectName, type Report, shown } from '../data/report.ts';
 import { CLASS_PLURALS, CLASS_WORDS, coordinate, count, length, plural, STATUS_WORDS } from '../data/words.ts';
 import { NONE8 } from '../payload/payload.ts';
 import { classCell, type Column, ResultTable } from '../table/result_table.ts';
 import { classMark, fill, h, shortName, toggle, wrappedName } from '../ui/dom.ts';
+import { FurtherLimits } from './further_limits.ts';
+import type { Listed } from './print_sheet.ts';
 
 export interface ListEvents {
   chosen(row: number): void;
   opened(row: number): void;
   group(group: number): void;
 }
-
-const SEVERITY_OF_GROUP = [0, 2, 1];
 
 /** How many characters the longest of some coordinates has: one that is cut would read as another number. */
 function mostDigits(values: Float64Array): number {
@@ -31,14 +31,16 @@ export class ListPanel {
   readonly search = h('input', { type: 'search', placeholder: 'Search names, ids, files, comments', 'aria-label': 'Search', spellcheck: 'false', autocomplete: 'off' });
   readonly rows: Rows;
   filter: Filter = noFilter();
-  private readonly table: ResultTable;
-  private readonly groupTable: ResultTable | undefined;
+  private readonly table: ResultTable<SortColumn>;
+  private readonly groupTable: ResultTable<GroupColumn | 'list'> | undefined;
+  private readonly further: FurtherLimits;
   private readonly bar = h('div', { class: 'filters' });
   private readonly pills = h('div', { class: 'pills' });
   private readonly counted = h('p', { class: 'counted', role: 'status' });
   private readonly holder = h('div', { class: 'table-holder' });
   private sort: { column: SortColumn; down: boolean } = { column: 'worst', down: false };
-  private groupSort: { column: SortColumn; down: boolean } = { column: 'worst', down: false };
+  private groupSort: { column: GroupColumn; down: boolean } = { column: 'worst', down: false };
+  private groupCounts: GroupCounts | undefined;
   private groupsShown = false;
   private current = -1;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -65,9 +67,10 @@ export class ListPanel {
         chosen: (group) => events.group(group),
         opened: (group) => this.showGroup(group),
         sorted: (column, down) => {
+          if (column === 'list') return;
           this.groupSort = { column, down };
           this.groupTable!.setSort(column, down);
-          this.updateGroups();
+          this.update();
         },
       }, 'groups');
     }
@@ -78,9 +81,11 @@ export class ListPanel {
         this.update();
       }, report.head.counts.results > 100000 ? 250 : 80);
     });
+    this.further = new FurtherLimits(report, () => this.update());
+    this.further.tell(this.filter);
     this.makeBar();
     fill(this.holder, this.table.element);
-    this.element = h('div', { class: 'list' }, h('div', { class: 'list-head' }, this.search, this.bar, this.pills, this.counted), this.holder);
+    this.element = h('div', { class: 'list' }, h('div', { class: 'list-head' }, this.search, this.bar, this.pills, h('div', { class: 'list-foot' }, this.counted, this.further.element)), this.holder);
   }
 
   /** Limits the list, and shows it. */
@@ -89,6 +94,7 @@ export class ListPanel {
     this.search.value = this.filter.text;
     this.groupsShown = false;
     this.makeBar();
+    this.further.tell(this.filter);
     this.update();
   }
 
@@ -98,12 +104,13 @@ export class ListPanel {
     this.table.show(rows as Uint32Array<ArrayBuffer>, this.current);
     this.makePills();
     fill(this.holder, this.groupsShown && this.groupTable ? this.groupTable.element : this.table.element);
-    if (this.groupsShown) this.updateGroups();
+    if (this.groupsShown) this.updateGroups(rows.length);
     else this.say(rows.length, this.report.head.counts.results, 'result');
   }
 
-  get shown(): Uint32Array {
-    return this.table.shown;
+  /** What is listed now. */
+  get listed(): Listed {
+    return { rows: this.table.shown, groups: this.groupsShown ? { list: this.groupTable!.shown, counts: this.groupCounts! } : undefined };
   }
 
   choose(row: number): void {
@@ -116,40 +123,26 @@ export class ListPanel {
   }
 
   refresh(): void {
-    this.table.refresh();
+    if (this.groupsShown) this.groupTable?.refresh();
+    else this.table.refresh();
   }
 
   private say(shownRows: number, all: number, what: string): void {
     this.counted.textContent = shownRows === all ? plural(all, what) : `${count(shownRows)} of ${plural(all, what)}`;
   }
 
+  /** Lists the results of a group that the table of groups counts. */
   private showGroup(group: number): void {
-    this.limit((f) => Object.assign(f, noFilter(), { group }));
+    const named = namedGroups(this.report, this.filter.text).has(group);
+    this.limit((f) => Object.assign(f, { group }, named ? { text: '' } : {}));
   }
 
-  private updateGroups(): void {
-    const groups = this.report.groups!;
-    const words = this.filter.text.toLowerCase().split(/\s+/).filter(Boolean);
-    const kept: number[] = [];
-    for (let g = 0; g < groups.count; ++g) {
-      if (this.filter.classes.size > 0 && !this.filter.classes.has(groups.class[g]!)) continue;
-      const name = words.length > 0 ? groups.name.at(g).toLowerCase() : '';
-      if (words.every((word) => name.includes(word))) kept.push(g);
-    }
-    let rows = Uint32Array.from(kept);
-    const { column, down } = this.groupSort;
-    const sign = down ? -1 : 1;
-    const numbers: Partial<Record<SortColumn, (g: number) => number>> = {
-      d: (g) => groups.d[g]!, class: (g) => SEVERITY_OF_GROUP[groups.class[g]!]!, status: (g) => groups.results[g]!, relation: (g) => groups.hits[g]!, b: (g) => groups.clearance_violations[g]!,
-    };
-    const value = numbers[column];
-    if (value) rows = sortByValue(rows, (g) => sign * value(g)) as Uint32Array<ArrayBuffer>;
-    if (column === 'a') {
-      const collator = new Intl.Collator('en', { numeric: true });
-      rows = Uint32Array.from([...rows].sort((p, q) => sign * collator.compare(groups.name.at(p), groups.name.at(q)) || p - q));
-    }
-    this.groupTable!.show(rows, -1);
-    this.say(rows.length, groups.count, 'group');
+  private updateGroups(results: number): void {
+    const { list, counts } = filterGroups(this.rows, this.filter);
+    this.groupCounts = counts;
+    this.groupTable!.show(sortGroups(this.report, list, counts, this.groupSort.column, this.groupSort.down) as Uint32Array<ArrayBuffer>, -1);
+    this.say(list.length, this.report.groups!.count, 'group');
+    if (counts.limited) this.counted.append(`, by ${plural(results, 'result')}`);
   }
 
   private makeBar(): void {
@@ -177,6 +170,8 @@ export class ListPanel {
       this.groupTable && h('div', { class: 'segments', role: 'group', 'aria-label': 'Results or groups' },
         ...[false, true].map((groups) => h('button', { type: 'button', 'aria-pressed': String(this.groupsShown === groups), onclick: () => {
           this.groupsShown = groups;
+          // One looks for a group, not into one.
+          if (groups) this.filter.group = undefined;
           this.makeBar();
           this.update();
         } }, groups ? 'Groups' : 'Results'))),
@@ -190,6 +185,10 @@ export class ListPanel {
         filter.uncertain = on;
         change();
       }, { title: 'Only results that may be of a severer class' }),
+      report.results?.reopened && toggle('Came back', filter.reopened, (on) => {
+        filter.reopened = on;
+        change();
+      }, { title: 'Only what was decided once and is worse or there again' }),
     );
   }
 
@@ -198,18 +197,16 @@ export class ListPanel {
     const pill = (label: string, clear: () => void): HTMLElement =>
       h('button', { type: 'button', class: 'pill', title: 'Take this limit away', onclick: () => {
         clear();
+        this.further.tell(filter);
         this.update();
       } }, label, h('span', { 'aria-hidden': 'true' }, ' ✕'));
-    const names = hasDisciplines(report) ? report.head.disciplines : report.head.files;
-    const list: HTMLElement[] = [];
-    if (filter.cell) list.push(pill(`${shown(names[filter.cell[0]]!)} with ${shown(names[filter.cell[1]]!)}`, () => (filter.cell = undefined)));
-    if (filter.test !== undefined) list.push(pill(`Test: ${shown(report.head.clash!.tests[filter.test]!.name) || 'the only one'}`, () => (filter.test = undefined)));
+    const list: HTMLElement[] = this.further.pills(filter).map(([label, clear]) => pill(label, clear));
     if (filter.group !== undefined) list.push(pill(`Group: ${shown(report.groups!.name.at(filter.group)).slice(0, 80)}`, () => (filter.group = undefined)));
     if (filter.object !== undefined) list.push(pill(`Object: ${objectName(report.objects!, filter.object).slice(0, 80)}`, () => (filter.object = undefined)));
     fill(this.pills, ...list);
   }
 
-  private columns(): Column[] {
+  private columns(): Column<SortColumn>[] {
     const results = this.report.results!;
     const objects = this.report.objects!;
     const name = (object: number, row: number, side: 'a' | 'b'): Node => {
@@ -219,7 +216,7 @@ export class ListPanel {
       return h('span', { class: 'object-cell' }, below === '' ? wrappedName(words) : shortName(words), below !== '' && h('small', {}, below.slice(0, 60)));
     };
     const widest = [results.x, results.y, results.z].reduce((n, v) => n + mostDigits(v), 4);
-    const columns: Column[] = [
+    const columns: Column<SortColumn>[] = [
       { id: 'class', label: 'Class', title: 'What it is', width: '6rem', cell: (r) => classCell(results.class[r]!, CLASS_WORDS[results.class[r]!]!) },
       { id: 'd', label: 'd mm', title: 'Distance; less than 0 is depth', width: '4.6rem', right: true, cell: (r) => length(results.d[r]!) },
       { id: 'a', label: 'Object A', title: 'The one object', width: 'minmax(5rem, 1fr)', cell: (r) => name(results.a[r]!, r, 'a') },
@@ -236,16 +233,22 @@ export class ListPanel {
     return columns;
   }
 
-  private groupColumns(): Column[] {
+  private groupColumns(): Column<GroupColumn | 'list'>[] {
     const groups = this.report.groups!;
+    // The numbers of what the limits let through; how many there are of all stands beside them.
+    const of = (g: number, get: (counts: GroupCounts) => ArrayLike<number>): number => get(this.groupCounts!)[g]!;
+    const number = (id: 'hits' | 'near', label: string, title: string, width: string): Column<GroupColumn> => ({ id, label, title, width, right: true, cell: (g) => count(of(g, (c) => c[id])) });
     return [
-      { id: 'class', label: 'Worst', title: 'The worst class in it', width: '6.6rem', cell: (g) => classCell(groups.class[g]!, CLASS_WORDS[groups.class[g]!]!) },
-      { id: 'd', label: 'd mm', title: 'The least of the worst class', width: '4.6rem', right: true, cell: (g) => length(groups.d[g]!) },
-      { id: 'a', label: 'Group', title: 'What it is about', width: 'minmax(8rem, 2fr)', cell: (g) => shortName(shown(groups.name.at(g)).slice(0, 200)) },
-      { id: 'status', label: 'Results', title: 'How many results it has', width: '5rem', right: true, cell: (g) => count(groups.results[g]!) },
-      { id: 'relation', label: 'Hits', title: 'How many of them are hits', width: '4rem', right: true, cell: (g) => count(groups.hits[g]!) },
-      { id: 'b', label: 'Too close', title: 'How many are too close', width: '5.4rem', right: true, cell: (g) => count(groups.clearance_violations[g]!) },
-      { id: 'number', label: 'Show', title: 'Its results', width: '4.4rem', cell: (g) => h('button', { type: 'button', class: 'small', tabindex: -1, onclick: (event) => {
+      { id: 'class', label: 'Worst', title: 'The worst class in it', width: '6.6rem', cell: (g) => classCell(of(g, (c) => c.class), CLASS_WORDS[of(g, (c) => c.class)]!) },
+      { id: 'd', label: 'd mm', title: 'The least of the worst class', width: '4.6rem', right: true, cell: (g) => length(of(g, (c) => c.d)) },
+      { id: 'name', label: 'Group', title: 'What it is about', width: 'minmax(8rem, 2fr)', cell: (g) => shortName(shown(groups.name.at(g)).slice(0, 200)) },
+      { id: 'results', label: 'Results', title: 'How many results it has', width: '5.6rem', right: true, cell: (g) => {
+        const [some, all] = [of(g, (c) => c.results), groups.results[g]!];
+        return some === all ? count(all) : `${count(some)} of ${count(all)}`;
+      } },
+      number('hits', 'Hits', 'How many of them are hits', '4rem'),
+      number('near', 'Too close', 'How many of them are too close', '5.4rem'),
+      { id: 'list', unsorted: true, label: 'Show', title: 'Its results', width: '4.4rem', cell: (g) => h('button', { type: 'button', class: 'small', tabindex: -1, onclick: (event) => {
         event.stopPropagation();
         this.showGroup(g);
       } }, 'List') },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The first page: what was found, between whom, how it went on from run to run, and what was not looked at.
-import { cellOf, hasDisciplines, type Report, shown, totals } from '../data/report.ts';
+import { cellOf, hasDisciplines, type Report, shown, totals, withoutModel } from '../data/report.ts';
 import { CLASS_MEANINGS, CLASS_PLURALS, count, exact, plural, STATUS_WORDS } from '../data/words.ts';
 import type { TestSummary, TrendRun } from '../payload/head.ts';
 import { NONE8 } from '../payload/payload.ts';
@@ -22,6 +22,7 @@ export function overview(report: Report, events: OverviewEvents): HTMLElement {
     'div',
     { class: 'overview' },
     clash && cards(report, events),
+    clash && !report.results && nothingListed(report),
     clash && decided(report, events),
     clash && notCompared(report),
     report.results && matrix(report, events),
@@ -36,6 +37,15 @@ function section(title: string, ...children: (Node | string | undefined | false)
   return h('section', { class: 'card' }, h('h2', {}, title), ...children);
 }
 
+/** What a page without a row in its list says. */
+function nothingListed(report: Report): HTMLElement {
+  const sum = totals(report.head);
+  const found = sum.HIT + sum.CLEARANCE_VIOLATION + sum.CONTACT + sum.ALLOWED;
+  return section('No clashes', h('p', {}, found === 0
+    ? 'No two of the objects that were compared run into each other, touch or come too close.'
+    : 'None of these results is listed in this page; only how many there are was asked for.'));
+}
+
 function cards(report: Report, events: OverviewEvents): HTMLElement {
   const sum = totals(report.head);
   const order = [0, 2, 1];
@@ -43,7 +53,7 @@ function cards(report: Report, events: OverviewEvents): HTMLElement {
     'div',
     { class: 'figures' },
     ...order.map((cls) =>
-      h('button', { type: 'button', class: `figure figure-${cls}`, onclick: () => events.showClass(cls) },
+      h(report.results ? 'button' : 'div', { ...(report.results ? { type: 'button', onclick: () => events.showClass(cls) } : {}), class: `figure figure-${cls}` },
         h('span', { class: 'figure-number' }, count(sum[CLASS_KEYS[cls]!])),
         h('span', { class: 'figure-label' }, classMark(cls), CLASS_PLURALS[cls]!),
         h('span', { class: 'figure-note' }, CLASS_MEANINGS[cls]!)),
@@ -119,7 +129,8 @@ function matrix(report: Report, events: OverviewEvents): HTMLElement | undefined
   const byDiscipline = hasDisciplines(report);
   const { names, counts } = matrixCounts(report, byDiscipline);
   const used = names.map((_, i) => i).filter((i) => names.some((__, j) => [0, 1, 2].some((c) => counts[3 * (Math.min(i, j) * names.length + Math.max(i, j)) + c]! > 0)));
-  if (used.length === 0 || used.length > 40) return undefined;
+  // A single one says nothing that the figures do not say.
+  if (used.length < 2 || used.length > 40) return undefined;
   const at = (i: number, j: number, cls: number): number => counts[3 * (Math.min(i, j) * names.length + Math.max(i, j)) + cls]!;
   const most = Math.max(1, ...used.flatMap((i) => used.map((j) => at(i, j, 0))));
   const cell = (i: number, j: number): HTMLElement => {
@@ -157,7 +168,7 @@ function tests(report: Report, list: TestSummary[], events: OverviewEvents): HTM
         h('thead', {}, h('tr', {}, ...['Test', 'Objects A', 'Objects B', 'Hits', 'Too close', 'Contacts', 'Allowed', 'Clearance mm', 'Touching mm'].map((t, i) => h('th', { scope: 'col', class: i > 0 ? 'right' : '' }, t)))),
         h('tbody', {}, ...list.map((t, i) =>
           h('tr', {},
-            h('th', { scope: 'row' }, h('button', { type: 'button', class: 'link', onclick: () => events.showTest(i) }, shown(t.name) || 'All results'), h('div', { class: 'hint' }, setsOf(t))),
+            h('th', { scope: 'row' }, report.results ? h('button', { type: 'button', class: 'link', onclick: () => events.showTest(i) }, shown(t.name) || 'All results') : shown(t.name) || 'The test', h('div', { class: 'hint' }, setsOf(t))),
             cell(t.objects.a), cell(t.objects.b), cell(t.counts.HIT), cell(t.counts.CLEARANCE_VIOLATION), cell(t.counts.CONTACT), cell(t.counts.ALLOWED),
             h('td', { class: 'right' }, exact(t.settings.clearance_mm) + (t.settings.clearance_attribute ? ` + ${shown(t.settings.clearance_attribute)}` : '')),
             h('td', { class: 'right' }, `−${exact(t.settings.touch_overlap_mm)} to ${exact(t.settings.touch_gap_mm)}`)))))),
@@ -226,7 +237,7 @@ function model(report: Report): HTMLElement {
       ? h('p', {}, `${plural(scene.objects, 'object')}; in this page ${count(scene.objects_as_shapes)} with their shape`,
           scene.objects_as_boxes > 0 ? `, ${count(scene.objects_as_boxes)} as boxes` : '', scene.objects_left_out > 0 ? `, ${count(scene.objects_left_out)} left out` : '',
           `; ${plural(scene.triangles, 'triangle')}.`, scene.note ? ` ${shown(scene.note)}` : '')
-      : h('p', {}, 'This page has the lists without the model.'),
+      : h('p', {}, withoutModel(report.head).filter(Boolean).join(' ')),
   );
 }
 

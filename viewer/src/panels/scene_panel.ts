@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The model with its tools. What cannot be drawn is said in its place, and the rest of the page goes on.
-import { openModel, objectName, type Report } from '../data/report.ts';
+import { openModel, objectName, type Report, withoutModel } from '../data/report.ts';
 import { length } from '../data/words.ts';
 import type { Vec } from '../scene/items.ts';
 import type { Others, Shown } from '../scene/view.ts';
@@ -32,13 +32,16 @@ export function shownOf(report: Report, row: number): Shown {
 export class ScenePanel {
   readonly element = h('div', { class: 'scene' });
   private readonly stage = h('div', { class: 'stage' });
-  private readonly canvas = h('canvas', { tabindex: 0, role: 'img', 'aria-label': 'The model. Arrow keys turn it, plus and minus bring it nearer and farther.' });
+  private readonly canvas = h('canvas', { tabindex: 0, role: 'application', 'aria-label': 'The model. Arrow keys turn it, with Shift they move it, plus and minus bring it nearer and farther, Enter picks what is in the middle.' });
+  /** where Enter picks, as long as the keys are in the model */
+  private readonly cross = h('div', { class: 'cross', 'aria-hidden': 'true' });
+  private readonly said = h('div', { class: 'unseen', role: 'status' });
   private readonly label = h('div', { class: 'depth-label', hidden: true });
   private readonly told = h('div', { class: 'stage-note', role: 'status' });
   private readonly legend = h('div', { class: 'legend-pair', hidden: true });
   private readonly measured = h('div', { class: 'measure', role: 'status', hidden: true });
-  private readonly sectionSize = h('input', { type: 'range', min: 0, max: 100, value: 45, 'aria-label': 'Size of the section box' });
-  private readonly sectionTools = h('span', { class: 'section-tools', hidden: true }, this.sectionSize);
+  private readonly sectionSize = h('input', { type: 'range', min: 0, max: 100, value: 45 });
+  private readonly sectionTools = h('label', { class: 'section-tools', hidden: true }, 'Size of the box ', this.sectionSize);
   private sectionButton: HTMLButtonElement | undefined;
   private measureButton: HTMLButtonElement | undefined;
   private othersButtons: HTMLButtonElement[] = [];
@@ -50,7 +53,7 @@ export class ScenePanel {
     private readonly report: Report,
     private readonly events: SceneEvents,
   ) {
-    this.stage.append(this.canvas, this.label, this.legend, this.measured, this.told);
+    this.stage.append(this.canvas, this.cross, this.label, this.legend, this.sectionTools, this.measured, this.told, this.said);
     this.element.append(this.tools(), this.stage);
     this.sectionSize.addEventListener('input', () => this.placeSection());
     this.canvas.addEventListener('keydown', (event) => this.key(event));
@@ -63,7 +66,7 @@ export class ScenePanel {
   /** Reads the model and draws it; what goes wrong is told where the picture would be. */
   async open(): Promise<void> {
     const { head } = this.report;
-    if (!head.scene) return this.tell('This page has the lists without the model.');
+    if (!head.scene) return this.tellWithout(...withoutModel(head));
     this.tell('Opening the model…');
     // The list is drawn before the model is unpacked.
     await new Promise((done) => setTimeout(done, 0));
@@ -73,21 +76,24 @@ export class ScenePanel {
         picked: (object) => this.events.picked(object),
         measured: (points) => this.tellMeasured(points),
         drawn: () => this.placeLabel(),
+        lost: (lost) => this.tellLost(lost),
       });
     } catch (error) {
       const words = error instanceof Error ? error.message : String(error);
-      return this.tell(/webgl/i.test(words) ? 'This browser cannot show 3D: it has no WebGL 2, or it is switched off. The lists and drawings work without it.' : `The model cannot be shown. ${words}`);
+      if (/webgl/i.test(words)) return this.tellWithout('This browser cannot show 3D: it has no WebGL 2, or it is switched off. The lists and drawings work without it.', 'Another browser may show it, or this one where “hardware acceleration” is on in its settings.');
+      return this.tellWithout(`The model cannot be shown. ${words}`, 'Copy the file again, or write it anew.');
     }
     this.element.classList.add('ready');
     this.told.hidden = true;
     this.theme();
     this.view.fit();
+    if (this.view.items.count === 0) this.tell('Nothing of this model has a shape.');
     this.wanted?.();
   }
 
   theme(): void {
     const style = getComputedStyle(document.documentElement);
-    this.view?.setTheme(style.getPropertyValue('--stage').trim(), style.getPropertyValue('--ghost').trim());
+    this.view?.setTheme(style.getPropertyValue('--stage').trim(), style.getPropertyValue('--ghost').trim(), style.getPropertyValue('--ink').trim());
   }
 
   showResult(row: number, fly: boolean): void {
@@ -109,6 +115,7 @@ export class ScenePanel {
     this.view?.showObject(object, fly);
     this.legend.hidden = true;
     this.told.hidden = this.ready;
+    this.said.textContent = `Picked: ${objectName(this.report.objects!, object).slice(0, 200)}`;
   }
 
   showNothing(): void {
@@ -191,7 +198,6 @@ export class ScenePanel {
       h('span', { class: 'gap' }),
       h('div', { class: 'segments', role: 'group', 'aria-label': 'Other objects', title: 'Other objects (G)' }, ...this.othersButtons),
       this.sectionButton,
-      this.sectionTools,
       this.measureButton,
     );
   }
@@ -211,6 +217,19 @@ export class ScenePanel {
     fill(this.told, text);
   }
 
+  /** Says why there is no picture, and what helps. */
+  private tellWithout(why: string, remedy: string | undefined): void {
+    this.element.classList.add('without');
+    this.told.hidden = false;
+    fill(this.told, h('p', {}, why), remedy !== undefined && h('p', { class: 'hint' }, remedy));
+  }
+
+  private tellLost(lost: boolean): void {
+    this.element.classList.toggle('lost', lost);
+    if (lost) this.tell('The graphics card stopped drawing. The picture comes back by itself as soon as the card does; if it does not, open the page again. The lists go on.');
+    else this.told.hidden = true;
+  }
+
   private tellLegend(a: number, b: number): void {
     const objects = this.report.objects!;
     this.legend.hidden = false;
@@ -220,7 +239,7 @@ export class ScenePanel {
 
   private tellMeasured(points: Vec[]): void {
     if (points.length < 2) {
-      fill(this.measured, points.length === 0 ? 'Click the first point.' : 'Click the second point.');
+      fill(this.measured, `${points.length === 0 ? 'Click the first point' : 'Click the second point'}, or bring it to the middle and press Enter.`);
       return;
     }
     const [p, q] = points as [Vec, Vec];
@@ -248,11 +267,15 @@ export class ScenePanel {
   }
 
   private key(event: KeyboardEvent): void {
-    const turns: Record<string, [number, number]> = { ArrowLeft: [-0.12, 0], ArrowRight: [0.12, 0], ArrowUp: [0, 0.12], ArrowDown: [0, -0.12] };
-    const turn = turns[event.key];
-    if (turn) this.view?.turn(...turn);
-    else if (event.key === '+') this.view?.zoom(0.8);
-    else if (event.key === '-') this.view?.zoom(1.25);
+    const { view } = this;
+    if (!view || event.ctrlKey || event.metaKey || event.altKey) return;
+    const ways: Record<string, [number, number]> = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    const way = ways[event.key];
+    if (way && event.shiftKey) view.move(0.05 * way[0], 0.05 * way[1]);
+    else if (way) view.turn(0.12 * way[0], 0.12 * way[1]);
+    else if (event.key === '+') view.zoom(0.8);
+    else if (event.key === '-') view.zoom(1.25);
+    else if (event.key === 'Enter' || event.key === ' ') view.pressMiddle();
     else return;
     event.preventDefault();
   }

@@ -112,6 +112,8 @@ export interface Head {
   columns: string[];
   trend?: TrendRun[];
   scene?: SceneHead;
+  /** why there is no scene, and what to do about it */
+  no_model?: { why: string; remedy?: string };
   drawings: { title: string; objects: number }[];
 }
 
@@ -204,6 +206,7 @@ const head: Shape = {
       },
       may: { boxes: { members: { min: 'point', step: 'number' } }, note: 'text' },
     },
+    no_model: { members: { why: 'text' }, may: { remedy: 'text' } },
   },
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts items together for drawing: many instances of a shape as one instanced batch, the rest of a neighbourhood as one
 // mesh. A batch holds things that are near each other, so that what is near can be drawn first and what is out of view left out.
+import { sortByValue } from '../data/order.ts';
 import { isLine, type Items, itemTriangles } from './items.ts';
 
 export interface Batch {
@@ -20,22 +21,33 @@ const TRIANGLES_IN_BATCH = 6000;
 // Fewer instances of a shape than this are merged with their neighbours: a call of the driver costs as much as some.
 const FEWEST_INSTANCES = 16;
 
-/** A number that is alike for points that are near each other: the bits of the three coordinates in turn. */
-function curve(items: Items, item: number): number {
+/** Ten bits of a number, two empty ones between each. */
+function spread(bits: number): number {
+  let x = bits & 1023;
+  x = (x | (x << 16)) & 0x030000ff;
+  x = (x | (x << 8)) & 0x0300f00f;
+  x = (x | (x << 4)) & 0x030c30c3;
+  return (x | (x << 2)) & 0x09249249;
+}
+
+/** Of each item a number that is alike for items that are near each other: the bits of the three coordinates of its middle in turn. */
+function curve(items: Items): Uint32Array {
   const { box, bounds } = items;
-  let code = 0;
-  const cell = [0, 1, 2].map((k) => {
-    const extent = bounds[3 + k]! - bounds[k]!;
-    const middle = (box[6 * item + k]! + box[6 * item + 3 + k]!) / 2;
-    return extent > 0 ? Math.min(1023, Math.max(0, Math.floor(((middle - bounds[k]!) / extent) * 1024))) : 0;
-  });
-  for (let bit = 9; bit >= 0; --bit) for (let k = 0; k < 3; ++k) code = code * 2 + ((cell[k]! >> bit) & 1);
-  return code;
+  const scale = [0, 1, 2].map((k) => (bounds[3 + k]! > bounds[k]! ? 1024 / (bounds[3 + k]! - bounds[k]!) : 0));
+  const codes = new Uint32Array(items.count);
+  for (let i = 0; i < items.count; ++i) {
+    let code = 0;
+    for (let k = 0; k < 3; ++k) {
+      const middle = (box[6 * i + k]! + box[6 * i + 3 + k]!) / 2;
+      code |= spread(Math.min(1023, Math.max(0, Math.floor((middle - bounds[k]!) * scale[k]!)))) << (2 - k);
+    }
+    codes[i] = code;
+  }
+  return codes;
 }
 
 export function makeBatches(items: Items): Batch[] {
-  const codes = new Float64Array(items.count);
-  for (let i = 0; i < items.count; ++i) codes[i] = curve(items, i);
+  const codes = curve(items);
   const uses = new Uint32Array(items.model.shapes.count);
   for (let i = 0; i < items.instances; ++i) ++uses[items.model.instances.shape[i]!]!;
   const kind = (item: number): number => {
@@ -52,8 +64,8 @@ export function makeBatches(items: Items): Batch[] {
     else byKind.set(k, [i]);
   }
   const batches: Batch[] = [];
-  for (const [shape, list] of byKind) {
-    list.sort((p, q) => codes[p]! - codes[q]! || p - q);
+  for (const [shape, unsorted] of byKind) {
+    const list = sortByValue(Uint32Array.from(unsorted), (item) => codes[item]!);
     let from = 0;
     let triangles = 0;
     for (let i = 0; i < list.length; ++i) {
@@ -70,7 +82,7 @@ export function makeBatches(items: Items): Batch[] {
   return batches;
 }
 
-function batchOf(items: Items, shape: number, list: number[], triangles: number): Batch {
+function batchOf(items: Items, shape: number, list: Uint32Array, triangles: number): Batch {
   const box = new Float32Array([Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity]);
   for (const item of list) {
     for (let k = 0; k < 3; ++k) {
@@ -78,7 +90,7 @@ function batchOf(items: Items, shape: number, list: number[], triangles: number)
       box[3 + k] = Math.max(box[3 + k]!, items.box[6 * item + 3 + k]!);
     }
   }
-  return { shape, items: Uint32Array.from(list), triangles, box };
+  return { shape, items: list, triangles, box };
 }
 
 /** How far a point is from a box. */

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-import { Color, DataTexture, DoubleSide, GLSL3, GreaterDepth, LessEqualDepth, NearestFilter, RGBAFormat, ShaderMaterial, UnsignedByteType, Vector3 } from 'three';
+import {
+  Color, DataTexture, DoubleSide, GLSL3, GreaterDepth, LessEqualDepth, NearestFilter, RGBAFormat, ShaderMaterial, UnsignedByteType, Vector2, Vector3,
+} from 'three';
 
 /** What the program of the graphics card is told; one for all batches. */
 export interface SharedUniforms {
   states: { value: DataTexture };
+  /** objects that are drawn apart, and so left out of their batches; NOTHING: none */
+  apart: { value: Vector2 };
   sectionMin: { value: Vector3 };
   sectionMax: { value: Vector3 };
   /** ghosts fade away with the distance from here */
@@ -13,12 +17,15 @@ export interface SharedUniforms {
 
 const STATES_IN_ROW = 2048;
 
-/** One texel for each object: its colour, and whether it is hidden. It is changed in place. */
-export class ObjectStates {
+/** The number of no object. */
+export const NOTHING = -1;
+
+/** One texel for each object: its colour. What a click changes is not in it: of a million objects it is four megabytes. */
+export class ObjectColours {
   readonly texture: DataTexture;
   private readonly bytes: Uint8Array<ArrayBuffer>;
 
-  constructor(readonly count: number) {
+  constructor(count: number) {
     const rows = Math.max(1, Math.ceil(count / STATES_IN_ROW));
     this.bytes = new Uint8Array(4 * STATES_IN_ROW * rows);
     this.texture = new DataTexture(this.bytes, STATES_IN_ROW, rows, RGBAFormat, UnsignedByteType);
@@ -27,18 +34,10 @@ export class ObjectStates {
     this.texture.needsUpdate = true;
   }
 
-  colour(object: number, rgb: number): void {
-    this.bytes.set([(rgb >> 16) & 255, (rgb >> 8) & 255, rgb & 255], 4 * object);
-    this.texture.needsUpdate = true;
-  }
-
-  hide(object: number, hidden: boolean): void {
-    this.bytes[4 * object + 3] = hidden ? 255 : 0;
-    this.texture.needsUpdate = true;
-  }
-
-  isHidden(object: number): boolean {
-    return this.bytes[4 * object + 3] === 255;
+  set(object: number, rgb: number): void {
+    this.bytes[4 * object] = (rgb >> 16) & 255;
+    this.bytes[4 * object + 1] = (rgb >> 8) & 255;
+    this.bytes[4 * object + 2] = rgb & 255;
   }
 }
 
@@ -51,6 +50,7 @@ in vec4 row2;
 #ifndef ONE_COLOUR
 in highp uint object;
 uniform sampler2D states;
+uniform ivec2 apart;
 flat out vec3 shade;
 #endif
 out vec3 place;
@@ -66,9 +66,8 @@ void main() {
   seen = view.xyz;
   gl_Position = projectionMatrix * view;
 #ifndef ONE_COLOUR
-  vec4 state = texelFetch(states, ivec2(int(object % ${STATES_IN_ROW}u), int(object / ${STATES_IN_ROW}u)), 0);
-  shade = state.rgb;
-  if (state.a > 0.5) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+  shade = texelFetch(states, ivec2(int(object % ${STATES_IN_ROW}u), int(object / ${STATES_IN_ROW}u)), 0).rgb;
+  if (int(object) == apart.x || int(object) == apart.y) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
 #endif
 }`;
 
@@ -145,12 +144,13 @@ export function makeMaterial(shared: SharedUniforms, options: MaterialOptions): 
     depthFunc: options.behind ? GreaterDepth : LessEqualDepth,
     uniforms: {
       states: shared.states,
+      apart: shared.apart,
       sectionMin: shared.sectionMin,
       sectionMax: shared.sectionMax,
       focus: shared.focus,
       fade: shared.fade,
       // A line in a pipe covers next to nothing of it, and has to be seen.
-      opacity: { value: options.ghost ? 0.08 : options.behind && !options.lines ? 0.4 : 1 },
+      opacity: { value: options.ghost ? 0.08 : options.behind && !options.lines ? 0.65 : 1 },
       tint: { value: new Color(options.colour ?? 0x888888) },
       tinted: { value: options.ghost ? 1 : 0 },
     },

@@ -2,8 +2,8 @@
 // The 3D view. A picture is drawn when something changes, and in pieces: the two objects of the clash and what is near
 // first, within a frame, and then the rest as long as nothing moves. So it answers at once however large the model is.
 import {
-  BufferAttribute, BufferGeometry, Color, ColorManagement, ConeGeometry, EdgesGeometry, Frustum, Line, LineBasicMaterial, LineSegments, Matrix4, Mesh,
-  MeshBasicMaterial, type Object3D, type PerspectiveCamera, Quaternion, Scene, type ShaderMaterial, SphereGeometry, Box3, Vector3, WebGLRenderer,
+  Box3, BufferAttribute, BufferGeometry, Color, ColorManagement, Frustum, LineSegments, Matrix4, Mesh, type Object3D, type PerspectiveCamera,
+  Scene, type ShaderMaterial, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { SceneHead } from '../payload/head.ts';
@@ -11,8 +11,10 @@ import type { Model } from '../payload/payload.ts';
 import { type Batch, distanceTo, makeBatches } from './batches.ts';
 import { distanceFor, distanceForBox, LOOKS, makeCamera, setDepth, type Side } from './camera.ts';
 import { type BatchMaterials, GpuBatches } from './gpu_batches.ts';
+import { sharpEdges } from './edges.ts';
 import { type Items, isLine, itemsOf, linePieces, makeItems, meshOf, objectBox, type Vec } from './items.ts';
-import { makeMaterial, ObjectStates, type SharedUniforms } from './materials.ts';
+import { Marks } from './marks.ts';
+import { makeMaterial, NOTHING, ObjectColours, type SharedUniforms } from './materials.ts';
 import { type Hit, type Limits, pick, type Ray } from './ray.ts';
 
 export type Others = 'ghost' | 'solid' | 'hide';
@@ -39,9 +41,15 @@ export interface Shown {
 export const COLOUR_A = 0xe69f00;
 export const COLOUR_B = 0x2f8fd8;
 const COLOUR_PICKED = 0x009e73;
+const COLOUR_MARK = 0xd62f6b;
+const COLOUR_SECTION = 0x8a63d2;
 
 const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
 const FAR = 1e12;
+// How long the rest of a picture waits in software.
+const BREATH_MS = 120;
+// Of finer objects the outline takes longer than a click may, and shows less.
+const MOST_OUTLINED = 60000;
 // A line is thinner than a finger.
 const PIXELS_BESIDE = 5;
 
@@ -49,6 +57,8 @@ export interface ViewEvents {
   picked(object: number | undefined): void;
   measured(points: Vec[]): void;
   drawn(): void;
+  /** the graphics card gave up, or is there again */
+  lost(lost: boolean): void;
 }
 
 export class View {
@@ -57,7 +67,6 @@ export class View {
   readonly camera: PerspectiveCamera = makeCamera();
   readonly software: boolean;
   private readonly controls: OrbitControls;
-  private readonly states: ObjectStates;
   private readonly shared: SharedUniforms;
   private readonly ghosts: BatchMaterials;
   private readonly solids: BatchMaterials;
@@ -66,13 +75,18 @@ export class View {
   private readonly pieces = new Scene();
   private readonly pair = new Scene();
   private readonly hiddenPair = new Scene();
-  private readonly marks = new Scene();
+  private readonly marks = new Marks();
   private readonly origin: Vec;
   private readonly reach: number;
   private readonly paints = new Map<number, Paint>();
   private queue: Batch[] = [];
   private dirty = false;
+  private visible = false;
+  private width = 1;
+  private height = 1;
   private scheduled = false;
+  private pause: ReturnType<typeof setTimeout> | undefined;
+  private fence: WebGLSync | undefined;
   private moving = false;
   /** triangles of the others in the first piece of a picture, while it is turned, and in each that follows */
   private readonly budgets: { first: number; moving: number; next: number };
@@ -80,6 +94,7 @@ export class View {
   private highlighted: number[] = [];
   private focus: Vec | undefined;
   private points: Vec[] = [];
+  private ink = 0x111111;
   private others_: Others = 'ghost';
   measuring = false;
   shown: Shown | undefined;
@@ -105,16 +120,19 @@ export class View {
     this.renderer.autoClear = false;
     // Asking whether a program was compiled waits until it is; the tests read pixels instead.
     this.renderer.debug.checkShaderErrors = false;
-    this.budgets = this.software ? { first: 0, moving: 6000, next: 12000 } : { first: 1000000, moving: 1000000, next: 1500000 };
+    this.budgets = this.software ? { first: 0, moving: 6000, next: 30000 } : { first: 1000000, moving: 1000000, next: 1500000 };
     this.origin = head.origin_mm;
     this.items = makeItems(model, head, objects);
     this.batches = makeBatches(this.items);
     this.gpu = new GpuBatches(this.items);
-    this.states = new ObjectStates(objects);
-    for (let o = 0; o < objects; ++o) this.states.colour(o, 0x9aa3ad);
+    const colours = new ObjectColours(objects);
+    for (let o = 0; o < objects; ++o) colours.set(o, 0x9aa3ad);
     const { colour, object } = model.instances;
-    if (colour) for (let i = 0; i < colour.length; ++i) this.states.colour(object[i]!, colour[i]!);
-    this.shared = { states: { value: this.states.texture }, sectionMin: { value: new Vector3(-FAR, -FAR, -FAR) }, sectionMax: { value: new Vector3(FAR, FAR, FAR) }, focus: { value: new Vector3() }, fade: { value: FAR } };
+    if (colour) for (let i = 0; i < colour.length; ++i) colours.set(object[i]!, colour[i]!);
+    this.shared = {
+      states: { value: colours.texture }, apart: { value: new Vector2(NOTHING, NOTHING) }, sectionMin: { value: new Vector3(-FAR, -FAR, -FAR) },
+      sectionMax: { value: new Vector3(FAR, FAR, FAR) }, focus: { value: new Vector3() }, fade: { value: FAR },
+    };
     const both = (ghost: boolean): BatchMaterials => ({
       instanced: makeMaterial(this.shared, { instanced: true, ghost }),
       merged: makeMaterial(this.shared, { ghost }),
@@ -122,7 +140,7 @@ export class View {
     });
     this.ghosts = both(true);
     this.solids = both(false);
-    for (const scene of [this.pieces, this.pair, this.hiddenPair, this.marks]) scene.matrixWorldAutoUpdate = false;
+    for (const scene of [this.pieces, this.pair, this.hiddenPair]) scene.matrixWorldAutoUpdate = false;
     const { bounds } = this.items;
     this.reach = Math.max(1000, 2 * Math.hypot(bounds[3]! - bounds[0]!, bounds[4]! - bounds[1]!, bounds[5]! - bounds[2]!));
     this.controls = new OrbitControls(this.camera, canvas);
@@ -140,8 +158,10 @@ export class View {
     this.look('iso');
   }
 
-  /** Colours of what is behind and of ghosts, for light or dark. */
-  setTheme(background: string, ghost: string): void {
+  /** Colours of what is behind, of ghosts and of what is measured, for light or dark. */
+  setTheme(background: string, ghost: string, ink: string): void {
+    this.ink = new Color(ink).getHex();
+    this.mark();
     this.renderer.setClearColor(new Color(background), 1);
     for (const material of Object.values(this.ghosts)) (material.uniforms.tint!.value as Color).set(ghost);
     this.redraw();
@@ -179,6 +199,7 @@ export class View {
     this.focus = box ? (box.min.map((v, k) => (v + box.max[k]!) / 2) as Vec) : undefined;
     this.mark();
     if (box && fly) this.goTo(this.focus!, Math.max(50, Math.hypot(...box.max.map((v, k) => v - box.min[k]!)) / 2) * 1.6);
+    this.placeSection();
     this.redraw();
   }
 
@@ -233,6 +254,22 @@ export class View {
     this.redraw();
   }
 
+  /** Does in the middle of the picture what a click does. */
+  pressMiddle(): void {
+    this.press(this.width / 2, this.height / 2);
+  }
+
+  /** Moves sideways and upwards by shares of the picture. */
+  move(sideways: number, upwards: number): void {
+    const across = 2 * this.camera.position.distanceTo(this.controls.target) * Math.tan((this.camera.fov * Math.PI) / 360);
+    this.camera.updateMatrixWorld();
+    const [right, up] = [0, 1].map((column) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, column));
+    const by = right!.multiplyScalar(sideways * across * this.camera.aspect).addScaledVector(up!, upwards * across);
+    this.camera.position.add(by);
+    this.controls.target.add(by);
+    this.redraw();
+  }
+
   /** A box round the clash outside of which nothing is shown; half its side in millimetres, or undefined for none. */
   section(half: number | undefined): void {
     this.sectionHalf = half;
@@ -246,7 +283,7 @@ export class View {
     this.camera.updateMatrixWorld();
     const p = new Vector3(...this.local(point)).project(this.camera);
     if (p.z > 1 || p.z < -1) return undefined;
-    return { x: ((p.x + 1) / 2) * this.canvas.clientWidth, y: ((1 - p.y) / 2) * this.canvas.clientHeight };
+    return { x: ((p.x + 1) / 2) * this.width, y: ((1 - p.y) / 2) * this.height };
   }
 
   clearMeasure(): void {
@@ -260,11 +297,11 @@ export class View {
   at(x: number, y: number): Hit | undefined {
     this.camera.updateMatrixWorld();
     const from = this.camera.position.toArray() as Vec;
-    const through = new Vector3((x / this.canvas.clientWidth) * 2 - 1, 1 - (y / this.canvas.clientHeight) * 2, 0.5).unproject(this.camera);
+    const through = new Vector3((x / this.width) * 2 - 1, 1 - (y / this.height) * 2, 0.5).unproject(this.camera);
     const along = through.sub(this.camera.position).normalize().toArray() as Vec;
     const ray: Ray = { from, along };
     const chosen = new Set(this.highlighted);
-    const slack = (PIXELS_BESIDE * 2 * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.max(1, this.canvas.clientHeight);
+    const slack = (PIXELS_BESIDE * 2 * Math.tan((this.camera.fov * Math.PI) / 360)) / this.height;
     const limits: Limits = { slack, min: this.shared.sectionMin.value.toArray() as Vec, max: this.shared.sectionMax.value.toArray() as Vec };
     // One reaches through ghosts for the objects of the clash, and through nothing else.
     if (chosen.size > 0 && this.others_ !== 'solid') {
@@ -276,14 +313,14 @@ export class View {
 
   redraw(): void {
     this.dirty = true;
-    if (this.scheduled) return;
-    this.scheduled = true;
-    requestAnimationFrame(() => this.frame());
+    clearTimeout(this.pause);
+    this.pause = undefined;
+    this.schedule();
   }
 
   /** Whether everything in view has been drawn. */
   get settled(): boolean {
-    return !this.scheduled && this.queue.length === 0;
+    return !this.scheduled && this.pause === undefined && this.queue.length === 0;
   }
 
   private local(point: Vec): Vec {
@@ -291,18 +328,15 @@ export class View {
   }
 
   private paint(chosen: [number, number][]): void {
-    for (const object of this.highlighted) this.states.hide(object, false);
     this.highlighted = chosen.map(([object]) => object);
-    for (const child of [...this.pair.children] as Mesh[]) {
-      child.geometry.dispose();
-      this.pair.remove(child);
-    }
+    // They are drawn apart, in their colours; in their batches they are left out.
+    this.shared.apart.value.set(this.highlighted[0] ?? NOTHING, this.highlighted[1] ?? NOTHING);
+    for (const child of this.pair.children as Mesh[]) child.geometry.dispose();
+    this.pair.clear();
     this.hiddenPair.clear();
     for (const [object, colour] of chosen) {
       const list = itemsOf(this.items, object);
       if (list.length === 0) continue;
-      // The object itself is drawn apart, in its colour; in its batch it is left out.
-      this.states.hide(object, true);
       const lines = list.filter((item) => isLine(this.items, item));
       if (lines.length > 0) this.paintLines(lines, this.paintOf(colour));
       if (lines.length === list.length) continue;
@@ -317,8 +351,10 @@ export class View {
       const behind = new Mesh(geometry, paint.behind);
       behind.frustumCulled = false;
       this.hiddenPair.add(behind);
-      if (mesh.index.length < 60000) {
-        const rim = new LineSegments(new EdgesGeometry(geometry, 30), paint.rim);
+      if (mesh.index.length < MOST_OUTLINED) {
+        const outline = new BufferGeometry();
+        outline.setAttribute('position', new BufferAttribute(sharpEdges(mesh, 30), 3));
+        const rim = new LineSegments(outline, paint.rim);
         rim.frustumCulled = false;
         this.pair.add(rim);
       }
@@ -365,50 +401,24 @@ export class View {
 
   /** The arrow of the depth, the section box and what is measured: over everything. */
   private mark(): void {
-    for (const child of [...this.marks.children] as Mesh[]) {
-      child.geometry.dispose();
-      this.marks.remove(child);
-    }
-    const over = (object: Object3D & { material: { depthTest: boolean; transparent: boolean } }): void => {
-      object.material.depthTest = false;
-      object.material.transparent = true;
-      object.frustumCulled = false;
-      this.marks.add(object);
-    };
-    const line = (points: Vec[], colour: number): void =>
-      over(new Line(new BufferGeometry().setFromPoints(points.map((p) => new Vector3(...p))), new LineBasicMaterial({ color: colour })));
-    const dot = (p: Vec, colour: number): void => {
-      const ball = new Mesh(new SphereGeometry(1, 16, 12), new MeshBasicMaterial({ color: colour }));
-      ball.position.set(...p);
-      ball.userData.pixels = 5;
-      over(ball);
-    };
+    const { marks } = this;
+    marks.clear();
     if (this.shown && this.focus) {
-      dot(this.focus, 0xd62f6b);
+      marks.dot(this.focus, COLOUR_MARK);
       const arrow = this.shown.arrow;
       if (arrow) {
         const [from, to] = [this.local(arrow.from), this.local(arrow.to)];
-        line([from, to], 0xd62f6b);
-        if (arrow.depth) {
-          const cone = new Mesh(new ConeGeometry(0.5, 1.6, 16), new MeshBasicMaterial({ color: 0xd62f6b }));
-          cone.position.set(...to);
-          const along = new Vector3(...to).sub(new Vector3(...from)).normalize();
-          cone.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), along));
-          cone.userData.pixels = 9;
-          over(cone);
-        } else {
-          dot(from, 0xd62f6b);
-          dot(to, 0xd62f6b);
-        }
+        marks.line([from, to], COLOUR_MARK);
+        if (arrow.depth) marks.head(from, to, COLOUR_MARK);
+        else for (const end of [from, to]) marks.dot(end, COLOUR_MARK);
       }
     }
     if (this.sectionHalf !== undefined && this.focus) {
-      const h = this.sectionHalf;
-      const corner = (i: number): Vec => this.focus!.map((v, k) => v + ((i >> k) & 1 ? h : -h)) as Vec;
-      for (const path of [[0, 1, 3, 2, 0, 4, 5, 7, 6, 4], [1, 5], [3, 7], [2, 6]]) line(path.map(corner), 0x8a63d2);
+      const [least, most] = [-1, 1].map((side) => this.focus!.map((v) => v + side * this.sectionHalf!) as Vec);
+      marks.box(least!, most!, COLOUR_SECTION);
     }
-    this.points.forEach((p) => dot(p, 0x111111));
-    if (this.points.length === 2) line(this.points, 0x111111);
+    for (const point of this.points) marks.dot(point, this.ink);
+    if (this.points.length === 2) marks.line(this.points, this.ink);
   }
 
   private goTo(target: Vec, radius: number): void {
@@ -425,25 +435,52 @@ export class View {
 
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement!;
-    if (width === 0 || height === 0) return;
+    this.visible = width > 0 && height > 0;
+    if (!this.visible) return;
+    // Asking the page for it while a picture is made would have it laid out each time.
+    [this.width, this.height] = [width, height];
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.redraw();
   }
 
+  private schedule(): void {
+    if (this.scheduled) return;
+    this.scheduled = true;
+    requestAnimationFrame(() => this.frame());
+  }
+
   /** Draws a picture anew, or goes on with one. */
   private frame(): void {
     this.scheduled = false;
-    if (this.dirty) {
+    // Nobody looks: the picture is made when the panel is shown, which tells its size.
+    if (!this.visible) return;
+    const anew = this.dirty;
+    if (anew) {
       this.dirty = false;
       this.begin();
     }
-    this.piece();
+    if (anew || !this.busy()) this.piece();
     if (this.queue.length > 0 && !this.moving) {
-      this.scheduled = true;
-      requestAnimationFrame(() => this.frame());
+      if (anew && this.software) this.pause = setTimeout(() => this.goOn(), BREATH_MS);
+      else this.schedule();
     }
     this.events.drawn();
+  }
+
+  private goOn(): void {
+    this.pause = undefined;
+    this.schedule();
+  }
+
+  /** Whether the last piece is still being drawn. */
+  private busy(): boolean {
+    if (!this.fence) return false;
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    if (!gl.isContextLost() && gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED) return true;
+    gl.deleteSync(this.fence);
+    this.fence = undefined;
+    return false;
   }
 
   private begin(): void {
@@ -453,7 +490,7 @@ export class View {
     this.renderer.clear();
     // Ghosts are of use near what one looks at; those of a whole ship are a fog.
     const across = this.camera.position.distanceTo(this.controls.target) * Math.tan((this.camera.fov * Math.PI) / 360);
-    this.shared.fade.value = Math.max(1200, 2 * across);
+    this.shared.fade.value = this.software ? Math.max(800, 1.3 * across) : Math.max(1200, 2 * across);
     this.shared.focus.value.set(...(this.focus ?? (this.controls.target.toArray() as Vec)));
     this.renderer.render(this.pair, this.camera);
     this.queue = this.others_ === 'hide' && this.highlighted.length > 0 ? [] : this.inView();
@@ -505,18 +542,13 @@ export class View {
     }
     // One that lies within the other is seen through it. It blends, and so it is drawn once, over all others.
     if (this.queue.length === 0 || this.ghostly) this.renderer.render(this.hiddenPair, this.camera);
-    this.sizeMarks();
-    this.renderer.render(this.marks, this.camera);
-  }
-
-  /** Marks are as large on the screen from near as from afar. */
-  private sizeMarks(): void {
-    const perPixel = (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / Math.max(1, this.canvas.clientHeight);
-    for (const child of this.marks.children) {
-      const pixels = child.userData.pixels as number | undefined;
-      if (pixels) child.scale.setScalar(Math.max(1e-3, this.camera.position.distanceTo(child.position) * perPixel * pixels));
-      child.updateMatrixWorld();
-    }
+    this.marks.size(this.camera, this.height);
+    this.renderer.render(this.marks.scene, this.camera);
+    if (!this.software) return;
+    const gl = this.renderer.getContext() as WebGL2RenderingContext;
+    gl.deleteSync(this.fence ?? null);
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0) ?? undefined;
+    gl.flush();
   }
 
   private listen(): void {
@@ -527,13 +559,18 @@ export class View {
       down = undefined;
       if (moved > 4 || e.button !== 0) return;
       const frame = this.canvas.getBoundingClientRect();
-      this.clicked(e.clientX - frame.left, e.clientY - frame.top);
+      this.press(e.clientX - frame.left, e.clientY - frame.top);
     });
     this.canvas.addEventListener('wheel', (e) => e.preventDefault(), { passive: false });
-    this.canvas.addEventListener('webglcontextrestored', () => this.redraw());
+    this.canvas.addEventListener('webglcontextlost', () => this.events.lost(true));
+    this.canvas.addEventListener('webglcontextrestored', () => {
+      this.events.lost(false);
+      this.redraw();
+    });
   }
 
-  private clicked(x: number, y: number): void {
+  /** What a click there does: an object is picked, or a point measured. */
+  press(x: number, y: number): void {
     const hit = this.at(x, y);
     if (!this.measuring) return this.events.picked(hit?.object);
     if (!hit) return;

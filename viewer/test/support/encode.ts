@@ -83,6 +83,8 @@ export function element(id: string, bytes: Uint8Array, packed = true): string {
   return `<script type="application/octet-stream${packed ? '+gzip' : ''}" id="${id}">${text}</script>\n`;
 }
 
+/** Where the payload of a built page goes. */
+export const PLACE = '<!--strake:payload-->';
 export const TEMPLATE = new URL('../../built/report.html', import.meta.url);
 
 /** The payload of a head and its blocks; `blocks` of the head is filled in. */
@@ -94,5 +96,5 @@ export function payload(head: object, blocks: Blocks, packed = true): string {
 
 /** The built page with a payload. */
 export function pageWith(text: string): string {
-  return readFileSync(TEMPLATE, 'utf8').replace('<!--strake:payload-->', () => text);
+  return readFileSync(TEMPLATE, 'utf8').replace(PLACE, () => text);
 }

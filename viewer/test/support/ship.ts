@@ -17,6 +17,10 @@ export interface Sizes {
   hostile?: boolean;
   /** ten kilometres from the origin */
   far?: boolean;
+  /** objects without any size */
+  points?: boolean;
+  /** objects that were tested, though nothing was found */
+  tested?: boolean;
 }
 
 const DIGITS = '0123456789abcdefghjkmnpqrstvwxyz';
@@ -84,6 +88,8 @@ export interface Ship {
   a: Uint32Array;
   b: Uint32Array;
   centre: Float64Array;
+  /** the discipline of each object */
+  kind: Uint8Array;
 }
 
 /** Makes the head and the blocks of a page. */
@@ -105,7 +111,7 @@ export function ship(sizes: Sizes): Ship {
       const place = k === 0 ? i % side : k === 1 ? Math.floor(i / side) % side : Math.floor(i / (side * side));
       centre[3 * i + k] = (place - side / 2) * 420 + random() * 60;
       const long = kind[i]! < 2 ? k === along : false;
-      size[3 * i + k] = long ? 500 : kind[i] === 0 ? 80 : 140 + random() * 160;
+      size[3 * i + k] = sizes.points ? 0 : long ? 500 : kind[i] === 0 ? 80 : 140 + random() * 160;
     }
   }
 
@@ -314,13 +320,13 @@ export function ship(sizes: Sizes): Ship {
   const head = {
     format: 'strake-page', version: 1, title: sizes.hostile ? HOSTILE[1]! : 'Ship section 12', program: 'Strake 0.1.0', made: '2026-11-28T12:00:00Z',
     counts: { results, groups, objects: all },
-    ...(results > 0 ? { clash } : {}),
+    ...(results > 0 || sizes.tested ? { clash } : {}),
     files: ['hull.rvm', 'machinery.glb'], disciplines: DISCIPLINES, rules: [], columns: [],
     ...(trend.length > 0 ? { trend } : {}),
     ...(scene ? { scene } : {}),
     drawings,
   };
-  return { head, blocks, d, cls, a, b, centre };
+  return { head, blocks, d, cls, a, b, centre, kind };
 }
 
 function escape(text: string): string {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { noFilter, Rows, SEVERITY, worstOf } from '../../src/data/filter.ts';
+import { type Filter, isUnlimited, noFilter, Rows, SEVERITY, worstOf } from '../../src/data/filter.ts';
+import { filterGroups, sortGroups } from '../../src/data/groups.ts';
 import { sortByValue } from '../../src/data/order.ts';
 import { objectName, type Report, shown } from '../../src/data/report.ts';
 import { sentence } from '../../src/data/words.ts';
@@ -57,10 +58,75 @@ test('a filter lets through what each of its parts does', () => {
   assert.deepEqual(only((f) => (f.uncertain = true)), all.filter((i) => r.results!.flags[i]! & 2));
   const d = r.objects!.discipline!;
   assert.deepEqual(only((f) => (f.cell = [0, 2])), all.filter((i) => [d[made.a[i]!]!, d[made.b[i]!]!].sort().join() === '0,2'));
+  assert.deepEqual(only((f) => (f.cell = [undefined, 2])), all.filter((i) => d[made.a[i]!] === 2 || d[made.b[i]!] === 2));
+  assert.deepEqual(only((f) => (f.cell = [2, 2])), all.filter((i) => d[made.a[i]!] === 2 && d[made.b[i]!] === 2));
+  assert.deepEqual(only((f) => (f.d = [-40, undefined])), all.filter((i) => made.d[i]! >= -40));
+  assert.deepEqual(only((f) => (f.d = [-90.5, -40])), all.filter((i) => made.d[i]! >= -90.5 && made.d[i]! <= -40));
+  assert.deepEqual(only((f) => (f.text = 'larsen tuesday')), all.filter((i) => r.results!.comment![i]! > 0));
+  r.results!.reopened = Uint8Array.from(all, (i) => (i % 11 === 0 ? 2 : 0));
+  assert.deepEqual(only((f) => (f.reopened = true)), all.filter((i) => i % 11 === 0));
   const name = r.objects!.id.at(17);
   assert.deepEqual(only((f) => (f.text = name.toUpperCase())), all.filter((i) => made.a[i] === 17 || made.b[i] === 17));
   assert.deepEqual(only((f) => (f.text = key(5))), [5]);
   assert.deepEqual(only((f) => (f.text = `${name} nothing-has-this`)), []);
+});
+
+const LIMITS: Record<string, (f: Filter) => unknown> = {
+  class: (f) => f.classes.add(2), classes: (f) => f.classes.add(0).add(2), status: (f) => f.statuses.add(3), cell: (f) => (f.cell = [0, 2]), side: (f) => (f.cell = [undefined, 1]),
+  depth: (f) => (f.d = [-80, -20]), open: (f) => (f.settled = false), uncertain: (f) => (f.uncertain = true), object: (f) => (f.object = 17), test: (f) => (f.test = 0),
+  several: (f) => {
+    f.statuses.add(1);
+    f.cell = [0, undefined];
+    f.d = [undefined, 0];
+  },
+};
+
+test('every limit of the list limits groups, which count what it leaves', () => {
+  const { report: r, made } = report({ objects: 200, results: 900, groups: 7, decisions: true });
+  const rows = new Rows(r);
+  const { group } = r.results!;
+  for (const [name, change] of Object.entries(LIMITS)) {
+    const f = noFilter();
+    change(f);
+    assert.equal(isUnlimited(f), false, name);
+    const listed = Array.from(rows.filter(f));
+    const { list, counts } = filterGroups(rows, f);
+    const members = Array.from({ length: 7 }, (_, g) => listed.filter((i) => group![i] === g));
+    assert.deepEqual([...list], members.flatMap((m, g) => (m.length > 0 ? [g] : [])), name);
+    for (const g of list) {
+      const of = (cls: number): number => members[g]!.filter((i) => made.cls[i] === cls).length;
+      assert.deepEqual([counts.results[g], counts.hits[g], counts.contacts[g], counts.near[g]], [members[g]!.length, of(0), of(1), of(2)], name);
+      const worst = members[g]!.slice().sort((p, q) => SEVERITY[made.cls[p]!]! - SEVERITY[made.cls[q]!]! || made.d[p]! - made.d[q]!)[0]!;
+      assert.deepEqual([counts.class[g], counts.d[g]], [made.cls[worst], made.d[worst]], name);
+    }
+  }
+});
+
+test('without a limit groups have the numbers of the document, which are those of their results', () => {
+  const { report: r } = report({ objects: 200, results: 900, groups: 7, decisions: true });
+  const rows = new Rows(r);
+  const { list, counts } = filterGroups(rows, noFilter());
+  assert.deepEqual([...list], [0, 1, 2, 3, 4, 5, 6]);
+  assert.equal(counts.limited, false);
+  // A limit that everything keeps to makes the page count itself.
+  const counted = filterGroups(rows, { ...noFilter(), d: [-1e9, 1e9] }).counts;
+  assert.ok(counted.limited);
+  for (const column of ['results', 'hits', 'contacts', 'near', 'class', 'd'] as const) assert.deepEqual([...counted[column]], [...counts[column]], column);
+});
+
+test('a search finds groups by their names, with all their results, and by names in their results', () => {
+  const { report: r } = report({ objects: 200, results: 900, groups: 7 });
+  const rows = new Rows(r);
+  const name = r.groups!.name.at(3);
+  const { list, counts } = filterGroups(rows, { ...noFilter(), text: name.toLowerCase() });
+  assert.ok(list.includes(3));
+  assert.equal(counts.results[3], r.groups!.results[3]);
+  const object = r.objects!.id.at(150);
+  const found = filterGroups(rows, { ...noFilter(), text: object });
+  const expected = new Set(Array.from(rows.filter({ ...noFilter(), text: object })).map((i) => r.results!.group![i]!).filter((g) => g < 7));
+  assert.deepEqual([...found.list], [...expected].sort((p, q) => p - q));
+  const hits = sortGroups(r, list, counts, 'hits', true);
+  for (let i = 1; i < hits.length; ++i) assert.ok(counts.hits[hits[i - 1]!]! >= counts.hits[hits[i]!]!);
 });
 
 test('worst first: hits by depth, then what is too close, then contacts; what is settled behind', () => {

@@ -2,9 +2,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { distanceForBox, LOOKS, makeCamera } from '../../src/scene/camera.ts';
-import { Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, EdgesGeometry, Vector3 } from 'three';
 import { distanceTo, LINES, makeBatches } from '../../src/scene/batches.ts';
-import { isLine, itemsOf, lineEnds, linePieces, makeItems, meshOf, objectBox, type Items, type Vec } from '../../src/scene/items.ts';
+import { sharpEdges } from '../../src/scene/edges.ts';
+import { isLine, itemsOf, lineEnds, linePieces, makeItems, meshOf, objectBox, type Items, type Mesh, type Vec } from '../../src/scene/items.ts';
 import { meets, passes, pick, type Ray } from '../../src/scene/ray.ts';
 import { decodeHead } from '../../src/payload/head.ts';
 import { decodeBoxes, decodeInstances, decodeShapes } from '../../src/payload/payload.ts';
@@ -139,4 +140,33 @@ test('a box fits into the picture, from every side and in every form', () => {
       }
     }
   }
+});
+
+test('outlines are those of three, of round, square and rough things, corners shared or not', () => {
+  const segments = (points: ArrayLike<number>): string[] => {
+    const ends = Array.from({ length: points.length / 3 }, (_, i) => [0, 1, 2].map((k) => points[3 * i + k]!.toFixed(3)).join(' '));
+    return Array.from({ length: ends.length / 2 }, (_, i) => [ends[2 * i]!, ends[2 * i + 1]!].sort().join(' - ')).sort();
+  };
+  const items = scene(60, 20);
+  const random = seeded(3);
+  const rough = 12;
+  const hills: Mesh = { position: new Float32Array(3 * rough * rough), index: new Uint32Array(6 * (rough - 1) ** 2) };
+  for (let i = 0; i < rough * rough; ++i) hills.position.set([100 * (i % rough), 100 * Math.floor(i / rough), 80 * random()], 3 * i);
+  let at = 0;
+  for (let y = 0; y + 1 < rough; ++y) for (let x = 0; x + 1 < rough; ++x) {
+    const p = y * rough + x;
+    for (const corner of [p, p + 1, p + rough, p + 1, p + rough + 1, p + rough]) hills.index[at++] = corner;
+  }
+  const meshes = [hills, ...[0, 1, 2, 3, 65].map((item) => meshOf(items, [item]))];
+  for (const mesh of meshes) {
+    const apart: Mesh = { position: new Float32Array(3 * mesh.index.length), index: Uint32Array.from(mesh.index.keys()) };
+    mesh.index.forEach((v, i) => apart.position.set(mesh.position.subarray(3 * v, 3 * v + 3), 3 * i));
+    for (const one of [mesh, apart]) {
+      const geometry = new BufferGeometry().setAttribute('position', new BufferAttribute(one.position, 3)).setIndex(new BufferAttribute(one.index, 1));
+      const expected = segments(new EdgesGeometry(geometry, 30).getAttribute('position').array);
+      assert.ok(expected.length > 0);
+      assert.deepEqual(segments(sharpEdges(one, 30)), expected);
+    }
+  }
+  assert.equal(sharpEdges({ position: new Float32Array(9), index: Uint32Array.of(0, 1, 2) }, 30).length, 0, 'what has no face has no edge');
 });
