@@ -61,7 +61,7 @@ Status cut_files(Cut& made, std::uint64_t most_bytes, const parallel::Context& c
   run.scene = planner->scene_options();
   std::vector<RequestFacts> facts(made.reader->files().size());
   Result<tiles::Outline> outline = tiles::outline_of(
-      *made.reader, run.scene,
+      *made.reader, run.scene, {},
       [&](const model::Scene& scene, std::size_t given) -> Status {
         Result<RequestFacts> of_file = planner->facts(scene, context);
         if (!of_file) return of_file.error();

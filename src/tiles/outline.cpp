@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "clash/rules/options.hpp"
 #include "io/importer/importing_reader.hpp"
@@ -63,10 +64,12 @@ void append_extents(const model::Scene& scene, std::vector<Extent>& extents) {
 struct Remains {
   model::Model model;
   std::vector<Extent> extents;
+  model::Scene placed;  ///< with Keep::places
   std::vector<model::IncompleteObject> lacking;
   Diagnostics reading, scene;
   std::string label;
   std::uint64_t bytes = 0;
+  std::size_t objects = 0, bodies = 0;
   Hash128 names;
 };
 
@@ -78,6 +81,46 @@ model::Model without_geometry(const model::Model& model) {
   rest.objects = model.objects;
   for (model::Object& object : rest.objects) object.first_body = object.body_count = 0;
   return rest;
+}
+
+/// Returns a model whose meshes and lines have nothing in them.
+model::Model without_meshes(const model::Model& model) {
+  model::Model rest = without_geometry(model);
+  rest.objects = model.objects;
+  rest.bodies = model.bodies;
+  rest.shapes.reserve(model.shapes.size());
+  for (const model::Shape& shape : model.shapes) {
+    if (std::holds_alternative<geometry::Primitive>(shape))
+      rest.shapes.push_back(shape);
+    else if (std::holds_alternative<geometry::Polylines>(shape))
+      rest.shapes.emplace_back(geometry::Polylines{});
+    else
+      rest.shapes.emplace_back(geometry::TriangleMesh{});
+  }
+  return rest;
+}
+
+/// Takes all but the corners out of the shapes of a scene that need not stay whole.
+model::Scene without_triangles(model::Scene scene, const Keep& keep) {
+  std::vector<bool> whole(scene.shapes.size());
+  for (const model::GridBody& body : scene.bodies) {
+    const model::GridShape& shape = scene.shapes[body.grid_shape];
+    if (keep.whole && !whole[body.grid_shape] && !shape.box.empty())
+      whole[body.grid_shape] = keep.whole(body.box(shape));
+  }
+  for (std::size_t s = 0; s < whole.size(); ++s) {
+    if (whole[s]) continue;
+    for (geometry::Part& part : scene.shapes[s].parts) {
+      geometry::Part rest;
+      rest.vertices = std::move(part.vertices);
+      rest.primitive = std::move(part.primitive);
+      rest.sag = part.sag;
+      part = std::move(rest);
+    }
+  }
+  scene.diagnostics = {};
+  scene.lacking = {};
+  return scene;
 }
 
 /// Appends what was said of a file that has another label now.
@@ -101,13 +144,24 @@ class Gathering {
       : remains_(std::move(remains)), given_(files) {}
 
   Outline run() {
+    number_shapes();
     join_names();
     join_objects();
+    join_scenes();
     join_diagnostics();
     return std::move(all_);
   }
 
  private:
+  /// Models are put behind each other as they were given, and only then in order.
+  void number_shapes() {
+    std::uint32_t before = 0;
+    for (const Remains& file : remains_) {
+      shapes_before_.push_back(before);
+      before += static_cast<std::uint32_t>(file.model.shapes.size());
+    }
+  }
+
   void join_names() {
     if (remains_.size() == 1) {
       all_.model = std::move(remains_.front().model);
@@ -141,6 +195,37 @@ class Gathering {
     }
   }
 
+  /// Puts scenes together; the bodies of a model stand in the order of its objects.
+  void join_scenes() {
+    model::Scene& all = all_.scene;
+    std::uint32_t objects = 0, bodies = 0;
+    for (const std::uint32_t f : order_) {
+      model::Scene& scene = remains_[f].placed;
+      const auto shapes = static_cast<std::uint32_t>(all.shapes.size());
+      const auto placed = static_cast<std::uint32_t>(all.bodies.size());
+      for (model::GridShape& shape : scene.shapes) {
+        shape.shape = model::ShapeId{index(shape.shape) + shapes_before_[f]};
+        all.shapes.push_back(std::move(shape));
+      }
+      for (model::GridBody body : scene.bodies) {
+        body.grid_shape += shapes;
+        body.body += bodies;
+        body.object = model::ObjectId{index(body.object) + objects};
+        all.bodies.push_back(body);
+      }
+      for (std::size_t o = 0; o + 1 < scene.first_body.size(); ++o)
+        all.first_body.push_back(scene.first_body[o] + placed);
+      objects += static_cast<std::uint32_t>(remains_[f].objects);
+      bodies += static_cast<std::uint32_t>(remains_[f].bodies);
+      all.sag_mm = scene.sag_mm;
+      all.weld_mm = scene.weld_mm;
+      all.left_out += scene.left_out;
+      scene = {};
+    }
+    all.first_body.push_back(static_cast<std::uint32_t>(all.bodies.size()));
+    all.lacking = all_.lacking;
+  }
+
   void join_diagnostics() {
     std::vector<project::FileDiagnostics> said;
     for (std::size_t f = 0; f < order_.size(); ++f) {
@@ -159,7 +244,8 @@ class Gathering {
 
   std::vector<Remains> remains_;
   const std::vector<io::FileToRead>& given_;
-  std::vector<std::uint32_t> order_;  ///< which file is which of the model
+  std::vector<std::uint32_t> shapes_before_;  ///< by file, as given
+  std::vector<std::uint32_t> order_;          ///< which file is which of the model
   Outline all_;
 };
 
@@ -185,8 +271,8 @@ Hash128 hash_of_ids(const model::Model& model) {
   return hash.value();
 }
 
-Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& options, Look look,
-                           const parallel::Context& context) {
+Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& options, const Keep& keep,
+                           Look look, const parallel::Context& context) {
   std::vector<Remains> remains;
   bool keeps_scenes = true;
   for (std::size_t f = 0; f < reader.files().size(); ++f) {
@@ -208,7 +294,10 @@ Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& option
     file.bytes = model.files.front().bytes;
     // The model of an only file is kept until it is cut.
     if (reader.files().size() > 1) file.names = hash_of_ids(model);
-    file.model = without_geometry(model);
+    file.objects = model.objects.size();
+    file.bodies = model.bodies.size();
+    file.model = keep.places ? without_meshes(model) : without_geometry(model);
+    if (keep.places) file.placed = without_triangles(std::move(*scene), keep);
   }
   return Gathering(std::move(remains), reader.files()).run();
 }
