@@ -2,14 +2,15 @@
 #include "tiles/outline.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include "clash/rules/options.hpp"
 #include "io/importer/importing_reader.hpp"
+#include "io/read_file.hpp"
 #include "project/model/stored_diagnostics.hpp"
 
 namespace strake::tiles {
@@ -71,6 +72,7 @@ struct Remains {
   std::uint64_t bytes = 0;
   std::size_t objects = 0, bodies = 0;
   Hash128 names;
+  std::optional<io::MapPlace> map;
 };
 
 model::Model without_geometry(const model::Model& model) {
@@ -234,12 +236,25 @@ class Gathering {
       said.push_back(
           {file.reading, file.label, all_.model.files[f].label, given_[order_[f]].path.string()});
     }
-    all_.model.diagnostics =
-        said.size() == 1 ? said.front().diagnostics : project::joined_diagnostics(said);
+    const Diagnostics of_places = tell_of_places();
+    all_.model.diagnostics = said.size() == 1 && of_places.counts().empty()
+                                 ? said.front().diagnostics
+                                 : project::joined_diagnostics(said, of_places);
     all_.loading = all_.model.diagnostics;
     for (std::size_t f = 0; f < order_.size(); ++f)
       append_renamed(remains_[order_[f]].scene, remains_[order_[f]].label,
                      all_.model.files[f].label, all_.loading);
+  }
+
+  [[nodiscard]] Diagnostics tell_of_places() const {
+    std::vector<io::FilePlace> places;
+    bool on_map = false;
+    for (std::size_t f = 0; f < remains_.size(); ++f) {
+      places.push_back({given_[f].path.string(), remains_[f].map});
+      on_map = on_map || given_[f].options.on_map;
+    }
+    std::ranges::sort(places, {}, &io::FilePlace::file);
+    return io::tell_of_places(places, on_map);
   }
 
   std::vector<Remains> remains_;
@@ -254,13 +269,12 @@ class Gathering {
 Result<const model::Model*> FileReader::read(std::size_t file, const parallel::Context& context) {
   if (last_ && number_ == file) return &*last_;
   last_.reset();
-  const std::array one{files_[file]};
   // An environment that says no settings tells of it where an importer is needed.
-  Result<model::Model> model =
-      settings_ ? io::read_models(one, *settings_, context) : io::read_models(one, context);
-  if (!model) return model.error();
+  Result<io::ReadFile> read = io::read_file(files_[file], settings_, context);
+  if (!read) return read.error();
   number_ = file;
-  last_.emplace(std::move(*model));
+  last_.emplace(std::move(read->model));
+  map_ = std::move(read->map);
   return &*last_;
 }
 
@@ -290,6 +304,7 @@ Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& option
     // That is of the run and not of a file, and said once.
     if (file.reading.count(io::kSceneNotKept) > 0 && !std::exchange(keeps_scenes, false))
       file.reading.remove(io::kSceneNotKept);
+    file.map = reader.map();
     file.label = model.files.front().label;
     file.bytes = model.files.front().bytes;
     // The model of an only file is kept until it is cut.

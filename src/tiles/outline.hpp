@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "io/importer/map_place.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
@@ -32,6 +33,8 @@ class FileReader {
   /// io::read_models().
   [[nodiscard]] Result<const model::Model*> read(std::size_t file,
                                                  const parallel::Context& context);
+  /// Returns where the importer of the last one says that it lies on a map.
+  [[nodiscard]] const std::optional<io::MapPlace>& map() const { return map_; }
   /// Frees the last one.
   void forget() { last_.reset(); }
 
@@ -40,6 +43,7 @@ class FileReader {
   Result<io::ImportSettings> settings_;
   std::size_t number_ = 0;
   std::optional<model::Model> last_;
+  std::optional<io::MapPlace> map_;
 };
 
 /// What is held of a model besides names and extents.
