@@ -340,6 +340,70 @@ def _kill_then_do(task: Any, tile_file: str, found: str, threads: int) -> None:
     task(tile_file, found, threads)
 
 
+@pytest.fixture
+def through_python(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The program starts this Python, which has the package."""
+    monkeypatch.setenv("STRAKE_PYTHON", sys.executable)
+
+
+@pytest.mark.parametrize(("words", "arguments"), CLASH_RUNS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
+def test_the_program_clashes_by_tiles(
+    tmp_path: Path, through_python: None, ship_file: Path, words: list[str], arguments: dict[str, Any]
+) -> None:
+    whole, tiled = tmp_path / "whole.json", tmp_path / "tiled.json"
+    strake.run_program(["clash", ship_file, *words, "--quiet", "-o", whole])
+    done = strake.run_program(["clash", ship_file, *words, "--scheduler", "local", f"--output={tiled}", "--quiet"])
+    assert (done.stdout, done.stderr) == ("", "")
+    assert tiled.read_bytes() == whole.read_bytes()
+
+
+@pytest.mark.parametrize(("words", "arguments"), TILED_DRAWINGS[:5], ids=lambda x: " ".join(x) if isinstance(x, list) else "")
+def test_the_program_draws_by_tiles(
+    tmp_path: Path, through_python: None, ship_file: Path, words: list[str], arguments: dict[str, Any]
+) -> None:
+    strake.run_program(["draw", ship_file, *words, "-o", tmp_path / "whole.svg", "-o", tmp_path / "whole.json"])
+    files = ["-o", tmp_path / "tiled.svg", "-o", tmp_path / "tiled.json"]
+    done = strake.run_program(["draw", ship_file, *words, "--scheduler", "local", "--worker-memory", "500MiB", *files])
+    assert "visible lines" in done.stderr
+    for name in ("svg", "json"):
+        assert (tmp_path / f"tiled.{name}").read_bytes() == (tmp_path / f"whole.{name}").read_bytes()
+
+
+def test_what_the_program_refuses_by_tiles(tmp_path: Path, through_python: None, ship_file: Path) -> None:
+    def ended(*words: object) -> tuple[int, str]:
+        done = strake.run_program([str(word) for word in words], check=False)
+        return done.returncode, done.stderr
+
+    out = tmp_path / "out.json"
+    code, told = ended("clash", ship_file, "--scheduler", "local")
+    assert code == 2 and "no file is named" in told
+    code, told = ended("clash", ship_file, "--scheduler", "local", "-o", out, "--sort", "size")
+    assert code == 2 and "--sort: strake clash has it on one machine only" in told
+    code, told = ended("draw", ship_file, "--scheduler", "local", "-o", out, "--flush-seams", "off")
+    assert code == 2 and "flush seams" in told
+    code, told = ended("draw", ship_file, "--scheduler", "local", "-o", out, "--near", "much", "--eye", "1,2,3", "--target", "9,9,9")
+    assert code == 2 and "near" in told
+    code, told = ended("clash", tmp_path / "none.glb", "--scheduler", "local", "-o", out)
+    assert code == 3 and "none.glb" in told
+    code, told = ended("clash", ship_file, "--scheduler", "tcp://127.0.0.1:1x", "-o", out)
+    assert code == 2 and ("no scheduler answers" in told or "strake[cluster]" in told)
+    assert not out.exists()
+
+
+def test_a_python_without_the_package(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, ship_file: Path) -> None:
+    words = ["clash", str(ship_file), "--scheduler", "local", "-o", str(tmp_path / "out.json")]
+    monkeypatch.setenv("STRAKE_PYTHON", str(tmp_path / "python9"))
+    done = strake.run_program(words, check=False)
+    assert done.returncode == 2 and "cannot be run" in done.stderr and "STRAKE_PYTHON" in done.stderr
+    bare = tmp_path / "bare"
+    bare.write_text(f'#!/bin/sh\nexec {sys.executable} -I -S "$@"\n')
+    bare.chmod(0o755)
+    monkeypatch.setenv("STRAKE_PYTHON", str(bare))
+    done = strake.run_program(words, check=False)
+    assert done.returncode == 2 and "pip install 'strake[cluster]'" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
 def test_killed_workers(
     tmp_path: Path, ship: strake.Model, ship_file: Path, small_tiles: list[int], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -75,20 +75,25 @@ struct Remains {
   std::optional<io::MapPlace> map;
 };
 
+/// Returns files, groups and objects of a model.
+model::Model names_of(const model::Model& model) {
+  model::Model names;
+  names.files = model.files;
+  names.groups = model.groups;
+  names.group_attributes = model.group_attributes;
+  names.objects = model.objects;
+  return names;
+}
+
 model::Model without_geometry(const model::Model& model) {
-  model::Model rest;
-  rest.files = model.files;
-  rest.groups = model.groups;
-  rest.group_attributes = model.group_attributes;
-  rest.objects = model.objects;
+  model::Model rest = names_of(model);
   for (model::Object& object : rest.objects) object.first_body = object.body_count = 0;
   return rest;
 }
 
 /// Returns a model whose meshes and lines have nothing in them.
 model::Model without_meshes(const model::Model& model) {
-  model::Model rest = without_geometry(model);
-  rest.objects = model.objects;
+  model::Model rest = names_of(model);
   rest.bodies = model.bodies;
   rest.shapes.reserve(model.shapes.size());
   for (const model::Shape& shape : model.shapes) {

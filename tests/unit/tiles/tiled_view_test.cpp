@@ -152,10 +152,12 @@ TEST(TiledView, TellsOfTheObjectThatTheEyeLiesIn) {
   model.files.push_back({.label = "boxes", .format = "hand", .unit = "mm", .up_axis = "z"});
   for (int i = 0; i < 60; ++i) {
     const double x = 100.0 * i;
-    model.objects.push_back({.id = "box" + std::to_string(i), .name = "Box " + std::to_string(i)});
-    model.objects.back().first_body = static_cast<std::uint32_t>(i);
-    model.objects.back().body_count = 1;
-    model.bodies.push_back({.shape = model::ShapeId{static_cast<std::uint32_t>(i)}});
+    model::Object& object = model.objects.emplace_back();
+    object.id = "box" + std::to_string(i);
+    object.name = "Box " + std::to_string(i);
+    object.first_body = static_cast<std::uint32_t>(i);
+    object.body_count = 1;
+    model.bodies.emplace_back().shape = model::ShapeId{static_cast<std::uint32_t>(i)};
     model.shapes.emplace_back(test::box_mesh({x, 0, 0}, {x + 90, 90, 90}));
   }
   model::finish(model);
