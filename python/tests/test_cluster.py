@@ -94,13 +94,13 @@ def small_tiles(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[int]]:
             made = whole_cut(*arguments[:6], tiles[0] if tiles else usual, *arguments[7:])
             sizes = made.sizes
             assert len(sizes) > 3
-            assert sum(objects for objects, _ in sizes) > min(made.objects, 100)  # some are in several tiles
+            assert sum(objects for objects, _ in sizes) > min(made.objects, 60)  # some are in several tiles
             return made
 
         return cut
 
     monkeypatch.setattr(_core, "cut", cut_small(_core.cut, 80_000))
-    monkeypatch.setattr(_core, "cut_drawing", cut_small(_core.cut_drawing, 500_000))
+    monkeypatch.setattr(_core, "cut_drawing", cut_small(_core.cut_drawing, 200_000))
     yield tiles
 
 
