@@ -208,7 +208,7 @@ def test_drawings_that_make_no_sense(tmp_path: Path, ship: strake.Model, ship_fi
         strake.cluster.draw(ship_file, select=ship.select("PIP*"))  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="no argument 'scael'"):
         strake.cluster.draw(ship_file, scael=50)
-    with pytest.raises(strake.UsageError, match="nothing"):
+    with pytest.raises(strake.UsageError, match="picks no object"):
         strake.cluster.draw(ship_file, select="NONE*")
     with pytest.raises(strake.UsageError, match="sharp_angle"):
         strake.cluster.draw(ship_file, sharp_angle=400)
