@@ -46,8 +46,16 @@ _LOST = "is missing or damaged"
 _UNITS = {"": 1, "B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "KIB": 2**10, "MIB": 2**20, "GIB": 2**30}
 
 
-_CutT = TypeVar("_CutT", _core.Cut, _core.CutDrawing)
-_RunT = TypeVar("_RunT", _core.ClashRun, _core.DrawRun)
+class _Cut(Protocol):
+    """What the files were cut into."""
+
+    @property
+    def sizes(self) -> list[tuple[int, int]]:
+        """By tile: objects, and bytes that a worker takes."""
+
+
+_CutT = TypeVar("_CutT", bound=_Cut)
+_RunT = TypeVar("_RunT")
 # What a worker does: reads one tile, and writes what it finds there beside it.
 _Task = Callable[[str, str, int], None]
 

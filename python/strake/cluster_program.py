@@ -31,7 +31,9 @@ def _angle(word: str) -> float:
 
 
 def _millimetres(word: str) -> float:
-    """A length that may be negative, in mm or with its unit."""
+    """A coordinate in mm, or with its unit."""
+    with suppress(ValueError):
+        return float(word)
     negative = word.startswith("-")
     mm = _core.length_mm(word[1:] if negative else word)
     return -mm if negative else mm
