@@ -68,9 +68,10 @@ class Drawing:
     @cached_property
     def _whole(self) -> _core.DrawRun:
         """The drawing with its hidden lines, which are found when they are asked for, unless they are shown anyway."""
-        if self._request.visible_only or self._request.hidden != "off":
+        request = self._request
+        if request.visible_only or request.keep_hidden or request.hidden != "off":
             return self._core
-        self._request.keep_hidden = True
+        request.keep_hidden = True
         return self._again()
 
     @cached_property
@@ -239,8 +240,9 @@ def draw_request(
     obstructions: bool = False,
     insulation: bool = False,
     visible_only: bool = False,
+    keep_hidden: bool = False,
 ) -> _core.DrawRequest:
-    """What draw() asks for. Raises: UsageError."""
+    """What draw() asks for; `keep_hidden` finds hidden lines though they are not shown. Raises: UsageError."""
     request = _core.DrawRequest()
     _set_view(request, view)
     request.select = select
@@ -249,6 +251,7 @@ def draw_request(
     request.paper, request.title = "" if paper is None else text(paper, "paper"), text(title, "title")
     request.stage, request.intersections = text(stage, "stage"), text(intersections, "intersections")
     request.own_polylines, request.smooth = text(own_polylines, "own_polylines"), text(smooth, "smooth")
+    request.keep_hidden = truth(keep_hidden, "keep_hidden")
     request.flush_seams, request.visible_only = truth(flush_seams, "flush_seams"), truth(visible_only, "visible_only")
     request.obstructions, request.insulation = truth(obstructions, "obstructions"), truth(insulation, "insulation")
     request.sharp_angle_deg = number(sharp_angle, "sharp_angle")

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import strake
@@ -220,7 +221,10 @@ def _run(words: Sequence[str], line: _Line) -> None:
         _tell(", ".join(f"{count} {name}" for name, count in clashes.summary.items() if count), taken, line)
         return
     view = taken.arguments(_VIEW)
-    drawing = cluster.draw(taken.files, view or "iso", progress=line, **taken.arguments(_DRAW))
+    arguments = taken.arguments(_DRAW)
+    # As on one machine, all files are of one drawing.
+    arguments["keep_hidden"] = "visible_only" not in arguments and not all(_core.shows_ink(Path(file)) for file in taken.outputs)
+    drawing = cluster.draw(taken.files, view or "iso", progress=line, **arguments)
     _write(drawing, taken, line)
     _tell(repr(drawing).strip("<>").removeprefix("strake."), taken, line)
 
