@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <cstddef>
+#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -15,6 +17,7 @@
 #include "cli/output/console.hpp"
 #include "cli/run/interrupts.hpp"
 #include "cli/run/memory.hpp"
+#include "cli/run/on_cluster.hpp"
 #include "cli/verbs/verb.hpp"
 #include "strake/core/version.hpp"
 
@@ -110,6 +113,10 @@ int run(int argc, char** argv) {
   }
   if (const Status status = check_no_empty_values(program); !status)
     return ended_by(status.error(), console);
+  // No thread has begun yet, and no signal waits for one.
+  if (!common.scheduler.empty())
+    return ended_by(go_on_cluster(std::span(argv, static_cast<std::size_t>(argc)).subspan(1)),
+                    console);
   for (const Verb& verb : verbs)
     if (verb.command->parsed()) return run_verb(verb, common, console);
   return static_cast<int>(ExitCode::internal);

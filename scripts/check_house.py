@@ -22,7 +22,7 @@ MAY_USE = {
     'sheets': ['core', 'parallel', 'geometry', 'model', 'settings', 'hlr', 'drawing'],
     'report': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing'],
     'project': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'settings', 'rules', 'hlr', 'drawing', 'report'],
-    'tiles': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'settings', 'rules', 'project'],
+    'tiles': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'settings', 'rules', 'hlr', 'project'],
     'generate': ['core', 'parallel', 'geometry', 'model', 'clash'],
     'workbook': ['core', 'parallel', 'geometry', 'model', 'clash', 'drawing', 'report'],
     'pictures': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'hlr', 'drawing', 'report'],

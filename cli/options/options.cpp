@@ -43,6 +43,26 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
       ->group("Output");
 }
 
+void add_scheduler_options(CLI::App& command, CommonOptions& options) {
+  CLI::Option* const scheduler =
+      command
+          .add_option("--scheduler", options.scheduler,
+                      "Cut the model into tiles, which the workers of a Dask cluster take "
+                      "(tcp://HOST:8786), or this machine one after the other (local): for models "
+                      "that fit into no memory. Python does it: pip install 'strake[cluster]' "
+                      "(docs/cluster.md)")
+          ->type_name("ADDRESS|local")
+          ->group("Cluster");
+  const auto add = [&](const char* name, std::string& value, const char* type, const char* help) {
+    command.add_option(name, value, help)->type_name(type)->needs(scheduler)->group("Cluster");
+  };
+  add("--worker-memory", options.worker_memory, "SIZE", "What a worker may take (default 1GiB)");
+  add("--worker-threads", options.worker_threads, "N", "Threads of a worker (default 1)");
+  add("--tile-folder", options.tile_folder, "FOLDER",
+      "Where tiles are while the run lasts, seen by all workers under one path (default: a "
+      "temporary folder, which workers on this machine see)");
+}
+
 void add_distribution_option(CLI::App& command, CommonOptions& options) {
   add_choice(command, "--distribution", options.distribution,
              {"planned", "in-order", "equal-ranges"},

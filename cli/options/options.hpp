@@ -19,9 +19,12 @@ class Option;
 
 namespace strake::cli {
 
-/// The options that every verb has, as written; `distribution` is of some only.
+/// The options that every verb has, as written; `distribution` and those of clusters are of some
+/// only.
 struct CommonOptions {
   std::string threads, distribution;
+  std::string scheduler;                                   ///< empty: this process does the work
+  std::string worker_memory, worker_threads, tile_folder;  ///< for --scheduler
   bool quiet = false, stats = false, json = false;
 };
 
@@ -33,6 +36,8 @@ struct InputOptions {
 };
 
 void add_common_options(CLI::App& command, CommonOptions& options);
+/// Adds --scheduler and what goes with it, for verbs that Python's strake.cluster has.
+void add_scheduler_options(CLI::App& command, CommonOptions& options);
 /// Adds --distribution, for verbs whose work is worth a comparison.
 void add_distribution_option(CLI::App& command, CommonOptions& options);
 void add_input_options(CLI::App& command, InputOptions& options);

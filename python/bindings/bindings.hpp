@@ -14,5 +14,6 @@ void bind_drawing(nanobind::module_& module);
 void bind_sheet(nanobind::module_& module);
 void bind_project(nanobind::module_& module);
 void bind_tiles(nanobind::module_& module);
+void bind_tiled_drawing(nanobind::module_& module);
 
 }  // namespace strake::python

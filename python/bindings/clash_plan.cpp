@@ -7,23 +7,12 @@
 #include <utility>
 
 #include "clash/sets_by_file.hpp"
+#include "python/bindings/selection.hpp"
 #include "rules/clearances.hpp"
 #include "rules/profiles.hpp"
 #include "rules/rule_context.hpp"
 
 namespace strake::python {
-
-namespace {
-
-/// Appends what selections pick of objects that come behind.
-void append_picked(const std::vector<std::vector<bool>>& more,
-                   std::vector<std::vector<bool>>& all) {
-  all.resize(more.size());
-  for (std::size_t s = 0; s < more.size(); ++s)
-    all[s].insert(all[s].end(), more[s].begin(), more[s].end());
-}
-
-}  // namespace
 
 void RequestFacts::append(const RequestFacts& more) {
   append_picked(more.a, a);

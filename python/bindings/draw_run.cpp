@@ -34,65 +34,68 @@ drawing::InkOptions ink_options(const DrawRequest& request) {
   return options;
 }
 
-/// The request in terms of the library, and what it is done to.
-struct Job {
-  const DrawRequest& request;
-  const model::Scene& scene;
-  hlr::View view;
-  hlr::Options options;
-  drawing::LayoutOptions layout;
-};
+}  // namespace
 
-Status put_on_paper(const std::vector<bool>& drawn, Job& job, DrawRun& run,
-                    const parallel::Context& context) {
-  const Result<hlr::Drawing> lines = hlr::draw(job.scene, drawn, job.view, job.options, context);
-  if (!lines) return lines.error();
-  run.diagnostics.append(lines->diagnostics);
-  Result<drawing::NeutralDrawing> sheet =
-      drawing::lay_out(*lines, *job.scene.model, job.layout, context);
+Result<DrawJob> job_of(const DrawRequest& request) {
+  Result<hlr::View> view = view_of(request);
+  if (!view) return view.error();
+  Result<hlr::Options> options = line_options(request);
+  if (!options) return options.error();
+  Result<drawing::LayoutOptions> layout = layout_options(request);
+  if (!layout) return layout.error();
+  return DrawJob{std::move(*view), std::move(*options), std::move(*layout)};
+}
+
+Status fit_job(const DrawRequest& request, const model::Scene& scene, std::vector<bool> drawn,
+               std::vector<bool> uncut, DrawJob& job, Diagnostics& diagnostics,
+               const parallel::Context& context) {
+  job.drawn = std::move(drawn);
+  job.options.uncut = std::move(uncut);
+  if (const Status status = mind_far_objects(scene, job.view, request.leave_out_far_objects,
+                                             job.drawn, job.layout, diagnostics, context);
+      !status)
+    return status;
+  if (request.sag_mm) return {};
+  const Result<double> sag =
+      drawing::sag_for_paper(scene, job.drawn, job.view, job.layout, context);
+  if (!sag) return sag.error();
+  job.options.sag_mm = *sag;
+  return {};
+}
+
+Status put_on_paper(const DrawRequest& request, const DrawJob& job, const hlr::Drawing& lines,
+                    const model::Model& model, DrawRun& run, const parallel::Context& context) {
+  run.diagnostics.append(lines.diagnostics);
+  Result<drawing::NeutralDrawing> sheet = drawing::lay_out(lines, model, job.layout, context);
   if (!sheet) return sheet.error();
   run.drawing = std::move(*sheet);
-  Result<drawing::Ink> ink = drawing::choose_ink(run.drawing, ink_options(job.request), context);
+  Result<drawing::Ink> ink = drawing::choose_ink(run.drawing, ink_options(request), context);
   if (!ink) return ink.error();
   run.ink = std::move(*ink);
   return {};
 }
 
-Status draw_job(Job job, DrawRun& run, const parallel::Context& context) {
-  Result<std::vector<bool>> drawn = pick_some(job.request.select, job.scene, "select", context);
-  if (!drawn) return drawn.error();
-  if (const Status status = mind_far_objects(job.scene, job.view, job.request.leave_out_far_objects,
-                                             *drawn, job.layout, run.diagnostics, context);
-      !status)
-    return status;
-  Result<std::vector<bool>> uncut = pick_some({job.request.uncut, {}}, job.scene, "uncut", context);
-  if (!uncut) return uncut.error();
-  job.options.uncut = std::move(*uncut);
-  if (!job.request.sag_mm) {
-    const Result<double> sag =
-        drawing::sag_for_paper(job.scene, *drawn, job.view, job.layout, context);
-    if (!sag) return sag.error();
-    job.options.sag_mm = *sag;
-  }
-  return put_on_paper(*drawn, job, run, context);
-}
-
-}  // namespace
-
 Result<std::shared_ptr<DrawRun>> draw(const ModelPointer& model, const DrawRequest& request,
                                       const parallel::Context& context) {
-  const Result<hlr::View> view = view_of(request);
-  if (!view) return view.error();
-  const Result<hlr::Options> options = line_options(request);
-  if (!options) return options.error();
-  const Result<drawing::LayoutOptions> layout = layout_options(request);
-  if (!layout) return layout.error();
+  Result<DrawJob> job = job_of(request);
+  if (!job) return job.error();
   const auto scene = model->scene(scene_options(request), context);
   if (!scene) return scene.error();
   const auto run = std::make_shared<DrawRun>();
   run->model = model;
-  const Status drawn = draw_job({request, **scene, *view, *options, *layout}, *run, context);
+  Result<std::vector<bool>> drawn = pick_some(request.select, **scene, "select", context);
   if (!drawn) return drawn.error();
+  Result<std::vector<bool>> uncut = pick_some({request.uncut, {}}, **scene, "uncut", context);
+  if (!uncut) return uncut.error();
+  if (const Status status = fit_job(request, **scene, std::move(*drawn), std::move(*uncut), *job,
+                                    run->diagnostics, context);
+      !status)
+    return status.error();
+  const Result<hlr::Drawing> lines =
+      hlr::draw(**scene, job->drawn, job->view, job->options, context);
+  if (!lines) return lines.error();
+  const Status put = put_on_paper(request, *job, *lines, model->model(), *run, context);
+  if (!put) return put.error();
   return run;
 }
 

@@ -164,6 +164,7 @@ void bind_drawing(nb::module_& module) {
                    })
       .def_prop_ro("scale", [](const DrawRun& run) { return run.drawing.sheet.scale_text; })
       .def_prop_ro("summary", &summary)
+      .def_prop_ro("model", [](const DrawRun& run) { return run.model; })
       .def_prop_ro("diagnostics", [](const DrawRun& run) { return listed(run.diagnostics); });
   module.attr("LINE_KINDS") =
       names(static_cast<std::size_t>(hlr::EdgeKind::smooth) + 1,

@@ -32,4 +32,5 @@ NB_MODULE(_core, module) {
   python::bind_sheet(module);
   python::bind_project(module);
   python::bind_tiles(module);
+  python::bind_tiled_drawing(module);
 }

@@ -78,13 +78,27 @@ Result<Picked> pick(const Pick& wanted, const model::Scene& scene,
 
 Result<std::vector<bool>> pick_some(const Pick& wanted, const model::Scene& scene,
                                     const std::string& where, const parallel::Context& context) {
+  const auto each = picked_by_each(wanted, scene, context);
+  if (!each) return each.error();
+  return pick_some(wanted, *each, *scene.model, where);
+}
+
+Result<std::vector<bool>> pick_some(const Pick& wanted, const std::vector<std::vector<bool>>& each,
+                                    const model::Model& model, const std::string& where) {
   if (wanted.is_everything()) return std::vector<bool>();
-  Result<Picked> picked = pick(wanted, scene, context);
+  Result<Picked> picked = pick(wanted, each, model);
   if (!picked) return picked.error();
   if (!picked->idle.empty())
     return Error{ErrorCode::usage, picked->idle.front(), where,
                  "len(), objects tell what there is"};
   return std::move(picked->objects);
+}
+
+void append_picked(const std::vector<std::vector<bool>>& more,
+                   std::vector<std::vector<bool>>& all) {
+  all.resize(more.size());
+  for (std::size_t s = 0; s < more.size(); ++s)
+    all[s].insert(all[s].end(), more[s].begin(), more[s].end());
 }
 
 }  // namespace strake::python

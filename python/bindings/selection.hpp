@@ -47,4 +47,13 @@ struct Picked {
                                                   const std::string& where,
                                                   const parallel::Context& context);
 
+/// The same where it is known what each selection picks.
+[[nodiscard]] Result<std::vector<bool>> pick_some(const Pick& wanted,
+                                                  const std::vector<std::vector<bool>>& each,
+                                                  const model::Model& model,
+                                                  const std::string& where);
+
+/// Appends what selections pick of objects that come behind.
+void append_picked(const std::vector<std::vector<bool>>& more, std::vector<std::vector<bool>>& all);
+
 }  // namespace strake::python

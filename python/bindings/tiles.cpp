@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "python/bindings/tiles.hpp"
+
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
@@ -61,7 +63,7 @@ Status cut_files(Cut& made, std::uint64_t most_bytes, const parallel::Context& c
   run.scene = planner->scene_options();
   std::vector<RequestFacts> facts(made.reader->files().size());
   Result<tiles::Outline> outline = tiles::outline_of(
-      *made.reader, run.scene,
+      *made.reader, run.scene, {},
       [&](const model::Scene& scene, std::size_t given) -> Status {
         Result<RequestFacts> of_file = planner->facts(scene, context);
         if (!of_file) return of_file.error();
@@ -72,10 +74,7 @@ Status cut_files(Cut& made, std::uint64_t most_bytes, const parallel::Context& c
   if (!outline) return outline.error();
   run.outline = std::move(*outline);
   RequestFacts all = in_order(run.outline, facts);
-  if (run.outline.renamed && planner->selects(all))
-    return Error{ErrorCode::usage,
-                 "two of the files have one name, and objects are picked by selections", "files",
-                 "give the files different names: a selection may ask for them"};
+  if (run.outline.renamed && planner->selects(all)) return same_names();
   const model::Scene scene = scene_without_bodies(run.outline.model);
   Result<rules::Plan> plan = planner->plan(scene, std::move(all), context);
   if (!plan) return plan.error();
@@ -85,18 +84,12 @@ Status cut_files(Cut& made, std::uint64_t most_bytes, const parallel::Context& c
 }
 
 std::shared_ptr<Cut> cut(const std::vector<Path>& paths, std::optional<double> unit_mm,
-                         std::optional<int> up_axis, const Path& importers,
+                         std::optional<int> up_axis, bool on_map, const Path& importers,
                          const ClashRequest& request, std::uint64_t most_bytes,
                          const RunOptions& options) {
-  io::ReadOptions how{.unit_mm = unit_mm, .up_axis = {}, .encoding = {}};
-  if (up_axis) how.up_axis = static_cast<io::UpAxis>(*up_axis);
-  std::vector<io::FileToRead> files;
-  for (const Path& path : paths) files.push_back({path, how});
-  Result<io::ImportSettings> settings = io::import_settings_of_environment();
-  if (settings) settings->folders.insert(settings->folders.begin(), importers);
   const auto made = std::make_shared<Cut>();
   made->request = request;
-  made->reader.emplace(std::move(files), std::move(settings));
+  made->reader.emplace(reader_of(paths, unit_mm, up_axis, on_map, importers));
   run_status(options, "cut", [&](const parallel::Context& context) {
     return cut_files(*made, most_bytes, context);
   });
@@ -147,12 +140,29 @@ std::vector<std::pair<std::size_t, std::uint64_t>> sizes(const Cut& cut) {
 
 }  // namespace
 
+tiles::FileReader reader_of(const std::vector<Path>& paths, std::optional<double> unit_mm,
+                            std::optional<int> up_axis, bool on_map, const Path& importers) {
+  io::ReadOptions how{.unit_mm = unit_mm, .up_axis = {}, .encoding = {}, .on_map = on_map};
+  if (up_axis) how.up_axis = static_cast<io::UpAxis>(*up_axis);
+  std::vector<io::FileToRead> files;
+  for (const Path& path : paths) files.push_back({path, how});
+  Result<io::ImportSettings> settings = io::import_settings_of_environment();
+  if (settings) settings->folders.insert(settings->folders.begin(), importers);
+  return {std::move(files), std::move(settings)};
+}
+
+Error same_names() {
+  return {ErrorCode::usage, "two of the files have one name, and objects are picked by selections",
+          "files", "give the files different names: a selection may ask for them"};
+}
+
 void bind_tiles(nb::module_& module) {
   nb::class_<Cut>(module, "Cut")
       .def_prop_ro("sizes", &sizes)
       .def_prop_ro("objects", [](const Cut& cut) { return cut.run.outline.extents.size(); });
   module.def("cut", &cut, nb::arg("paths"), nb::arg("unit_mm").none(), nb::arg("up_axis").none(),
-             nb::arg("importers"), nb::arg("request"), nb::arg("most_bytes"), nb::arg("options"));
+             nb::arg("on_map"), nb::arg("importers"), nb::arg("request"), nb::arg("most_bytes"),
+             nb::arg("options"));
   module.def("tile_file", &tiles::tile_file, nb::arg("folder"), nb::arg("tile"));
   module.def("write_tiles", &write, nb::arg("cut"), nb::arg("folder"), nb::arg("tiles"),
              nb::arg("options"));

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
@@ -58,20 +58,21 @@ class Lines(NamedTuple):
 class Drawing:
     """A view on paper, as draw() makes it."""
 
-    def __init__(self, model: Model, request: _core.DrawRequest, threads: int | None, progress: Progress | None) -> None:
+    def __init__(self, model: Model, request: _core.DrawRequest, core: _core.DrawRun, again: Callable[[], _core.DrawRun]) -> None:
+        """`again` draws what the request asks for by then."""
         self.model = model
         self._request = request
-        # Not what tells of progress: it may hold on to this drawing, and its bar is closed later on.
-        self._threads = threads
-        self._core = _core.draw(model._core, request, run_options(threads, progress))
+        self._core = core
+        self._again = again
 
     @cached_property
     def _whole(self) -> _core.DrawRun:
         """The drawing with its hidden lines, which are found when they are asked for, unless they are shown anyway."""
-        if self._request.visible_only or self._request.hidden != "off":
+        request = self._request
+        if request.visible_only or request.keep_hidden or request.hidden != "off":
             return self._core
-        self._request.keep_hidden = True
-        return _core.draw(self.model._core, self._request, run_options(self._threads, None))
+        request.keep_hidden = True
+        return self._again()
 
     @cached_property
     def svg(self) -> str:
@@ -189,15 +190,68 @@ def draw(
 
     Raises: UsageError, with the argument as `where`; InputError for a view that reaches too far; KeyboardInterrupt.
     """
-    model_core(model)
+    core = model_core(model)
+    request = draw_request(
+        view,
+        pick(select, len(model), "select"),
+        hidden=hidden,
+        scale=scale,
+        paper=paper,
+        title=title,
+        pens=pens,
+        stage=stage,
+        intersections=intersections,
+        own_polylines=own_polylines,
+        smooth=smooth,
+        flush_seams=flush_seams,
+        sharp_angle=sharp_angle,
+        contact_distance=contact_distance,
+        sag=sag,
+        weld=weld,
+        uncut=uncut,
+        obstructions=obstructions,
+        insulation=insulation,
+        visible_only=visible_only,
+    )
+    # Not what tells of progress: it may hold on to the drawing, and its bar is closed later on.
+    drawn = _core.draw(core, request, run_options(threads, progress))
+    return Drawing(model, request, drawn, lambda: _core.draw(core, request, run_options(threads, None)))
+
+
+def draw_request(
+    view: str | Mapping[str, Any],
+    select: _core.Pick,
+    *,
+    hidden: Literal["off", "dashed", "all"] | bool = "off",
+    scale: str | float | None = None,
+    paper: str | None = None,
+    title: str = "",
+    pens: Mapping[str, float] | None = None,
+    stage: Literal["none", "local", "global"] = "global",
+    intersections: Literal["off", "objects", "primitives", "parts"] = "primitives",
+    own_polylines: Literal["visible", "hidden"] = "visible",
+    smooth: Literal["off", "tangent", "on"] = "off",
+    flush_seams: bool = True,
+    sharp_angle: float = 20.0,
+    contact_distance: Length | None = None,
+    sag: Length | None = None,
+    weld: Length | None = None,
+    uncut: str | Sequence[str] | None = None,
+    obstructions: bool = False,
+    insulation: bool = False,
+    visible_only: bool = False,
+    keep_hidden: bool = False,
+) -> _core.DrawRequest:
+    """What draw() asks for; `keep_hidden` finds hidden lines though they are not shown. Raises: UsageError."""
     request = _core.DrawRequest()
     _set_view(request, view)
-    request.select = pick(select, len(model), "select")
+    request.select = select
     request.hidden = text(hidden, "hidden") if isinstance(hidden, str) else ("dashed" if truth(hidden, "hidden") else "off")
     request.scale = "" if scale is None else _scale(scale)
     request.paper, request.title = "" if paper is None else text(paper, "paper"), text(title, "title")
     request.stage, request.intersections = text(stage, "stage"), text(intersections, "intersections")
     request.own_polylines, request.smooth = text(own_polylines, "own_polylines"), text(smooth, "smooth")
+    request.keep_hidden = truth(keep_hidden, "keep_hidden")
     request.flush_seams, request.visible_only = truth(flush_seams, "flush_seams"), truth(visible_only, "visible_only")
     request.obstructions, request.insulation = truth(obstructions, "obstructions"), truth(insulation, "insulation")
     request.sharp_angle_deg = number(sharp_angle, "sharp_angle")
@@ -209,7 +263,7 @@ def draw(
     request.uncut = texts(uncut, "uncut")
     if pens is not None:
         request.pens = _pens(pens)
-    return Drawing(model, request, threads, progress)
+    return request
 
 
 def _set_view(request: _core.DrawRequest, view: str | Mapping[str, Any]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Clash detection on several machines (docs/cluster.md).
+"""Clash detection and drawings on several machines (docs/cluster.md).
 
     from dask.distributed import LocalCluster
     import strake.cluster
@@ -19,20 +19,22 @@ import inspect
 import re
 import shutil
 import tempfile
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
 from strake import _core
-from strake._arguments import PathLike, Progress, Selection, number, path, run_options, shown, text, thread_count
+from strake._arguments import PathLike, Progress, Selection, number, path, pick, run_options, shown, text, thread_count, truth
 from strake._clash import Clashes, request_of
+from strake._drawing import Drawing, draw_request
 from strake._errors import Error, InputError, OutputError, UsageError
 from strake._model import Model, read_arguments
 
-__all__ = ["clash"]
+__all__ = ["clash", "draw"]
 
 # How often a tile is made or tested again before the run gives up.
 _MOST_TRIES = 4
@@ -44,10 +46,24 @@ _LOST = "is missing or damaged"
 _UNITS = {"": 1, "B": 1, "KB": 10**3, "MB": 10**6, "GB": 10**9, "KIB": 2**10, "MIB": 2**20, "GIB": 2**30}
 
 
+class _Cut(Protocol):
+    """What the files were cut into."""
+
+    @property
+    def sizes(self) -> list[tuple[int, int]]:
+        """By tile: objects, and bytes that a worker takes."""
+
+
+_CutT = TypeVar("_CutT", bound=_Cut)
+_RunT = TypeVar("_RunT")
+# What a worker does: reads one tile, and writes what it finds there beside it.
+_Task = Callable[[str, str, int], None]
+
+
 class _Runner(Protocol):
     """Runs tasks somewhere, and tells of each that has ended."""
 
-    def submit(self, tile: int, tile_file: Path, found: Path, threads: int, name: str) -> None: ...
+    def submit(self, task: _Task, tile: int, tile_file: Path, found: Path, threads: int, name: str) -> None: ...
     def ended(self) -> tuple[int, BaseException | None]: ...
 
 
@@ -55,15 +71,15 @@ class _InThisProcess:
     """One after the other."""
 
     def __init__(self) -> None:
-        self._waiting: list[tuple[int, Path, Path, int]] = []
+        self._waiting: list[tuple[_Task, int, Path, Path, int]] = []
 
-    def submit(self, tile: int, tile_file: Path, found: Path, threads: int, name: str) -> None:
-        self._waiting.append((tile, tile_file, found, threads))
+    def submit(self, task: _Task, tile: int, tile_file: Path, found: Path, threads: int, name: str) -> None:
+        self._waiting.append((task, tile, tile_file, found, threads))
 
     def ended(self) -> tuple[int, BaseException | None]:
-        tile, tile_file, found, threads = self._waiting.pop(0)
+        task, tile, tile_file, found, threads = self._waiting.pop(0)
         try:
-            find_in_tile(str(tile_file), str(found), threads)
+            task(str(tile_file), str(found), threads)
         except Error as error:
             return tile, error
         return tile, None
@@ -79,8 +95,8 @@ class _OnDask:
         self._tile_of: dict[Any, int] = {}
         self._completed = as_completed()
 
-    def submit(self, tile: int, tile_file: Path, found: Path, threads: int, name: str) -> None:
-        future = self._client.submit(find_in_tile, str(tile_file), str(found), threads, key=name, retries=2)
+    def submit(self, task: _Task, tile: int, tile_file: Path, found: Path, threads: int, name: str) -> None:
+        future = self._client.submit(task, str(tile_file), str(found), threads, key=name, retries=2)
         self._tile_of[future.key] = tile
         self._completed.add(future)
 
@@ -93,8 +109,45 @@ class _OnDask:
 
 
 def find_in_tile(tile_file: str, found: str, threads: int) -> None:
-    """What a worker does: reads one tile, finds its clashes, and writes them beside it."""
+    """Finds the clashes of one tile."""
     _core.find_in_tile(Path(tile_file), Path(found), run_options(threads, None))
+
+
+def draw_in_tile(tile_file: str, found: str, threads: int) -> None:
+    """Finds the lines of one tile."""
+    _core.draw_in_tile(Path(tile_file), Path(found), run_options(threads, None))
+
+
+@dataclass(frozen=True)
+class _Job(Generic[_CutT, _RunT]):
+    """What is made of a model by tiles."""
+
+    cut: Callable[[int, _core.RunOptions], _CutT]  # of the bytes that a tile may take
+    write: Callable[[_CutT, Path, list[int], _core.RunOptions], None]
+    task: _Task
+    join: Callable[[_CutT, list[Path], _core.RunOptions], _RunT]
+
+
+@dataclass(frozen=True)
+class _Where:
+    """Where tasks run, and what they may take."""
+
+    scheduler: Any
+    folder: PathLike | None
+    memory: str | int
+    worker_threads: int
+    threads: int | None
+
+    def run(self, job: _Job[_CutT, _RunT], progress: Progress | None) -> _RunT:
+        options = run_options(self.threads, progress)
+        most = (_bytes(self.memory) - _EMPTY_WORKER) // 2
+        worker_threads = thread_count(self.worker_threads, "worker_threads")
+        with _runner(self.scheduler) as runner, _working_folder(self.folder) as work:
+            cut = job.cut(most, options)
+            run = _Run(job, cut, work, runner, worker_threads, options)
+            run.write(range(len(cut.sizes)))
+            run.find(range(len(cut.sizes)))
+            return run.joined()
 
 
 def clash(
@@ -108,6 +161,7 @@ def clash(
     worker_threads: int = 1,
     unit: str | float | None = None,
     up_axis: str | None = None,
+    georeference: bool = False,
     threads: int | None = None,
     progress: Progress | None = None,
     **test: Any,
@@ -115,7 +169,7 @@ def clash(
     """Finds clashes as strake.clash() does in the model of some files, by tiles: the same bytes.
 
     Args:
-        files: as strake.load() takes them, with `unit` and `up_axis`. They are read one at a time, by this process.
+        files: as strake.load() takes them, with `unit`, `up_axis` and `georeference`. They are read one at a time, by this process.
         a, b: selections.
         scheduler: a Dask client, a Dask cluster, or the address of a scheduler, as "tcp://10.0.0.1:8786"; None: the
             tiles are tested one after the other in this process.
@@ -139,26 +193,89 @@ def clash(
         if name not in inspect.signature(request_of).parameters:
             raise TypeError(f"clash() has no argument {name!r}")
     request = request_of(0, a, b, **test)
-    options = run_options(threads, progress)
-    arguments = read_arguments(files, unit, up_axis)
-    for file in arguments[0]:
-        if _core.is_project(file):
-            raise UsageError(f"{file} is a project, and tiles are cut of model files", "files", "give those that it was made of")
-    most = (_bytes(memory) - _EMPTY_WORKER) // 2
-    worker_threads = thread_count(worker_threads, "worker_threads")
-    with _runner(scheduler) as runner, _working_folder(folder) as work:
-        cut = _core.cut(*arguments, request, most, options)
-        run = _Run(cut, work, runner, worker_threads, options)
-        run.write(range(len(cut.sizes)))
-        run.find(range(len(cut.sizes)))
-        core = run.joined()
+    read = _read_arguments(files, unit, up_axis, georeference)
+    job = _Job(
+        lambda most, options: _core.cut(*read, request, most, options),
+        _core.write_tiles,
+        find_in_tile,
+        _core.join_tiles,
+    )
+    core = _Where(scheduler, folder, memory, worker_threads, threads).run(job, progress)
     return Clashes(core, Model(core.model))
 
 
-class _Run:
+def draw(
+    files: PathLike | Iterable[PathLike],
+    view: str | Mapping[str, Any] = "iso",
+    *,
+    select: Selection | None = None,
+    scheduler: Any = None,
+    folder: PathLike | None = None,
+    memory: str | int = "1GiB",
+    worker_threads: int = 1,
+    unit: str | float | None = None,
+    up_axis: str | None = None,
+    georeference: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    **options: Any,
+) -> Drawing:
+    """Draws a view as strake.draw() does of the model in some files, by tiles of the paper: the same bytes.
+
+    Args:
+        files, scheduler, folder, memory, worker_threads, unit, up_axis, georeference, threads, progress: as in clash().
+        view: as strake.draw() takes it.
+        select: a selection, or several; None: all.
+        options: what strake.draw() takes besides, but flush_seams=False; and keep_hidden=True, which finds hidden lines though
+            they are not shown, as .json and .view have them.
+
+    An object has its lines in one tile, which also has whatever may hide or cross these: what lies before it along the
+    view. Hidden lines that were not asked for are found when the drawing is asked for them, by a second run with the same
+    files and scheduler.
+
+    Raises: what strake.draw() and clash() do.
+    """
+    if isinstance(select, np.ndarray):
+        raise UsageError("an array needs a model that is held", "select", "give selections")
+    for name in options:
+        if name not in inspect.signature(draw_request).parameters:
+            raise TypeError(f"draw() has no argument {name!r}")
+    request = draw_request(view, pick(select, 0, "select"), **options)
+    read = _read_arguments(files, unit, up_axis, georeference)
+    job = _Job(
+        lambda most, run: _core.cut_drawing(*read, request, most, run),
+        _core.write_drawing_tiles,
+        draw_in_tile,
+        _core.join_drawing_tiles,
+    )
+    where = _Where(scheduler, folder, memory, worker_threads, threads)
+    core = where.run(job, progress)
+    return Drawing(Model(core.model), request, core, lambda: where.run(job, None))
+
+
+def _read_arguments(
+    files: PathLike | Iterable[PathLike], unit: str | float | None, up_axis: str | None, georeference: bool
+) -> tuple[list[Path], float | None, int | None, bool, Path]:
+    given, unit_mm, axis, importers = read_arguments(files, unit, up_axis)
+    for file in given:
+        if _core.is_project(file):
+            raise UsageError(f"{file} is a project, and tiles are cut of model files", "files", "give those that it was made of")
+    return given, unit_mm, axis, truth(georeference, "georeference"), importers
+
+
+class _Run(Generic[_CutT, _RunT]):
     """A run over tiles: what is lost is made again."""
 
-    def __init__(self, cut: _core.Cut, folder: Path, runner: _Runner, worker_threads: int, options: _core.RunOptions) -> None:
+    def __init__(
+        self,
+        job: _Job[_CutT, _RunT],
+        cut: _CutT,
+        folder: Path,
+        runner: _Runner,
+        worker_threads: int,
+        options: _core.RunOptions,
+    ) -> None:
+        self._job = job
         self._cut = cut
         self._folder = folder
         self._runner = runner
@@ -170,7 +287,7 @@ class _Run:
         return self._folder / f"tile{tile:06}.found"
 
     def write(self, tiles: Iterable[int]) -> None:
-        _core.write_tiles(self._cut, self._folder, list(tiles), self._options)
+        self._job.write(self._cut, self._folder, list(tiles), self._options)
 
     def find(self, tiles: Iterable[int]) -> None:
         """Has tiles tested, the largest first."""
@@ -192,14 +309,14 @@ class _Run:
     def _submit(self, tile: int) -> None:
         self._tries[tile] += 1
         name = f"strake-{self._folder.name}-tile{tile}-{self._tries[tile]}"
-        self._runner.submit(tile, _core.tile_file(self._folder, tile), self._found(tile), self._worker_threads, name)
+        self._runner.submit(self._job.task, tile, _core.tile_file(self._folder, tile), self._found(tile), self._worker_threads, name)
 
-    def joined(self) -> _core.ClashRun:
+    def joined(self) -> _RunT:
         """Puts what was found together."""
         tiles = range(len(self._cut.sizes))
         while True:
             try:
-                return _core.join_tiles(self._cut, [self._found(tile) for tile in tiles], self._options)
+                return self._job.join(self._cut, [self._found(tile) for tile in tiles], self._options)
             except InputError as error:
                 tile = _tile_of(error)
                 if tile is None or self._tries[tile] >= _MOST_TRIES:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Clashes by tiles have the bytes of one machine, whatever gets lost on the way."""
+"""Clashes and drawings by tiles have the bytes of one machine, whatever gets lost on the way."""
 
 import os
 import signal
@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_same_as_program import CLASH_RUNS
+from test_same_as_program import CLASH_RUNS, DRAWINGS
 
 import strake
 import strake.cluster
@@ -78,9 +78,9 @@ max_depth = "1m"
 """
 
 
-def bytes_of(clashes: strake.Clashes, folder: Path, name: str = "clashes.json") -> bytes:
+def bytes_of(result: strake.Clashes | strake.Drawing, folder: Path, name: str = "clashes.json") -> bytes:
     file = folder / name
-    clashes.save(file)
+    result.save(file)
     return file.read_bytes()
 
 
@@ -88,16 +88,19 @@ def bytes_of(clashes: strake.Clashes, folder: Path, name: str = "clashes.json") 
 def small_tiles(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[int]]:
     """Tiles of few objects, as the memory of workers alone would never cut such small ships."""
     tiles: list[int] = []
-    whole_cut = _core.cut
 
-    def cut(*arguments: Any) -> Any:
-        made = whole_cut(*arguments[:5], tiles[0] if tiles else 80_000, *arguments[6:])
-        sizes = made.sizes
-        assert len(sizes) > 3
-        assert sum(objects for objects, _ in sizes) > made.objects  # some are in several tiles
-        return made
+    def cut_small(whole_cut: Any, usual: int) -> Any:
+        def cut(*arguments: Any) -> Any:
+            made = whole_cut(*arguments[:6], tiles[0] if tiles else usual, *arguments[7:])
+            sizes = made.sizes
+            assert len(sizes) > 3
+            assert sum(objects for objects, _ in sizes) > min(made.objects, 60)  # some are in several tiles
+            return made
 
-    monkeypatch.setattr(_core, "cut", cut)
+        return cut
+
+    monkeypatch.setattr(_core, "cut", cut_small(_core.cut, 80_000))
+    monkeypatch.setattr(_core, "cut_drawing", cut_small(_core.cut_drawing, 200_000))
     yield tiles
 
 
@@ -141,6 +144,74 @@ def test_same_bytes_of_several_files_and_rules(tmp_path: Path, small_tiles: list
         tiled = strake.cluster.clash(files, **arguments)
         assert bytes_of(tiled, tmp_path) == bytes_of(whole, tmp_path)
         assert tiled.model.diagnostics == whole.model.diagnostics
+
+
+TILED_DRAWINGS = [(words, options) for words, options in DRAWINGS if options.get("flush_seams", True)] + [
+    (["uncut"], {"view": {"section": "z=2500mm"}, "uncut": "BEA*", "hidden": "all", "smooth": "tangent"}),
+    (["far"], {"view": {"view": "front", "limits": "auto"}, "visible_only": True, "sag": 0.05}),
+    (["local"], {"stage": "local", "intersections": "off", "own_polylines": "hidden", "contact_distance": 2}),
+]
+
+
+@pytest.mark.parametrize(("words", "arguments"), TILED_DRAWINGS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
+def test_drawings(
+    tmp_path: Path, ship: strake.Model, ship_file: Path, small_tiles: list[int], words: list[str], arguments: dict[str, Any]
+) -> None:
+    whole = strake.draw(ship, **arguments)
+    tiled = strake.cluster.draw(ship_file, **arguments)
+    for name in ("view.svg", "view.json", "view.view"):
+        assert bytes_of(tiled, tmp_path, name) == bytes_of(whole, tmp_path, name)
+    assert tiled.diagnostics == whole.diagnostics
+    assert len(tiled.segments) > 0
+
+
+def test_drawings_of_several_files(tmp_path: Path, small_tiles: list[int]) -> None:
+    files = [tmp_path / name for name in ("b.glb", "a.glb", "c.glb")]
+    for seed, (file, kind) in enumerate(zip(files, ("usual", "slender", "unlike"), strict=True)):
+        strake.generate(kind, objects=300, seed=seed).save(file)
+    for view in ("iso", {"direction": (3, -1, 2), "section": ["x>9m", "z=3m"]}):
+        whole = strake.draw(strake.load(files), view, select="not CAB*")
+        tiled = strake.cluster.draw(files, view, select="not CAB*")
+        assert bytes_of(tiled, tmp_path, "view.json") == bytes_of(whole, tmp_path, "view.json")
+        assert tiled.model.diagnostics == whole.model.diagnostics
+
+
+def test_a_drawing_with_lost_tiles(
+    tmp_path: Path, ship: strake.Model, ship_file: Path, small_tiles: list[int], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solve, join = _core.draw_in_tile, _core.join_drawing_tiles
+    seen: list[str] = []
+
+    def solve_with_losses(tile: Path, found: Path, options: Any) -> None:
+        seen.append(tile.name)
+        if len(seen) == 2:
+            tile.unlink()
+        solve(tile, found, options)
+
+    def join_with_losses(cut: Any, found: list[Path], options: Any) -> Any:
+        if "join" not in seen:
+            seen.append("join")
+            found[1].write_bytes(found[1].read_bytes()[:-7])
+        return join(cut, found, options)
+
+    monkeypatch.setattr(_core, "draw_in_tile", solve_with_losses)
+    monkeypatch.setattr(_core, "join_drawing_tiles", join_with_losses)
+    tiled = strake.cluster.draw(ship_file, hidden=True)
+    assert bytes_of(tiled, tmp_path, "view.svg") == bytes_of(strake.draw(ship, hidden=True), tmp_path, "view.svg")
+    assert len(seen) == len(set(seen)) + 2  # a tile and a result
+
+
+def test_drawings_that_make_no_sense(tmp_path: Path, ship: strake.Model, ship_file: Path) -> None:
+    with pytest.raises(strake.UsageError, match="flush seams"):
+        strake.cluster.draw(ship_file, flush_seams=False)
+    with pytest.raises(strake.UsageError, match="selections"):
+        strake.cluster.draw(ship_file, select=ship.select("PIP*"))  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="no argument 'scael'"):
+        strake.cluster.draw(ship_file, scael=50)
+    with pytest.raises(strake.UsageError, match="picks no object"):
+        strake.cluster.draw(ship_file, select="NONE*")
+    with pytest.raises(strake.UsageError, match="sharp_angle"):
+        strake.cluster.draw(ship_file, sharp_angle=400)
 
 
 def test_a_lost_tile_and_a_lost_result_are_made_again(
@@ -258,7 +329,7 @@ def test_without_dask(ship_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         strake.cluster.clash(ship_file, scheduler="tcp://127.0.0.1:1")
 
 
-def _kill_then_find(tile_file: str, found: str, threads: int) -> None:
+def _kill_then_do(task: Any, tile_file: str, found: str, threads: int) -> None:
     """What a worker does, but the first two that come end as if they had run out of memory."""
     for name in ("first", "second"):
         try:
@@ -266,7 +337,71 @@ def _kill_then_find(tile_file: str, found: str, threads: int) -> None:
         except FileExistsError:
             continue
         os.kill(os.getpid(), signal.SIGKILL)
-    strake.cluster.find_in_tile(tile_file, found, threads)
+    task(tile_file, found, threads)
+
+
+@pytest.fixture
+def through_python(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The program starts this Python, which has the package."""
+    monkeypatch.setenv("STRAKE_PYTHON", sys.executable)
+
+
+@pytest.mark.parametrize(("words", "arguments"), CLASH_RUNS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
+def test_the_program_clashes_by_tiles(
+    tmp_path: Path, through_python: None, ship_file: Path, words: list[str], arguments: dict[str, Any]
+) -> None:
+    whole, tiled = tmp_path / "whole.json", tmp_path / "tiled.json"
+    strake.run_program(["clash", ship_file, *words, "--quiet", "-o", whole])
+    done = strake.run_program(["clash", ship_file, *words, "--scheduler", "local", f"--output={tiled}", "--quiet"])
+    assert (done.stdout, done.stderr) == ("", "")
+    assert tiled.read_bytes() == whole.read_bytes()
+
+
+@pytest.mark.parametrize(("words", "arguments"), TILED_DRAWINGS[:5], ids=lambda x: " ".join(x) if isinstance(x, list) else "")
+def test_the_program_draws_by_tiles(
+    tmp_path: Path, through_python: None, ship_file: Path, words: list[str], arguments: dict[str, Any]
+) -> None:
+    strake.run_program(["draw", ship_file, *words, "-o", tmp_path / "whole.svg", "-o", tmp_path / "whole.json"])
+    files = ["-o", tmp_path / "tiled.svg", "-o", tmp_path / "tiled.json"]
+    done = strake.run_program(["draw", ship_file, *words, "--scheduler", "local", "--worker-memory", "500MiB", *files])
+    assert "visible lines" in done.stderr
+    for name in ("svg", "json"):
+        assert (tmp_path / f"tiled.{name}").read_bytes() == (tmp_path / f"whole.{name}").read_bytes()
+
+
+def test_what_the_program_refuses_by_tiles(tmp_path: Path, through_python: None, ship_file: Path) -> None:
+    def ended(*words: object) -> tuple[int, str]:
+        done = strake.run_program([str(word) for word in words], check=False)
+        return done.returncode, done.stderr
+
+    out = tmp_path / "out.json"
+    code, told = ended("clash", ship_file, "--scheduler", "local")
+    assert code == 2 and "no file is named" in told
+    code, told = ended("clash", ship_file, "--scheduler", "local", "-o", out, "--sort", "size")
+    assert code == 2 and "--sort: strake clash has it on one machine only" in told
+    code, told = ended("draw", ship_file, "--scheduler", "local", "-o", out, "--flush-seams", "off")
+    assert code == 2 and "flush seams" in told
+    code, told = ended("draw", ship_file, "--scheduler", "local", "-o", out, "--near", "much", "--eye", "1,2,3", "--target", "9,9,9")
+    assert code == 2 and "near" in told
+    code, told = ended("clash", tmp_path / "none.glb", "--scheduler", "local", "-o", out)
+    assert code == 3 and "none.glb" in told
+    code, told = ended("clash", ship_file, "--scheduler", "tcp://127.0.0.1:1x", "-o", out)
+    assert code == 2 and ("no scheduler answers" in told or "strake[cluster]" in told)
+    assert not out.exists()
+
+
+def test_a_python_without_the_package(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, ship_file: Path) -> None:
+    words = ["clash", str(ship_file), "--scheduler", "local", "-o", str(tmp_path / "out.json")]
+    monkeypatch.setenv("STRAKE_PYTHON", str(tmp_path / "python9"))
+    done = strake.run_program(words, check=False)
+    assert done.returncode == 2 and "cannot be run" in done.stderr and "STRAKE_PYTHON" in done.stderr
+    bare = tmp_path / "bare"
+    bare.write_text(f'#!/bin/sh\nexec {sys.executable} -I -S "$@"\n')
+    bare.chmod(0o755)
+    monkeypatch.setenv("STRAKE_PYTHON", str(bare))
+    done = strake.run_program(words, check=False)
+    assert done.returncode == 2 and "pip install 'strake[cluster]'" in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 def test_killed_workers(
@@ -281,10 +416,13 @@ def test_killed_workers(
         submit = client.submit
         cloudpickle.register_pickle_by_value(sys.modules[__name__])  # workers do not see this file
 
-        def submit_killer(_: Any, *arguments: Any, **options: Any) -> Any:
-            return submit(_kill_then_find, *arguments, **options)
+        def submit_killer(task: Any, *arguments: Any, **options: Any) -> Any:
+            return submit(_kill_then_do, task, *arguments, **options)
 
         monkeypatch.setattr(client, "submit", submit_killer)
         tiled = strake.cluster.clash(ship_file, scheduler=client, folder=tmp_path / "work", clearance=25)
+        drawn = strake.cluster.draw(ship_file, "top", scheduler=client, folder=tmp_path / "drawn")
+        assert bytes_of(drawn, tmp_path, "view.json") == bytes_of(strake.draw(ship, "top"), tmp_path, "view.json")
     assert bytes_of(tiled, tmp_path) == whole
-    assert len(list(tmp_path.glob("work/*.killed"))) == 2
+    for name in ("work", "drawn"):
+        assert len(list(tmp_path.glob(f"{name}/*.killed"))) == 2

@@ -8,12 +8,14 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "io/importer/find_importer.hpp"
 #include "io/importer/importing_reader.hpp"
 #include "io/importer/map_place.hpp"
+#include "io/read_file.hpp"
 #include "io/source/input_file.hpp"
 #include "io/source/reader_support.hpp"
 #include "strake/io/importer.hpp"
@@ -85,6 +87,8 @@ class Reading {
   /// is its turn.
   Status make_scenes(std::span<const FileToRead> files);
   Result<model::Model> read(std::span<const FileToRead> files);
+  /// Reads one file, and tells nothing of its place.
+  Result<ReadFile> read_alone(const FileToRead& file);
   /// Returns the error of the first file that has no scene and should.
   [[nodiscard]] Status scene_faults() const;
 
@@ -172,8 +176,18 @@ Result<model::Model> Reading::read(std::span<const FileToRead> files) {
   return all;
 }
 
-Result<model::Model> read_by(const Result<ImportSettings>& settings,
-                             std::span<const FileToRead> files, const parallel::Context& context) {
+Result<ReadFile> Reading::read_alone(const FileToRead& file) {
+  Result<ImportedModel> read = read_one(file);
+  if (!read) return read.error();
+  model::finish(read->model);
+  return ReadFile{std::move(read->model), std::move(read->map)};
+}
+
+/// Has files read that are given as they should be: `read` takes a Reading.
+template <class Read>
+std::invoke_result_t<Read, Reading&> read_by(const Result<ImportSettings>& settings,
+                                             std::span<const FileToRead> files,
+                                             const parallel::Context& context, Read&& read) {
   if (files.empty())
     return Error{ErrorCode::usage, "no model file was given", "", "name at least one file"};
   for (const FileToRead& file : files)
@@ -183,7 +197,7 @@ Result<model::Model> read_by(const Result<ImportSettings>& settings,
   try {
     Reading reading(settings, context);
     if (const Status made = reading.make_scenes(files); !made) return made.error();
-    return reading.read(files);
+    return read(reading);
   } catch (const std::bad_alloc&) {
     return out_of_memory();
   }
@@ -193,12 +207,19 @@ Result<model::Model> read_by(const Result<ImportSettings>& settings,
 
 Result<model::Model> read_models(std::span<const FileToRead> files,
                                  const parallel::Context& context) {
-  return read_by(import_settings_of_environment(), files, context);
+  return read_by(import_settings_of_environment(), files, context,
+                 [&](Reading& reading) { return reading.read(files); });
 }
 
 Result<model::Model> read_models(std::span<const FileToRead> files, const ImportSettings& settings,
                                  const parallel::Context& context) {
-  return read_by(settings, files, context);
+  return read_by(settings, files, context, [&](Reading& reading) { return reading.read(files); });
+}
+
+Result<ReadFile> read_file(const FileToRead& file, const Result<ImportSettings>& settings,
+                           const parallel::Context& context) {
+  return read_by(settings, {&file, 1}, context,
+                 [&](Reading& reading) { return reading.read_alone(file); });
 }
 
 Status make_scenes(std::span<const FileToRead> files, const parallel::Context& context) {

@@ -2,13 +2,15 @@
 #include "tiles/outline.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "clash/rules/options.hpp"
 #include "io/importer/importing_reader.hpp"
+#include "io/read_file.hpp"
 #include "project/model/stored_diagnostics.hpp"
 
 namespace strake::tiles {
@@ -63,21 +65,69 @@ void append_extents(const model::Scene& scene, std::vector<Extent>& extents) {
 struct Remains {
   model::Model model;
   std::vector<Extent> extents;
+  model::Scene placed;  ///< with Keep::places
   std::vector<model::IncompleteObject> lacking;
   Diagnostics reading, scene;
   std::string label;
   std::uint64_t bytes = 0;
+  std::size_t objects = 0, bodies = 0;
   Hash128 names;
+  std::optional<io::MapPlace> map;
 };
 
+/// Returns files, groups and objects of a model.
+model::Model names_of(const model::Model& model) {
+  model::Model names;
+  names.files = model.files;
+  names.groups = model.groups;
+  names.group_attributes = model.group_attributes;
+  names.objects = model.objects;
+  return names;
+}
+
 model::Model without_geometry(const model::Model& model) {
-  model::Model rest;
-  rest.files = model.files;
-  rest.groups = model.groups;
-  rest.group_attributes = model.group_attributes;
-  rest.objects = model.objects;
+  model::Model rest = names_of(model);
   for (model::Object& object : rest.objects) object.first_body = object.body_count = 0;
   return rest;
+}
+
+/// Returns a model whose meshes and lines have nothing in them.
+model::Model without_meshes(const model::Model& model) {
+  model::Model rest = names_of(model);
+  rest.bodies = model.bodies;
+  rest.shapes.reserve(model.shapes.size());
+  for (const model::Shape& shape : model.shapes) {
+    if (std::holds_alternative<geometry::Primitive>(shape))
+      rest.shapes.push_back(shape);
+    else if (std::holds_alternative<geometry::Polylines>(shape))
+      rest.shapes.emplace_back(geometry::Polylines{});
+    else
+      rest.shapes.emplace_back(geometry::TriangleMesh{});
+  }
+  return rest;
+}
+
+/// Takes all but the corners out of the shapes of a scene that need not stay whole.
+model::Scene without_triangles(model::Scene scene, const Keep& keep) {
+  std::vector<bool> whole(scene.shapes.size());
+  for (const model::GridBody& body : scene.bodies) {
+    const model::GridShape& shape = scene.shapes[body.grid_shape];
+    if (keep.whole && !whole[body.grid_shape] && !shape.box.empty())
+      whole[body.grid_shape] = keep.whole(body.box(shape));
+  }
+  for (std::size_t s = 0; s < whole.size(); ++s) {
+    if (whole[s]) continue;
+    for (geometry::Part& part : scene.shapes[s].parts) {
+      geometry::Part rest;
+      rest.vertices = std::move(part.vertices);
+      rest.primitive = std::move(part.primitive);
+      rest.sag = part.sag;
+      part = std::move(rest);
+    }
+  }
+  scene.diagnostics = {};
+  scene.lacking = {};
+  return scene;
 }
 
 /// Appends what was said of a file that has another label now.
@@ -101,13 +151,24 @@ class Gathering {
       : remains_(std::move(remains)), given_(files) {}
 
   Outline run() {
+    number_shapes();
     join_names();
     join_objects();
+    join_scenes();
     join_diagnostics();
     return std::move(all_);
   }
 
  private:
+  /// Models are put behind each other as they were given, and only then in order.
+  void number_shapes() {
+    std::uint32_t before = 0;
+    for (const Remains& file : remains_) {
+      shapes_before_.push_back(before);
+      before += static_cast<std::uint32_t>(file.model.shapes.size());
+    }
+  }
+
   void join_names() {
     if (remains_.size() == 1) {
       all_.model = std::move(remains_.front().model);
@@ -141,6 +202,37 @@ class Gathering {
     }
   }
 
+  /// Puts scenes together; the bodies of a model stand in the order of its objects.
+  void join_scenes() {
+    model::Scene& all = all_.scene;
+    std::uint32_t objects = 0, bodies = 0;
+    for (const std::uint32_t f : order_) {
+      model::Scene& scene = remains_[f].placed;
+      const auto shapes = static_cast<std::uint32_t>(all.shapes.size());
+      const auto placed = static_cast<std::uint32_t>(all.bodies.size());
+      for (model::GridShape& shape : scene.shapes) {
+        shape.shape = model::ShapeId{index(shape.shape) + shapes_before_[f]};
+        all.shapes.push_back(std::move(shape));
+      }
+      for (model::GridBody body : scene.bodies) {
+        body.grid_shape += shapes;
+        body.body += bodies;
+        body.object = model::ObjectId{index(body.object) + objects};
+        all.bodies.push_back(body);
+      }
+      for (std::size_t o = 0; o + 1 < scene.first_body.size(); ++o)
+        all.first_body.push_back(scene.first_body[o] + placed);
+      objects += static_cast<std::uint32_t>(remains_[f].objects);
+      bodies += static_cast<std::uint32_t>(remains_[f].bodies);
+      all.sag_mm = scene.sag_mm;
+      all.weld_mm = scene.weld_mm;
+      all.left_out += scene.left_out;
+      scene = {};
+    }
+    all.first_body.push_back(static_cast<std::uint32_t>(all.bodies.size()));
+    all.lacking = all_.lacking;
+  }
+
   void join_diagnostics() {
     std::vector<project::FileDiagnostics> said;
     for (std::size_t f = 0; f < order_.size(); ++f) {
@@ -149,17 +241,31 @@ class Gathering {
       said.push_back(
           {file.reading, file.label, all_.model.files[f].label, given_[order_[f]].path.string()});
     }
-    all_.model.diagnostics =
-        said.size() == 1 ? said.front().diagnostics : project::joined_diagnostics(said);
+    const Diagnostics of_places = tell_of_places();
+    all_.model.diagnostics = said.size() == 1 && of_places.counts().empty()
+                                 ? said.front().diagnostics
+                                 : project::joined_diagnostics(said, of_places);
     all_.loading = all_.model.diagnostics;
     for (std::size_t f = 0; f < order_.size(); ++f)
       append_renamed(remains_[order_[f]].scene, remains_[order_[f]].label,
                      all_.model.files[f].label, all_.loading);
   }
 
+  [[nodiscard]] Diagnostics tell_of_places() const {
+    std::vector<io::FilePlace> places;
+    bool on_map = false;
+    for (std::size_t f = 0; f < remains_.size(); ++f) {
+      places.push_back({given_[f].path.string(), remains_[f].map});
+      on_map = on_map || given_[f].options.on_map;
+    }
+    std::ranges::sort(places, {}, &io::FilePlace::file);
+    return io::tell_of_places(places, on_map);
+  }
+
   std::vector<Remains> remains_;
   const std::vector<io::FileToRead>& given_;
-  std::vector<std::uint32_t> order_;  ///< which file is which of the model
+  std::vector<std::uint32_t> shapes_before_;  ///< by file, as given
+  std::vector<std::uint32_t> order_;          ///< which file is which of the model
   Outline all_;
 };
 
@@ -168,13 +274,12 @@ class Gathering {
 Result<const model::Model*> FileReader::read(std::size_t file, const parallel::Context& context) {
   if (last_ && number_ == file) return &*last_;
   last_.reset();
-  const std::array one{files_[file]};
   // An environment that says no settings tells of it where an importer is needed.
-  Result<model::Model> model =
-      settings_ ? io::read_models(one, *settings_, context) : io::read_models(one, context);
-  if (!model) return model.error();
+  Result<io::ReadFile> read = io::read_file(files_[file], settings_, context);
+  if (!read) return read.error();
   number_ = file;
-  last_.emplace(std::move(*model));
+  last_.emplace(std::move(read->model));
+  map_ = std::move(read->map);
   return &*last_;
 }
 
@@ -185,8 +290,8 @@ Hash128 hash_of_ids(const model::Model& model) {
   return hash.value();
 }
 
-Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& options, Look look,
-                           const parallel::Context& context) {
+Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& options, const Keep& keep,
+                           Look look, const parallel::Context& context) {
   std::vector<Remains> remains;
   bool keeps_scenes = true;
   for (std::size_t f = 0; f < reader.files().size(); ++f) {
@@ -204,11 +309,15 @@ Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& option
     // That is of the run and not of a file, and said once.
     if (file.reading.count(io::kSceneNotKept) > 0 && !std::exchange(keeps_scenes, false))
       file.reading.remove(io::kSceneNotKept);
+    file.map = reader.map();
     file.label = model.files.front().label;
     file.bytes = model.files.front().bytes;
     // The model of an only file is kept until it is cut.
     if (reader.files().size() > 1) file.names = hash_of_ids(model);
-    file.model = without_geometry(model);
+    file.objects = model.objects.size();
+    file.bodies = model.bodies.size();
+    file.model = keep.places ? without_meshes(model) : without_geometry(model);
+    if (keep.places) file.placed = without_triangles(std::move(*scene), keep);
   }
   return Gathering(std::move(remains), reader.files()).run();
 }

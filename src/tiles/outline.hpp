@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "io/importer/map_place.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
@@ -31,6 +33,8 @@ class FileReader {
   /// io::read_models().
   [[nodiscard]] Result<const model::Model*> read(std::size_t file,
                                                  const parallel::Context& context);
+  /// Returns where the importer of the last one says that it lies on a map.
+  [[nodiscard]] const std::optional<io::MapPlace>& map() const { return map_; }
   /// Frees the last one.
   void forget() { last_.reset(); }
 
@@ -39,11 +43,23 @@ class FileReader {
   Result<io::ImportSettings> settings_;
   std::size_t number_ = 0;
   std::optional<model::Model> last_;
+  std::optional<io::MapPlace> map_;
+};
+
+/// What is held of a model besides names and extents.
+struct Keep {
+  bool places = false;  ///< Outline::scene
+  /// Whether the shape of a body with this box, grid units, keeps its triangles there; empty: none.
+  std::function<bool(const geometry::Box3l&)> whole = {};
 };
 
 /// What is held of a model of which the geometry is not.
 struct Outline {
-  model::Model model;                            ///< finished, without bodies and shapes
+  /// Finished; with Keep::places it has bodies, and of shapes the primitives.
+  model::Model model;
+  /// With Keep::places: boxes, corners and true surfaces, but few triangles. Its model is to be set
+  /// to `model` when that has found its place.
+  model::Scene scene;
   std::vector<model::IncompleteObject> lacking;  ///< Scene::lacking
   Diagnostics loading;          ///< of reading the files and putting them on the grid
   std::vector<Extent> extents;  ///< an entry per object
@@ -65,7 +81,8 @@ using Look = parallel::FunctionRef<Status(const model::Scene& scene, std::size_t
 /// io::read_models() and model::make_scene() make of all, without geometry. Errors: theirs; those
 /// of `look`.
 [[nodiscard]] Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& options,
-                                         Look look, const parallel::Context& context);
+                                         const Keep& keep, Look look,
+                                         const parallel::Context& context);
 
 /// Returns the hash of the ids of a model's objects, by which one that changed is known.
 [[nodiscard]] Hash128 hash_of_ids(const model::Model& model);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -13,8 +14,8 @@
 #include "project/model/columns.hpp"
 #include "project/model/file_blocks.hpp"
 #include "project/model/shape_block.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "tiles/blob_file.hpp"
-#include "tiles/test_codec.hpp"
 
 namespace strake::tiles {
 namespace {
@@ -232,6 +233,62 @@ Result<Tile> read_start(const Blob& blob, const std::string& what) {
   return tile;
 }
 
+/// Writes tiles section by section.
+class TileWriter {
+ public:
+  TileWriter(const TilesToWrite& what, const parallel::Context& context)
+      : what_(what), context_(context), sections_(what.tiles.size()) {}
+
+  Status run() {
+    for (std::uint32_t f = 0; f < what_.outline.files.size(); ++f)
+      if (Status s = write_file(f); !s) return s;
+    return parallel::for_each(context_, {.name = "write tiles", .n = what_.tiles.size()},
+                              [&](std::size_t k) { return write_head_of(k); });
+  }
+
+ private:
+  Status write_file(std::uint32_t f) {
+    const Outline::File& file = what_.outline.files[f];
+    const Result<const model::Model*> model = what_.reader.read(file.given, context_);
+    if (!model) return model.error();
+    const bool several = what_.outline.files.size() > 1;
+    if ((*model)->objects.size() != file.objects || (several && hash_of_ids(**model) != file.names))
+      return Error{ErrorCode::input, "changed while it was cut",
+                   what_.reader.files()[file.given].path.string(), "start the run again"};
+    return parallel::for_each(
+        context_, {.name = "cut a file", .n = what_.tiles.size()}, [&](std::size_t k) -> Status {
+          const std::span<const std::uint32_t> all = what_.objects_of(what_.tiles[k]);
+          const auto first = std::ranges::lower_bound(all, file.first);
+          const auto last = std::ranges::lower_bound(all, file.first + file.objects);
+          if (first == last) return {};
+          std::vector<std::uint32_t> objects(first, last);
+          for (std::uint32_t& o : objects) o -= file.first;
+          Result<Section> section =
+              write_section(tile_file(what_.folder, what_.tiles[k]), f, **model, objects);
+          if (!section) return section.error();
+          section->first = static_cast<std::uint32_t>(first - all.begin());
+          section->last = static_cast<std::uint32_t>(last - all.begin());
+          sections_[k].push_back(*section);
+          return {};
+        });
+  }
+
+  [[nodiscard]] Status write_head_of(std::size_t k) const {
+    const std::size_t number = what_.tiles[k];
+    Result<Tile> tile = what_.head_of(number);
+    if (!tile) return tile.error();
+    const std::span<const std::uint32_t> objects = what_.objects_of(number);
+    tile->objects.assign(objects.begin(), objects.end());
+    tile->sections = sections_[k];
+    tile->model.files = what_.outline.model.files;
+    return write_head(tile_file(what_.folder, number), *tile);
+  }
+
+  const TilesToWrite& what_;
+  const parallel::Context& context_;
+  std::vector<std::vector<Section>> sections_;
+};
+
 }  // namespace
 
 Result<Section> write_section(const std::filesystem::path& tile, std::uint32_t file,
@@ -260,30 +317,34 @@ Status write_head(const std::filesystem::path& file, const Tile& tile) {
   Result<Blob> start = out.finish();
   if (!start) return start.error();
   std::vector<Blob> blobs{std::move(*start)};
-  for (const rules::PlannedTest& test : tile.tests) {
-    Result<Blob> blob = encode_test(test);
-    if (!blob) return blob.error();
-    blobs.push_back(std::move(*blob));
-  }
+  blobs.insert(blobs.end(), tile.tasks.begin(), tile.tasks.end());
   return write_blobs(file, blobs);
 }
 
 Result<Tile> read_tile(const std::filesystem::path& file, const parallel::Context& context) {
-  const Result<std::vector<Blob>> blobs = read_blobs(file, 1, context);
+  Result<std::vector<Blob>> blobs = read_blobs(file, 1, context);
   if (!blobs) return blobs.error();
   Result<Tile> tile = read_start(blobs->front(), file.string());
   if (!tile) return lost(file);
-  for (const Blob& blob : std::span(*blobs).subspan(1)) {
-    Result<rules::PlannedTest> test = decode_test(blob, tile->objects.size(), file.string());
-    if (!test) return lost(file);
-    tile->tests.push_back(std::move(*test));
-  }
+  std::ranges::move(std::span(*blobs).subspan(1), std::back_inserter(tile->tasks));
   for (const Section& section : tile->sections) {
     const std::filesystem::path part = section_file(file, section.file);
     if (const Status s = append_section(part, section, tile->model, context); !s)
       return s.error().code == ErrorCode::input ? lost(part) : s.error();
   }
   return tile;
+}
+
+std::filesystem::path tile_file(const std::filesystem::path& folder, std::size_t tile) {
+  return folder / fmt::format("tile{:06}.strake-tile", tile);
+}
+
+Hash128 hash_of(std::span<const std::uint32_t> objects) {
+  return hash_bytes(std::as_bytes(objects));
+}
+
+Status write_tiles(const TilesToWrite& what, const parallel::Context& context) {
+  return TileWriter(what, context).run();
 }
 
 }  // namespace strake::tiles

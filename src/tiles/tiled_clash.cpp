@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tiles/tiled_clash.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "clash/detect.hpp"
@@ -14,8 +11,8 @@
 #include "clash/tiles/some_objects.hpp"
 #include "project/codec/blob.hpp"
 #include "project/stored_report/report_codec.hpp"
-#include "strake/parallel/for_each.hpp"
 #include "tiles/blob_file.hpp"
+#include "tiles/test_codec.hpp"
 #include "tiles/tile.hpp"
 
 namespace strake::tiles {
@@ -50,73 +47,6 @@ std::vector<rules::PlannedTest> tests_of(const rules::Plan& plan,
     tests.push_back({test.name, clash::options_of(test.options, objects),
                      clash::sets_of(test.sets, objects), clash::policy_of(test.policy, objects)});
   return tests;
-}
-
-/// Writes tiles section by section.
-class TileWriter {
- public:
-  TileWriter(const CutRun& run, FileReader& reader, const std::filesystem::path& folder,
-             std::span<const std::size_t> tiles, const parallel::Context& context)
-      : run_(run), reader_(reader), folder_(folder), tiles_(tiles), context_(context) {
-    sections_.resize(tiles.size());
-  }
-
-  Status run() {
-    for (std::uint32_t f = 0; f < run_.outline.files.size(); ++f)
-      if (Status s = write_file(f); !s) return s;
-    return parallel::for_each(context_, {.name = "write tiles", .n = tiles_.size()},
-                              [&](std::size_t k) { return write_head_of(k); });
-  }
-
- private:
-  Status write_file(std::uint32_t f) {
-    const Outline::File& file = run_.outline.files[f];
-    const Result<const model::Model*> model = reader_.read(file.given, context_);
-    if (!model) return model.error();
-    const bool several = run_.outline.files.size() > 1;
-    if ((*model)->objects.size() != file.objects || (several && hash_of_ids(**model) != file.names))
-      return Error{ErrorCode::input, "changed while it was cut",
-                   reader_.files()[file.given].path.string(), "run the test again"};
-    return parallel::for_each(
-        context_, {.name = "cut a file", .n = tiles_.size()}, [&](std::size_t k) -> Status {
-          const std::vector<std::uint32_t>& all = run_.cells[tiles_[k]].objects;
-          const auto first = std::ranges::lower_bound(all, file.first);
-          const auto last = std::ranges::lower_bound(all, file.first + file.objects);
-          if (first == last) return {};
-          std::vector<std::uint32_t> objects(first, last);
-          for (std::uint32_t& o : objects) o -= file.first;
-          Result<Section> section =
-              write_section(tile_file(folder_, tiles_[k]), f, **model, objects);
-          if (!section) return section.error();
-          section->first = static_cast<std::uint32_t>(first - all.begin());
-          section->last = static_cast<std::uint32_t>(last - all.begin());
-          sections_[k].push_back(*section);
-          return {};
-        });
-  }
-
-  [[nodiscard]] Status write_head_of(std::size_t k) const {
-    const CutCell& cell = run_.cells[tiles_[k]];
-    Tile tile;
-    tile.cell = cell.cell;
-    tile.scene = run_.scene;
-    tile.objects = cell.objects;
-    tile.tests = tests_of(run_.plan, cell.objects);
-    tile.sections = sections_[k];
-    tile.model.files = run_.outline.model.files;
-    return write_head(tile_file(folder_, tiles_[k]), tile);
-  }
-
-  const CutRun& run_;
-  FileReader& reader_;
-  const std::filesystem::path& folder_;
-  std::span<const std::size_t> tiles_;
-  const parallel::Context& context_;
-  std::vector<std::vector<Section>> sections_;
-};
-
-Hash128 hash_of(std::span<const std::uint32_t> objects) {
-  return hash_bytes(std::as_bytes(objects));
 }
 
 /// How many results a tile has of each test.
@@ -218,10 +148,6 @@ class FoundReader {
 
 }  // namespace
 
-std::filesystem::path tile_file(const std::filesystem::path& folder, std::size_t tile) {
-  return folder / fmt::format("tile{:06}.strake-tile", tile);
-}
-
 void cut(CutRun& run, std::uint64_t most_bytes) {
   const std::vector<std::int64_t> reach = reaches(run);
   std::vector<Extent> grown = run.outline.extents;
@@ -232,7 +158,22 @@ void cut(CutRun& run, std::uint64_t most_bytes) {
 
 Status write_tiles(const CutRun& run, FileReader& reader, const std::filesystem::path& folder,
                    std::span<const std::size_t> tiles, const parallel::Context& context) {
-  return TileWriter(run, reader, folder, tiles, context).run();
+  const auto objects_of = [&](std::size_t k) {
+    return std::span<const std::uint32_t>(run.cells[k].objects);
+  };
+  const auto head_of = [&](std::size_t k) -> Result<Tile> {
+    Tile tile;
+    tile.cell = run.cells[k].cell;
+    tile.scene = run.scene;
+    for (const rules::PlannedTest& test : tests_of(run.plan, run.cells[k].objects)) {
+      Result<Blob> blob = encode_test(test);
+      if (!blob) return blob.error();
+      tile.tasks.push_back(std::move(*blob));
+    }
+    return tile;
+  };
+  return write_tiles(TilesToWrite{run.outline, reader, folder, tiles, objects_of, head_of},
+                     context);
 }
 
 Status find_in_tile(const std::filesystem::path& tile, const std::filesystem::path& found,
@@ -245,7 +186,10 @@ Status find_in_tile(const std::filesystem::path& tile, const std::filesystem::pa
   out.number(read->objects.size());
   out.hash(hash_of(read->objects));
   std::vector<Blob> blobs(1);
-  for (const rules::PlannedTest& test : read->tests) {
+  for (const Blob& task : read->tasks) {
+    const auto decoded = decode_test(task, read->objects.size(), tile.string());
+    if (!decoded) return lost(tile);
+    const rules::PlannedTest& test = *decoded;
     const Result<clash::TileReport> report =
         clash::detect_tile(*scene, test.sets, test.options, test.policy, read->cell, context);
     if (!report) return report.error();

@@ -13,6 +13,7 @@
 #include "strake/rules/rules.hpp"
 #include "tiles/outline.hpp"
 #include "tiles/split.hpp"
+#include "tiles/tile.hpp"
 
 /// Clash detection by tiles: cut here, find anywhere, join here (decision 0077).
 ///
@@ -30,10 +31,6 @@ struct CutRun {
 /// Cuts the model into cells of which a worker takes no more than so many bytes: each has the
 /// objects that come within reach of it in any of the tests.
 void cut(CutRun& run, std::uint64_t most_bytes);
-
-/// Returns the file of a tile, and that of what is found in it.
-[[nodiscard]] std::filesystem::path tile_file(const std::filesystem::path& folder,
-                                              std::size_t tile);
 
 /// Writes some of the tiles, reading the model's files again, one at a time. Errors: input for one
 /// that changed meanwhile; those of io::read_models(); output.

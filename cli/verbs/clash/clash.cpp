@@ -551,6 +551,7 @@ Verb add_clash(CLI::App& program, CommonOptions& common) {
       ->group("Running");
   add_output_option(*command, options->outputs, "Result", publish::clash_formats());
   add_distribution_option(*command, common);
+  add_scheduler_options(*command, common);
   add_common_options(*command, common);
   command->footer(R"(
 One file is checked against itself, several each against the others. With --a and --b it is what
@@ -570,6 +571,7 @@ Examples:
   strake clash hvac.rvm steel.rvm --group-by element -o clashes.bcf --bcf-most 200
   strake clash ship.glb --group-by proximity --pictures pictures --top-pictures 20
   strake clash ship.glb --log-pairs pairs.csv --stats
+  strake clash ship.glb --scheduler tcp://10.0.0.1:8786 --tile-folder /net/tiles -o clashes.json
   strake clash -p ship.strake --rules project.toml --fail-on hit -o today.json
   strake clash set -p ship.strake 0c8x2kq9w3e4r5t6y7v8b9n0mz --status approved --comment 'as agreed'
   strake clash diff monday.json tuesday.json

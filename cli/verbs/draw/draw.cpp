@@ -360,6 +360,7 @@ Verb add_draw(CLI::App& program, CommonOptions& common) {
   add_stored(*command, *options);
   add_sheet(*command, *options);
   add_distribution_option(*command, common);
+  add_scheduler_options(*command, common);
   add_common_options(*command, common);
   command->footer(R"(
 Examples:

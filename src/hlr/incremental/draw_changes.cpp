@@ -14,11 +14,10 @@
 #include "hlr/incremental/merge.hpp"
 #include "hlr/incremental/partial_scene.hpp"
 #include "hlr/incremental/reach.hpp"
+#include "hlr/incremental/solve_part.hpp"
 #include "hlr/prepare/drawn_objects.hpp"
 #include "hlr/prepare/view_job.hpp"
-#include "hlr/results/edge_curves.hpp"
 #include "hlr/results/object_fates.hpp"
-#include "hlr/visibility/specks.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/hlr/incremental.hpp"
 #include "strake/hlr/steps.hpp"
@@ -70,33 +69,7 @@ Result<Drawing> draw_part(const ChangedView& changed, const Reach& reach,
   WholeView whole = changed.whole;
   whole.tessellation = part.plan(changed.tessellation);
   whole.asked = reach.asked;
-  const Result<ViewJob> job = [&] {
-    const parallel::StageTimer timer(context.report, kPreparationStep);
-    return prepare_view({part.scene, reach.needed, changed.view, changed.options, &whole}, context);
-  }();
-  if (!job) return job.error();
-  Drawing drawing;
-  drawing.options = changed.options;
-  drawing.counters = job->counters;
-  drawing.diagnostics = job->diagnostics;
-  drawing.origin = changed.view.perspective ? changed.view.perspective->target : job->origin;
-  drawing.counted.resize(reach.asked.size());
-  if (!changed.options.hidden) drawing.left_out.resize(reach.asked.size());
-  if (const Status status = solve_gather(*job, context, drawing); !status) return status.error();
-  if (const Status status = leave_out_hidden_objects(context, drawing); !status)
-    return status.error();
-  if (const Status status = dot_lone_specks(*job, context, drawing); !status) return status.error();
-  auto curves = find_curves(*job, context);
-  if (!curves) return curves.error();
-  drawing.curves = std::move(*curves);
-  sum_up_lines(drawing);
-  return drawing;
-}
-
-/// Returns the sag that a drawing says it has.
-double sag_of(const ChangedView& changed) {
-  const double own = changed.scene.sag_mm, asked = changed.options.sag_mm;
-  return changed.tessellation.any && asked > 0 ? std::min(own, asked) : own;
+  return solve_part({part.scene, reach.needed, changed.view, changed.options, &whole}, context);
 }
 
 /// Fills what names the view and the model in a drawing whose lines are there.
@@ -160,7 +133,6 @@ Result<Redrawn> put_together(const ChangedView& changed, const Reach& reach, con
   drawing.counters.uncut_objects = changed.sections ? changed.sections->uncut_objects : 0;
   drawing.hatches = changed.sections ? changed.sections->hatches : std::vector<Hatch>();
   drawing.origin = part.origin;
-  drawing.sag_mm = sag_of(changed);
   fill_head({changed.scene, changed.drawn, changed.view, changed.options}, drawing);
   return redrawn;
 }
@@ -191,28 +163,18 @@ Result<Redrawn> draw_what_changed(const Request& request, Earlier earlier,
   if (*sections)
     tell_hatches_apart(earlier.drawing.hatches, (*sections)->hatches, earlier.boxes,
                        earlier.comparison);
-  const auto seen_by = tessellation_of(view, options);
-  if (!seen_by) return seen_by.error();
-  const model::ViewTessellation plan = plan_view_tessellation(scene, drawn, *seen_by);
-  const auto shapes = shape_extents(scene, context);
-  if (!shapes) return shapes.error();
-  const auto boxes = object_extents(scene, drawn, view, *shapes, context);
-  if (!boxes) return boxes.error();
-  const auto extent = drawn_extent(scene, drawn, *shapes, *seen_by, plan, options, context);
-  if (!extent) return extent.error();
+  const auto whole = whole_extent(scene, drawn, view, options, context);
+  if (!whole) return whole.error();
+  const std::span<const Hatch> hatches =
+      *sections ? std::span<const Hatch>((*sections)->hatches) : std::span<const Hatch>();
   const ChangedView changed{scene,
                             drawn,
                             view,
                             options,
-                            *boxes,
+                            whole->boxes,
                             earlier.comparison,
-                            plan,
-                            {.box = extent->box,
-                             .longest_side = static_cast<double>(extent->longest_side),
-                             .tessellation = {},
-                             .hatches = *sections ? std::span<const Hatch>((*sections)->hatches)
-                                                  : std::span<const Hatch>(),
-                             .asked = {}},
+                            whole->tessellation,
+                            whole->view_of(hatches),
                             std::move(*sections)};
   const auto reach = find_reach(changed, context);
   if (reach && reach->most) return draw_all(request, kMostOfIt, context);
@@ -223,10 +185,11 @@ Result<Redrawn> draw_what_changed(const Request& request, Earlier earlier,
     return draw_all(request, "what changed cannot be drawn alone", context);
   }
   auto redrawn = put_together(changed, *reach, *part, std::move(earlier.drawing), context);
-  if (redrawn)
-    redrawn->drawing.contact_distance_mm =
-        changed.sections ? changed.sections->contact_distance_mm
-                         : static_cast<double>(extent->contact) * geometry::kMmPerGrid;
+  if (!redrawn) return redrawn;
+  redrawn->drawing.sag_mm = whole->sag_mm;
+  redrawn->drawing.contact_distance_mm =
+      changed.sections ? changed.sections->contact_distance_mm
+                       : static_cast<double>(whole->drawn.contact) * geometry::kMmPerGrid;
   return redrawn;
 }
 

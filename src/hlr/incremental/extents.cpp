@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "hlr/incremental/partial_scene.hpp"
 #include "hlr/prepare/view_job.hpp"
@@ -152,6 +153,35 @@ Result<DrawnExtent> drawn_extent(const model::Scene& scene, const std::vector<bo
   if (!box) return box.error();
   extent.box.include(*box);
   return extent;
+}
+
+WholeView WholeExtent::view_of(std::span<const Hatch> hatches) const {
+  return {.box = drawn.box,
+          .longest_side = static_cast<double>(drawn.longest_side),
+          .tessellation = {},
+          .hatches = hatches,
+          .asked = {}};
+}
+
+Result<WholeExtent> whole_extent(const model::Scene& scene, const std::vector<bool>& drawn,
+                                 const View& view, const Options& options,
+                                 const parallel::Context& context) {
+  const auto seen_by = tessellation_of(view, options);
+  if (!seen_by) return seen_by.error();
+  WholeExtent whole;
+  whole.tessellation = plan_view_tessellation(scene, drawn, *seen_by);
+  const auto shapes = shape_extents(scene, context);
+  if (!shapes) return shapes.error();
+  auto boxes = object_extents(scene, drawn, view, *shapes, context);
+  if (!boxes) return boxes.error();
+  whole.boxes = std::move(*boxes);
+  const auto extent =
+      drawn_extent(scene, drawn, *shapes, *seen_by, whole.tessellation, options, context);
+  if (!extent) return extent.error();
+  whole.drawn = *extent;
+  const bool finer = whole.tessellation.any && options.sag_mm > 0;
+  whole.sag_mm = finer ? std::min(scene.sag_mm, options.sag_mm) : scene.sag_mm;
+  return whole;
 }
 
 }  // namespace strake::hlr

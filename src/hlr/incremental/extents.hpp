@@ -2,9 +2,11 @@
 // Boxes of objects that hold however a view tessellates them, and of all that is drawn.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "hlr/prepare/view_job.hpp"
 #include "model/scene/view_tessellation.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
@@ -48,5 +50,23 @@ struct DrawnExtent {
     const model::Scene& scene, const std::vector<bool>& drawn, std::span<const ShapeExtent> shapes,
     const model::ViewTessellationOptions& seen_by, const model::ViewTessellation& plan,
     const Options& options, const parallel::Context& context);
+
+/// What the parts of a view have to know of all that is drawn.
+struct WholeExtent {
+  DrawnExtent drawn;
+  std::vector<geometry::Box3l> boxes;    ///< by object, as object_extents() has them
+  model::ViewTessellation tessellation;  ///< by shape of the scene
+  double sag_mm = 0;                     ///< as Drawing::sag_mm
+
+  /// Returns what a part takes of it; its tessellation is by its own shapes, and is to be filled.
+  [[nodiscard]] WholeView view_of(std::span<const Hatch> hatches) const;
+};
+
+/// Finds it without the meshes of the view. Errors: usage for sections that make no sense;
+/// cancelled.
+[[nodiscard]] Result<WholeExtent> whole_extent(const model::Scene& scene,
+                                               const std::vector<bool>& drawn, const View& view,
+                                               const Options& options,
+                                               const parallel::Context& context);
 
 }  // namespace strake::hlr

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "hlr/incremental/partial_scene.hpp"
+#include "hlr/incremental/solid_boxes.hpp"
 #include "strake/hlr/incremental.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/precomputed.hpp"
@@ -21,45 +22,6 @@ using geometry::Box3l;
 constexpr std::size_t kObjectsAtOnce = 1024;
 /// Where more than this share of the bodies is needed, all are as quick.
 constexpr double kMostShare = 0.5;
-/// Ends of lines are rounded to the grid.
-constexpr std::int64_t kRounded = 2;
-
-/// Boxes of the model in a tree.
-class SolidBoxes {
- public:
-  explicit SolidBoxes(std::vector<Box3l> boxes) : boxes_(std::move(boxes)) {
-    std::vector<ViewBox> in_tree;
-    in_tree.reserve(boxes_.size());
-    for (const Box3l& box : boxes_) in_tree.push_back(box.empty() ? ViewBox() : as_view_box(box));
-    tree_ = ViewBvh(in_tree);
-  }
-
-  /// Calls visit(index) -> bool for the boxes that meet one, until it returns false. Boxes that
-  /// only touch each other from below need not be found: what they hold does not cross.
-  template <class Visit>
-  void for_each_that_meets(const Box3l& box, Visit&& visit) const {
-    if (box.empty()) return;
-    tree_.traverse(anything_in(as_view_box(box)),
-                   [&](std::uint32_t i) { return !boxes_[i].meets(box) || visit(i); });
-  }
-  [[nodiscard]] bool any_meets(const Box3l& box) const {
-    bool any = false;
-    for_each_that_meets(box, [&](std::uint32_t) {
-      any = true;
-      return false;
-    });
-    return any;
-  }
-
- private:
-  static ViewBox as_view_box(const Box3l& box) {
-    return {{box.lo.x, box.lo.y, box.lo.z}, {box.hi.x, box.hi.y, box.hi.z}};
-  }
-
-  std::vector<Box3l> boxes_;
-  ViewBvh tree_;
-};
-
 /// What is known of an object before its lines are.
 enum class Concern : std::uint8_t {
   none,

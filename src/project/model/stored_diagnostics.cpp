@@ -89,7 +89,7 @@ Result<Diagnostics> unpack_diagnostics(std::span<const std::byte> blob, std::str
   return diagnostics;
 }
 
-Diagnostics joined_diagnostics(std::span<const FileDiagnostics> files) {
+Diagnostics joined_diagnostics(std::span<const FileDiagnostics> files, const Diagnostics& of_all) {
   std::vector<std::tuple<std::string, std::string, const FileDiagnostics*>> by_name;
   for (const FileDiagnostics& file : files)
     by_name.emplace_back(std::filesystem::path(file.given).filename().string(), file.given, &file);
@@ -98,6 +98,7 @@ Diagnostics joined_diagnostics(std::span<const FileDiagnostics> files) {
   Diagnostics all;
   for (const auto& [name, given, file] : by_name)
     add_some(all, *file, [](std::string_view code) { return !is_of_finish(code); });
+  all.append(of_all);
   for (const std::string_view of_finish : kOfFinish)
     for (const FileDiagnostics& file : files)
       add_some(all, file, [&](std::string_view code) { return code == of_finish; });

@@ -24,7 +24,9 @@ struct FileDiagnostics {
 };
 
 /// Returns what io::read_models() says of several files: what their readers noticed, in the order
-/// of their names, then what finish() did, in that of their labels. `files` are in the latter.
-[[nodiscard]] Diagnostics joined_diagnostics(std::span<const FileDiagnostics> files);
+/// of their names, then `of_all`, what it told of all of them, then what finish() did, in the order
+/// of their labels. `files` are in the latter.
+[[nodiscard]] Diagnostics joined_diagnostics(std::span<const FileDiagnostics> files,
+                                             const Diagnostics& of_all = {});
 
 }  // namespace strake::project

@@ -129,7 +129,7 @@ class TiledRun {
     CutRun run;
     run.scene = rules.scene_options();
     std::vector<rules::ObjectFacts> facts(files_.size());
-    run.outline = outline_of(reader, run.scene,
+    run.outline = outline_of(reader, run.scene, {},
                              [&](const model::Scene& scene, std::size_t given) -> Status {
                                facts[given] = rules.facts(scene, {}).value();
                                return {};
