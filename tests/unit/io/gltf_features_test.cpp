@@ -112,6 +112,21 @@ TEST(GltfFeatures, RowsBecomeAttributesUnderTheNameOfTheirClass) {
   EXPECT_EQ(model->objects[3].attributes[0].second, "false");
 }
 
+/// A mesh is of one storey and has parts that are features of their own: what is said of all of it
+/// counts.
+TEST(GltfFeatures, OfSeveralSetsThoseByWhichAMeshIsOneFeatureCount) {
+  const Result<model::Model> model =
+      read(document(R"("_FEATURE_ID_0":3},"extensions":{"EXT_mesh_features":{"featureIds":)"
+                    R"([{"featureCount":1,"attribute":0,"propertyTable":0}])",
+                    R"("_FEATURE_ID_0":2,"_FEATURE_ID_1":3},"extensions":{"EXT_mesh_features":)"
+                    R"({"featureIds":[{"featureCount":3,"attribute":0,"propertyTable":0},)"
+                    R"({"featureCount":1,"attribute":1,"propertyTable":0}])"));
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_EQ(model->diagnostics.count("gltf-features"), 1U);
+  ASSERT_EQ(model->objects[3].attributes.size(), 5U);
+  EXPECT_EQ(model->objects[3].attributes[0].second, "false");
+}
+
 /// What stands for nothing is stated as it is stored, before what makes values of that, and however
 /// a writer of JSON spells numbers.
 TEST(GltfFeatures, WhatStandsForNothingIsComparedAsStored) {
