@@ -36,9 +36,12 @@ class Walk {
  public:
   explicit Walk(const std::filesystem::path& file) : file_(file) {}
 
-  [[nodiscard]] Status take(std::string_view line) {
+  [[nodiscard]] Status take(std::string_view line, bool is_last) {
     ++line_;
     if (is_ended_) return line.find_first_not_of(' ') == std::string_view::npos ? Status{} : end();
+    if (line.size() < kLength && is_last)
+      return Error{ErrorCode::input, fmt::format("the file ends too soon, within line {}", line_),
+                   file_.string(), "copy or export it again"};
     if (line.size() <= kLetter)
       return fault(fmt::format("has {} columns, and one of IGES has {}", line.size(), kLength));
     const std::size_t section = kSections.find(line[kLetter]);
@@ -106,7 +109,7 @@ Status check_iges_syntax(std::string_view text, const std::filesystem::path& fil
     std::string_view line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
     if (line.ends_with('\r')) line.remove_suffix(1);
-    if (const Status status = walk.take(line); !status) return status;
+    if (const Status status = walk.take(line, text.empty()); !status) return status;
   }
   return walk.finish();
 }

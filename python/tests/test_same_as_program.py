@@ -66,7 +66,9 @@ FORMS: list[tuple[str, list[str], dict[str, Any]]] = [
 
 
 @pytest.mark.parametrize(("name", "words", "arguments"), FORMS, ids=lambda x: x if isinstance(x, str) else "")
-def test_forms_of_clashes(tmp_path: Path, ship: strake.Model, ship_file: Path, name: str, words: list[str], arguments: dict[str, Any]) -> None:
+def test_forms_of_clashes(
+    tmp_path: Path, ship: strake.Model, ship_file: Path, name: str, words: list[str], arguments: dict[str, Any]
+) -> None:
     expected = written_by_program(tmp_path, name, "clash", ship_file, *words)
     assert written_by_save(tmp_path, name, strake.clash(ship), **arguments) == expected
 

@@ -72,7 +72,7 @@ def calls(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Call, dic
 NAMES = [
     *("clash", "draw", "load", "generate", "evaluate", "run_program", "select", "mesh", "save", "from_arrays", "from_trimesh"),
     *("clashes.save", "clashes.table", "clashes.save_pictures", "clashes.save_pair_log"),
-    *( "drawing.save", "sheet.read", "sheet.draw", "sheet.save", "project", "project.create"),
+    *("drawing.save", "sheet.read", "sheet.draw", "sheet.save", "project", "project.create"),
     *("project.add", "project.update", "project.remove", "project.clash", "project.list", "project.set_status"),
     *("project.draw", "project.store_view", "project.model", "cluster.clash"),
 ]

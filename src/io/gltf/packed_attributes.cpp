@@ -12,20 +12,20 @@ namespace strake::io::gltf {
 namespace {
 
 constexpr std::byte kVersion1{0xa1};
-constexpr std::size_t kWidest = 256;  // bytes of an element
-constexpr std::size_t kGroup = 16;    // bytes whose widths are said together
-constexpr std::size_t kChannel = 4;   // bytes of an element that are predicted alike
+constexpr std::size_t kWidestElement = 256;  // bytes of an element
+constexpr std::size_t kByteGroup = 16;       // bytes whose widths are said together
+constexpr std::size_t kChannelBytes = 4;     // bytes of an element that are predicted alike
 
 /// Elements of a block: as many as 8192 bytes hold, in whole groups, and 256 at most.
 std::size_t block_elements(std::size_t stride) {
   constexpr std::size_t kBytes = 8192, kMost = 256;
-  return std::min(kBytes / stride / kGroup * kGroup, kMost);
+  return std::min(kBytes / stride / kByteGroup * kByteGroup, kMost);
 }
 
 /// Takes bytes off the front; once there are too few, it is done for and gives zeros.
-class Source {
+class PackedBytes {
  public:
-  explicit Source(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  explicit PackedBytes(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   [[nodiscard]] bool failed() const { return failed_; }
   [[nodiscard]] std::size_t left() const { return bytes_.size(); }
@@ -50,13 +50,13 @@ class Source {
 
 /// Unpacks a group whose bytes take `bits` each; the greatest number stands for a whole byte that
 /// comes behind the group. Single bits begin at the lowest of a byte, all others at the highest.
-void unpack_group(Source& source, unsigned bits, std::span<std::uint8_t, kGroup> out) {
+void unpack_group(PackedBytes& source, unsigned bits, std::span<std::uint8_t, kByteGroup> out) {
   std::ranges::fill(out, std::uint8_t{0});
   if (bits == 0) return;
-  const std::span<const std::byte> packed = source.take(kGroup * bits / 8);
+  const std::span<const std::byte> packed = source.take(kByteGroup * bits / 8);
   if (packed.empty()) return;
   const unsigned escape = (1U << bits) - 1, each = 8 / bits;
-  for (std::size_t i = 0; i < kGroup; ++i) {
+  for (std::size_t i = 0; i < kByteGroup; ++i) {
     const auto byte = std::to_integer<unsigned>(packed[i / each]);
     const auto k = static_cast<unsigned>(i % each);
     const unsigned value = byte >> (bits == 1 ? k : 8 - bits * (k + 1)) & escape;
@@ -65,10 +65,10 @@ void unpack_group(Source& source, unsigned bits, std::span<std::uint8_t, kGroup>
   }
 }
 
-using Lane = std::array<std::uint8_t, 256>;  // one byte of each element of a block
+using ByteLane = std::array<std::uint8_t, 256>;  // one byte of each element of a block
 
 /// Unpacks one byte of each element; `control` says how.
-void unpack_lane(Source& source, unsigned control, std::size_t count, Lane& lane) {
+void unpack_lane(PackedBytes& source, unsigned control, std::size_t count, ByteLane& lane) {
   constexpr unsigned kZeros = 2, kPlain = 3;
   constexpr std::array<unsigned, 5> kBits{0, 1, 2, 4, 8};  // four of them from `control` on
   lane.fill(0);
@@ -78,22 +78,22 @@ void unpack_lane(Source& source, unsigned control, std::size_t count, Lane& lane
     if (!plain.empty()) std::memcpy(lane.data(), plain.data(), count);
     return;
   }
-  const std::size_t groups = (count + kGroup - 1) / kGroup;
+  const std::size_t groups = (count + kByteGroup - 1) / kByteGroup;
   const std::span<const std::byte> widths = source.take((groups + 3) / 4);
   for (std::size_t g = 0; g < groups && !source.failed(); ++g) {
     const unsigned width =
         std::to_integer<unsigned>(widths[g / 4]) >> static_cast<unsigned>(2 * (g % 4)) & 3U;
     unpack_group(source, kBits[control + width],
-                 std::span(lane).subspan(g * kGroup).first<kGroup>());
+                 std::span(lane).subspan(g * kByteGroup).first<kByteGroup>());
   }
 }
 
 /// Turns what the lanes say of each element into numbers of this type, each told by the one before,
 /// which `last` is for the first of a block, and then the last.
 template <std::unsigned_integral Number, class Decode>
-void add_up(const std::array<Lane, kChannel>& lanes, std::size_t count, std::size_t stride,
+void add_up(const std::array<ByteLane, kChannelBytes>& lanes, std::size_t count, std::size_t stride,
             std::byte* last, std::byte* out, Decode&& decode) {
-  for (std::size_t byte = 0; byte < kChannel; byte += sizeof(Number)) {
+  for (std::size_t byte = 0; byte < kChannelBytes; byte += sizeof(Number)) {
     Number before{};
     std::memcpy(&before, last + byte, sizeof before);
     for (std::size_t i = 0; i < count; ++i) {
@@ -115,7 +115,7 @@ Number with_difference(Number stored, Number before) {
 }
 
 /// Puts four bytes of each element of a block in their places. False for a kind that there is not.
-bool put_channel(unsigned kind, const std::array<Lane, kChannel>& lanes, std::size_t count,
+bool put_channel(unsigned kind, const std::array<ByteLane, kChannelBytes>& lanes, std::size_t count,
                  std::size_t stride, std::byte* last, std::byte* out) {
   static_assert(std::endian::native == std::endian::little, "numbers are put as they lie");
   switch (kind & 3U) {
@@ -146,25 +146,26 @@ bool is_attributes_version_1(std::span<const std::byte> packed) {
 bool unpack_attributes_version_1(std::span<const std::byte> packed, std::size_t stride,
                                  std::span<std::byte> out) {
   constexpr std::size_t kLeastTail = 24;
-  const std::size_t channels = stride / kChannel, tail = stride + channels;
+  const std::size_t channels = stride / kChannelBytes, tail = stride + channels;
   if (!is_attributes_version_1(packed) || packed.size() < 1 + std::max(tail, kLeastTail))
     return false;
   // Behind the blocks, at the very end: the element before the first one, and kinds of channels.
-  std::array<std::byte, kWidest> last{};
+  std::array<std::byte, kWidestElement> last{};
   std::memcpy(last.data(), packed.data() + packed.size() - tail, stride);
   const std::span<const std::byte> kinds = packed.last(channels);
-  Source source(packed.subspan(1, packed.size() - 1 - std::max(tail, kLeastTail)));
+  PackedBytes source(packed.subspan(1, packed.size() - 1 - std::max(tail, kLeastTail)));
   const std::size_t elements = out.size() / stride, most = block_elements(stride);
-  std::array<Lane, kChannel> lanes{};
+  std::array<ByteLane, kChannelBytes> lanes{};
   for (std::size_t first = 0; first < elements; first += most) {
     const std::size_t count = std::min(most, elements - first);
     const std::span<const std::byte> controls = source.take(channels);
     for (std::size_t c = 0; c < channels && !source.failed(); ++c) {
       const auto control = std::to_integer<unsigned>(controls[c]);
-      for (std::size_t k = 0; k < kChannel; ++k)
+      for (std::size_t k = 0; k < kChannelBytes; ++k)
         unpack_lane(source, control >> static_cast<unsigned>(2 * k) & 3U, count, lanes[k]);
       if (!put_channel(std::to_integer<unsigned>(kinds[c]), lanes, count, stride,
-                       last.data() + c * kChannel, out.data() + first * stride + c * kChannel))
+                       last.data() + c * kChannelBytes,
+                       out.data() + first * stride + c * kChannelBytes))
         return false;
     }
     if (source.failed()) return false;
