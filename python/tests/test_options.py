@@ -41,7 +41,7 @@ READING: dict[str, Counterpart] = {
 DRAW: dict[str, Counterpart] = {
     **RUNNING,
     **READING,
-    **{name: OF_VIEW for name in ("--direction", "--eye", "--field-of-view", "--limits", "--near", "--section", "--target", "--up")},
+    **dict.fromkeys(("--direction", "--eye", "--field-of-view", "--limits", "--near", "--section", "--target", "--up"), OF_VIEW),
     **{
         "--" + name.replace("_", "-"): (strake.draw, name)
         for name in (

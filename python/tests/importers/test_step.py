@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from conversions import Outcome, convert
 
 pytest.importorskip("OCP", reason="needs Open CASCADE: pip install 'strake[step]'")
