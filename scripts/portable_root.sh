@@ -75,7 +75,7 @@ compile() {  # compile SOURCE [OPTION of CMake...]: a library of Debian's source
 }
 cmake_options=(-D CMAKE_BUILD_TYPE=Release -D "CMAKE_C_COMPILER=$root/bin/cc" -D "CMAKE_CXX_COMPILER=$root/bin/c++"
   -D "CMAKE_AR=$root/bin/ar" -D "CMAKE_RANLIB=$root/bin/ranlib" -D "CMAKE_PREFIX_PATH=$root/usr"
-  -D CMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF -D CMAKE_POSITION_INDEPENDENT_CODE=ON
+  -D CMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF -D "CMAKE_LIBRARY_ARCHITECTURE=$(uname -m)-linux-gnu" -D CMAKE_POSITION_INDEPENDENT_CODE=ON
   -D "CMAKE_INSTALL_PREFIX=$root/usr" -D CMAKE_INSTALL_LIBDIR=lib)
 [ -e "$root/sources/pugixml/installed" ] || apt-get "${private[@]}" update
 compile fmtlib -D FMT_DOC=OFF -D FMT_TEST=OFF

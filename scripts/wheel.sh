@@ -20,6 +20,7 @@ libraries="-lz -ldl -lpthread -lm"
 rm -rf "$folder/built" "$folder/dist"
 CMAKE_ARGS="-DCMAKE_C_COMPILER=$folder/bin/cc -DCMAKE_CXX_COMPILER=$folder/bin/c++ -DCMAKE_AR=$folder/bin/ar \
   -DCMAKE_RANLIB=$folder/bin/ranlib -DCMAKE_PREFIX_PATH=$folder/usr -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF \
+  -DCMAKE_LIBRARY_ARCHITECTURE=$(uname -m)-linux-gnu \
   '-DCMAKE_CXX_STANDARD_LIBRARIES=-L$folder/usr/lib/$(uname -m)-linux-gnu $libraries' \
   '-DCMAKE_MODULE_LINKER_FLAGS=-Wl,--version-script=$folder/exports' -DCMAKE_STRIP= ${CMAKE_ARGS:-}" \
   "$venv/bin/pip" wheel -q --disable-pip-version-check --no-build-isolation --no-deps \
