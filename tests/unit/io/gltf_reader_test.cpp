@@ -422,47 +422,6 @@ TEST(GltfReader, PlacesInstances) {
   EXPECT_FALSE(half.objects[0].positional_id);
 }
 
-/// A number that is none costs the instance that it belongs to, and no other.
-TEST(GltfReader, SkipsAnInstanceWithoutAPlace) {
-  const float none = std::numeric_limits<float>::quiet_NaN();
-  const std::string binary = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}) +
-                             bytes_of(std::vector<float>{1, 0, 0, 0, none, 0, 0, 0, 3});
-  const model::Model model =
-      read_ok(glb(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":72}],)"
-                  R"("bufferViews":[{"buffer":0,"byteLength":36},)"
-                  R"({"buffer":0,"byteOffset":36,"byteLength":36}],)"
-                  R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
-                  R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"}],)"
-                  R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
-                  R"("nodes":[{"name":"bolts","mesh":0,"extensions":{"EXT_mesh_gpu_instancing":)"
-                  R"({"attributes":{"TRANSLATION":1}}}}]})",
-                  binary));
-  ASSERT_EQ(model.objects.size(), 3U);
-  EXPECT_EQ(model.bodies.size(), 2U);
-  EXPECT_TRUE(model.objects[1].incomplete);
-  EXPECT_FALSE(model.objects[0].incomplete || model.objects[2].incomplete);
-  EXPECT_EQ(corner(model, 1, 0), (Vec3d{0, -3000, 0}));
-  EXPECT_EQ(model.diagnostics.skipped(), 1U);
-  EXPECT_NE(model.diagnostics.kept().back().message.find("'instance 1' is skipped"),
-            std::string::npos)
-      << model.diagnostics.kept().back().message;
-}
-
-/// A number that can be none of a list's is named as the file writes it.
-TEST(GltfReader, NamesAWrongNumberAsItIsWritten) {
-  for (const char* const number : {"-1", "1.5", "\"x\"", "1e99", "7"}) {
-    const Error error = read_bad(
-        glb(std::string(R"({"asset":{"version":"2.0"},"accessors":[],"meshes":[{"primitives":)"
-                        R"([{"attributes":{"POSITION":)") +
-            number + R"(}}]}],"nodes":[{"mesh":0}]})"));
-    const std::string text = error.text();
-    std::string written = number;
-    std::erase(written, '"');
-    EXPECT_NE(text.find("/accessors/" + written), std::string::npos) << text;
-    EXPECT_EQ(text.find("18446744073709551615"), std::string::npos) << text;
-  }
-}
-
 TEST(GltfReader, TakesColoursOfMaterials) {
   Parts parts;
   parts.head = R"("materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0.21404114,0,0.5]}},)"
