@@ -133,16 +133,16 @@ TEST(GltfFeatures, SkipsAnInstanceWithoutAPlace) {
   const float none = std::numeric_limits<float>::quiet_NaN();
   const std::string binary = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}) +
                              bytes_of(std::vector<float>{1, 0, 0, 0, none, 0, 0, 0, 3});
-  const model::Model model =
-      read_ok(glb(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":72}],)"
-                  R"("bufferViews":[{"buffer":0,"byteLength":36},)"
-                  R"({"buffer":0,"byteOffset":36,"byteLength":36}],)"
-                  R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
-                  R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"}],)"
-                  R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
-                  R"("nodes":[{"name":"bolts","mesh":0,"extensions":{"EXT_mesh_gpu_instancing":)"
-                  R"({"attributes":{"TRANSLATION":1}}}}]})",
-                  binary));
+  const Result<model::Model> model = read(
+      test::glb(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":72}],)"
+                R"("bufferViews":[{"buffer":0,"byteLength":36},)"
+                R"({"buffer":0,"byteOffset":36,"byteLength":36}],)"
+                R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"}],)"
+                R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                R"("nodes":[{"name":"bolts","mesh":0,"extensions":{"EXT_mesh_gpu_instancing":)"
+                R"({"attributes":{"TRANSLATION":1}}}}]})",
+                binary));
   ASSERT_TRUE(model) << model.error().text();
   ASSERT_EQ(model->objects.size(), 3U);
   ASSERT_EQ(model->bodies.size(), 2U);
