@@ -148,7 +148,6 @@ TEST(NeutralScene, WhatWasReadIsWrittenWithTheSameBytes) {
     const std::string second = bytes_written(once);
     const Model twice = written_and_read(once);
     EXPECT_EQ(bytes_written(twice), second) << seed;
-    EXPECT_EQ(difference(twice, once), "") << seed;
   }
 }
 

@@ -33,7 +33,7 @@ def found(shape: Any, kind: TopAbs_ShapeEnum, outside: TopAbs_ShapeEnum | None =
     """Returns the shapes of a kind within another, each once, and only those outside of another kind."""
     explorer = TopExp_Explorer(shape, kind) if outside is None else TopExp_Explorer(shape, kind, outside)
     seen = TopTools_IndexedMapOfShape()
-    shapes = []
+    shapes: list[Any] = []
     while explorer.More():
         if seen.Add(explorer.Current()) > len(shapes):
             shapes.append(explorer.Current())
