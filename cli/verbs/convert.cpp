@@ -18,6 +18,8 @@ namespace strake::cli {
 
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct ConvertOptions {
   InputOptions input;
   std::string sag;
@@ -46,7 +48,6 @@ Result<io::WriteOptions> write_options(const ConvertOptions& options) {
 
 /// Returns what became of the files, as schemas/convert.schema.json has it.
 std::string conversion_json(const model::Model& model, const std::string& output) {
-  using Json = nlohmann::ordered_json;
   constexpr int kConvertSchemaVersion = 1;
   Json files = Json::array(), counts = Json::array(), messages = Json::array();
   for (const model::SourceFile& file : model.files) {
