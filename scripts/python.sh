@@ -9,6 +9,7 @@ venv=build/python-venv
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
 say "python: what builds a wheel"
 "$venv/bin/pip" install -q --disable-pip-version-check 'scikit-build-core>=1.0' 'nanobind>=3.0'
+command -v node >/dev/null && scripts/npm.sh
 say "python: the wheel"
 rm -rf build/dist
 "$venv/bin/pip" wheel -q --disable-pip-version-check --no-build-isolation --no-deps -w build/dist .
@@ -16,7 +17,8 @@ say "python: installed in a clean environment"
 clean=build/python-clean
 rm -rf "$clean"
 python3 -m venv "$clean"
-"$clean/bin/pip" install -q --disable-pip-version-check build/dist/strake-*.whl pytest ruff mypy trimesh pandas pyarrow distributed
+"$clean/bin/pip" install -q --disable-pip-version-check build/dist/strake-*.whl pytest ruff mypy trimesh pandas pyarrow distributed \
+  'cadquery-ocp-novtk>=7.9,<8'
 "$clean/bin/ruff" check .
 "$clean/bin/ruff" format --check .
 "$clean/bin/mypy" -p strake

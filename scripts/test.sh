@@ -10,6 +10,7 @@ case "${1:-}" in
   *) echo "test: unknown option '$1' (there is only --all)" >&2; exit 2 ;;
 esac
 need build test
+scripts/npm.sh
 [ "$preset" = nightly ] && { need docs step; scripts/sanitize.sh; }
 configure_and_build "$preset"
 scripts/format.sh --check
@@ -18,5 +19,5 @@ if [ "$preset" = nightly ]; then
 else
   scripts/lint.sh
 fi
-[ "$preset" = nightly ] && scripts/python.sh
+[ "$preset" = nightly ] && { scripts/python.sh; scripts/wheel.sh; }
 ctest --test-dir "build/$preset" -j "$jobs" --output-on-failure --no-tests=error

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <system_error>
+#include <utility>
 
+#include "cli/output/diagnostics_json.hpp"
 #include "cli/run/load.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
@@ -11,6 +17,8 @@
 namespace strake::cli {
 
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 struct ConvertOptions {
   InputOptions input;
@@ -38,6 +46,31 @@ Result<io::WriteOptions> write_options(const ConvertOptions& options) {
   return how;
 }
 
+/// Returns what became of the files, as schemas/convert.schema.json has it.
+std::string conversion_json(const model::Model& model, const std::string& output) {
+  constexpr int kConvertSchemaVersion = 1;
+  Json files = Json::array(), counts = Json::array(), messages = Json::array();
+  for (const model::SourceFile& file : model.files) {
+    Json entry{{"file", file.label},
+               {"format", file.format},
+               {"unit", file.unit},
+               {"up_axis", file.up_axis},
+               {"bytes", file.bytes}};
+    if (file.ends_early) entry["ends_early"] = true;
+    files.push_back(std::move(entry));
+  }
+  add_diagnostics(counts, messages, model.diagnostics);
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(output, unknown);
+  const Json all{{"schema_version", kConvertSchemaVersion}, {"output", output},
+                 {"bytes", unknown ? Json() : Json(bytes)}, {"files", std::move(files)},
+                 {"objects", model.objects.size()},         {"groups", model.groups.size()},
+                 {"bodies", model.bodies.size()},           {"shapes", model.shapes.size()},
+                 {"skipped", model.diagnostics.skipped()},  {"diagnostics", std::move(counts)},
+                 {"messages", std::move(messages)}};
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Result<ExitCode> run_convert(Session& session, const ConvertOptions& options) {
   InputOptions input = options.input;
   const Result<std::string> output = take_output(input);
@@ -58,6 +91,9 @@ Result<ExitCode> run_convert(Session& session, const ConvertOptions& options) {
   }();
   if (!written) return written.error();
   session.console().note("wrote " + *output);
+  if (session.json())
+    if (const Status told = session.write_stdout(conversion_json(*model, *output)); !told)
+      return told.error();
   return strict_exit_code(input, model->diagnostics);
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cli/output/attribute_list.hpp"
+#include "cli/output/diagnostics_json.hpp"
 #include "cli/output/object_list.hpp"
 #include "cli/run/load.hpp"
 #include "cli/run/project_input.hpp"
@@ -98,18 +99,6 @@ Json content_json(const Content& content) {
           {"triangles", content.triangles}, {"solids", content.solids},
           {"sheets", content.sheets},       {"wires", content.wires},
           {"inverted", content.inverted},   {"extents_mm", extents}};
-}
-
-void add_diagnostics(Json& counts, Json& messages, const Diagnostics& diagnostics) {
-  for (const Diagnostics::Count& count : diagnostics.counts())
-    counts.push_back({{"code", count.code},
-                      {"severity", severity_name(count.severity)},
-                      {"count", count.count}});
-  for (const Diagnostic& d : diagnostics.kept())
-    messages.push_back({{"code", d.code},
-                        {"severity", severity_name(d.severity)},
-                        {"where", d.where},
-                        {"message", d.message}});
 }
 
 /// What is listed besides the counts.

@@ -24,6 +24,7 @@
 #include "project/results/clash_queries.hpp"
 #include "project/results/stored_tests.hpp"
 #include "project/views/stored_views.hpp"
+#include "publish/form_words.hpp"
 #include "strake/drawing/ink.hpp"
 
 namespace strake::cli {
@@ -177,7 +178,7 @@ Status write_project_page(Session& session, const ReportOptions& given, const Op
                                 has_results ? &clash : nullptr,
                                 assignee,
                                 is_as_tested ? &loaded->scene : nullptr,
-                                page_geometry(given.page_geometry),
+                                publish::model_shown(given.page_geometry),
                                 std::move(without),
                                 {},
                                 std::move(facts.drawings),

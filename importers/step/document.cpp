@@ -126,6 +126,7 @@ Result<Document> read_step(const std::filesystem::path& file,
   reader.SetColorMode(Standard_True);
   reader.SetNameMode(Standard_True);
   reader.SetLayerMode(Standard_True);
+  reader.SetSHUOMode(Standard_True);
   reader.SetMatMode(Standard_True);
   reader.SetGDTMode(Standard_False);
   reader.SetPropsMode(Standard_False);

@@ -9,11 +9,12 @@
 #include <TDataStd_TreeNode.hxx>
 #include <XCAFDoc.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_GraphNode.hxx>
 #include <XCAFDoc_Material.hxx>
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string_view>
-#include <vector>
 
 #include "core/text_encoding.hpp"
 #include "product_pieces.hpp"
@@ -80,6 +81,18 @@ std::optional<model::Color> Labels::color_of_label(const TDF_Label& label) const
   Quantity_ColorRGBA color;
   for (const XCAFDoc_ColorType type : {XCAFDoc_ColorSurf, XCAFDoc_ColorGen})
     if (colors->GetColor(label, type, color)) return color_of(color);
+  return std::nullopt;
+}
+
+std::optional<model::Color> Labels::color_of_occurrence(const std::vector<TDF_Label>& chain) const {
+  // What an outer assembly says goes before what one within it does.
+  for (std::size_t first = 0; first + 1 < chain.size(); ++first) {
+    TDF_LabelSequence usage;
+    for (std::size_t i = first; i < chain.size(); ++i) usage.Append(chain[i]);
+    Handle(XCAFDoc_GraphNode) occurrence;
+    if (!XCAFDoc_ShapeTool::FindSHUO(usage, occurrence) || occurrence.IsNull()) continue;
+    if (const std::optional<model::Color> color = color_of_label(occurrence->Label())) return color;
+  }
   return std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 #include <XCAFDoc_ShapeTool.hxx>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "strake/model/model.hpp"
 
@@ -27,6 +28,10 @@ struct Labels {
   [[nodiscard]] static std::string instance_name(const TDF_Label& instance,
                                                  const std::string& product);
   [[nodiscard]] std::optional<model::Color> color_of_label(const TDF_Label& label) const;
+  /// Returns the colour that one occurrence has of its own, whatever all others of its part have:
+  /// `chain` are the instances that lead to it, the outermost first.
+  [[nodiscard]] std::optional<model::Color> color_of_occurrence(
+      const std::vector<TDF_Label>& chain) const;
   /// Returns the names of the layers of a label, "; " between several.
   [[nodiscard]] std::string layers_of(const TDF_Label& label) const;
   [[nodiscard]] static std::string material_of(const TDF_Label& label);

@@ -91,6 +91,7 @@ class SceneBuilder {
     model::GroupId group = model::GroupId::none;
     std::string id;                     ///< of what it is in, '/' at the end
     std::optional<model::Color> color;  ///< of the assembly
+    std::vector<TDF_Label> instances;   ///< that lead there, the outermost first
   };
 
   void count_products(const TDF_Label& label, std::set<std::string>& seen);
@@ -256,7 +257,8 @@ void SceneBuilder::add_instance(const Product& product, const TDF_Label& instanc
     state(object.attributes, "Layer", std::move(layers));
   object.first_body = static_cast<std::uint32_t>(model_.bodies.size());
   object.body_count = static_cast<std::uint32_t>(product.parts.size());
-  const std::optional<model::Color> color = labels_.color_of_label(instance);
+  std::optional<model::Color> color = labels_.color_of_occurrence(place.instances);
+  if (!color) color = labels_.color_of_label(instance);
   const Placement placement =
       placement_of(place.location) * Placement{geometry::Mat3d{}, product.middle};
   for (const Product::Part& part : product.parts) {
@@ -305,7 +307,9 @@ void SceneBuilder::add_tree(const TDF_Label& label, const TDF_Label& instance, c
   Place within = place;
   within.group = add_group(name, place.group);
   within.id += name + "/";
-  if (const std::optional<model::Color> color = labels_.color_of_label(instance))
+  if (const std::optional<model::Color> own_color = labels_.color_of_occurrence(place.instances))
+    within.color = own_color;
+  else if (const std::optional<model::Color> color = labels_.color_of_label(instance))
     within.color = color;
   else if (const std::optional<model::Color> of_product = labels_.color_of_label(label))
     within.color = of_product;
@@ -315,6 +319,7 @@ void SceneBuilder::add_tree(const TDF_Label& label, const TDF_Label& instance, c
   for (const TDF_Label& component : components) {
     Place of_component = within;
     of_component.location = within.location * XCAFDoc_ShapeTool::GetLocation(component);
+    of_component.instances.push_back(component);
     add_tree(referred(component), component, of_component, inner);
   }
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "iges_syntax.hpp"
 #include "io/source/input_file.hpp"
 #include "io/source/reader_support.hpp"
 
@@ -58,23 +59,8 @@ Result<SourceFile> inspect_step(const std::filesystem::path& file, std::string_v
   return SourceFile{SourceKind::step, step_format(schema), std::move(*references)};
 }
 
-/// Whether the lines of a file are those of IGES: the letter of the section in column 73, then a
-/// number.
-bool is_iges_line(std::string_view line, char section) {
-  constexpr std::size_t kSection = 72, kLength = 80;
-  return line.size() >= kLength && line[kSection] == section &&
-         std::ranges::all_of(line.substr(kSection + 1, kLength - kSection - 1),
-                             [](char c) { return c == ' ' || (c >= '0' && c <= '9'); });
-}
-
 Result<SourceFile> inspect_iges(const std::filesystem::path& file, std::string_view text) {
-  const std::string_view end = end_of(text);
-  const std::string_view body = end.substr(0, end.find_last_not_of(kBlanks) + 1);
-  const std::size_t begin = body.rfind('\n');
-  const std::string_view last = begin == std::string_view::npos ? body : body.substr(begin + 1);
-  if (!is_iges_line(last, 'T'))
-    return refused(file, "the file ends too soon: its last line is not the T line of IGES",
-                   "copy or export it again");
+  if (const Status whole = check_iges_syntax(text, file); !whole) return whole.error();
   return SourceFile{SourceKind::iges, "IGES", {}};
 }
 

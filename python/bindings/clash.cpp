@@ -15,7 +15,9 @@
 #include <utility>
 
 #include "clash/results/clash_key.hpp"
+#include "pictures/folder.hpp"
 #include "publish/clash_formats.hpp"
+#include "publish/form_words.hpp"
 #include "python/bindings/arrays.hpp"
 #include "python/bindings/bindings.hpp"
 #include "python/bindings/clash_rows.hpp"
@@ -129,19 +131,79 @@ nb::tuple words_of_rows(const RunPointer& run, std::size_t begin, std::size_t en
   return nb::make_tuple(keys, statuses, groups);
 }
 
+/// Returns the error with the argument that it is about.
+Error in_argument(Error error, const char* argument) {
+  error.where = argument;
+  return error;
+}
+
+/// Adds to what is written how that is done.
+Status apply_form(const WrittenForm& form, report::ClashContents& contents) {
+  contents.columns = form.columns;
+  contents.csv = publish::csv_form(form.csv);
+  contents.shown = publish::model_shown(form.page_geometry);
+  contents.bcf.version_3 = form.bcf_3;
+  contents.bcf.contacts = form.bcf_contacts;
+  contents.bcf.most = form.bcf_most;
+  if (!form.bcf_date.empty()) {
+    const Result<std::string> date = publish::bcf_date(form.bcf_date);
+    if (!date) return in_argument(date.error(), "bcf_date");
+    contents.bcf.date = *date;
+  }
+  if (!form.bcf_author.empty()) {
+    const Result<std::string> author = publish::bcf_author(form.bcf_author);
+    if (!author) return in_argument(author.error(), "bcf_author");
+    contents.bcf.author = *author;
+  }
+  return {};
+}
+
+/// Writes a file, whole or not at all.
+template <class Write>
+Status write_file(const std::filesystem::path& path, Write&& write) {
+  Result<AtomicFile> file = AtomicFile::create(path);
+  if (!file) return file.error();
+  const Status written = write([&](std::string_view text) { file->write(text); });
+  return written ? file->commit() : written;
+}
+
 /// Writes as the suffix of the path asks for.
-void save(const RunPointer& run, const std::filesystem::path& path,
-          const std::vector<std::string>& columns, const RunOptions& options) {
+void save(const RunPointer& run, const std::filesystem::path& path, const WrittenForm& form,
+          const RunOptions& options) {
   const auto writer = value_or_raise(publish::find_clash_writer(path.string()));
   run_status(options, "write", [&](const parallel::Context& context) -> Status {
     report::ClashContents contents = run->contents();
-    contents.columns = columns;
-    Result<AtomicFile> file = AtomicFile::create(path);
-    if (!file) return file.error();
-    const Status written =
-        writer.write(contents, [&](std::string_view text) { file->write(text); }, context);
-    return written ? file->commit() : written;
+    if (const Status status = apply_form(form, contents); !status) return status;
+    return write_file(path,
+                      [&](report::Sink sink) { return writer.write(contents, sink, context); });
   });
+}
+
+/// Writes every pair that went to the detailed stage.
+void save_pair_log(const RunPointer& run, const std::filesystem::path& path, const std::string& csv,
+                   const RunOptions& options) {
+  run_status(options, "write", [&](const parallel::Context& context) -> Status {
+    report::ClashContents contents = run->contents();
+    contents.csv = publish::csv_form(csv);
+    return write_file(
+        path, [&](report::Sink sink) { return report::write_pair_log(contents, sink, context); });
+  });
+}
+
+/// Returns how many pictures were drawn and how many left out.
+nb::tuple save_pictures(const RunPointer& run, const std::filesystem::path& folder,
+                        std::size_t most, bool png, const RunOptions& options) {
+  pictures::FolderOptions how;
+  how.most = most;
+  how.format = png ? pictures::PictureFormat::png : pictures::PictureFormat::svg;
+  const pictures::FolderCount count =
+      python::run(options, "draw pictures",
+                  [&](const parallel::Context& context) -> Result<pictures::FolderCount> {
+                    if (const Status status = pictures::check_picture_folder(folder); !status)
+                      return status.error();
+                    return pictures::write_picture_folder(run->contents(), folder, how, context);
+                  });
+  return nb::make_tuple(count.drawn, count.left_out);
 }
 
 nb::object rows(const RunPointer& run, const RunOptions& options) {
@@ -150,9 +212,8 @@ nb::object rows(const RunPointer& run, const RunOptions& options) {
   }));
 }
 
-}  // namespace
-
-void bind_clash(nb::module_& module) {
+/// What a run is asked for.
+void bind_request(nb::module_& module) {
   nb::class_<Pick>(module, "Pick")
       .def(
           "__init__",
@@ -178,19 +239,48 @@ void bind_clash(nb::module_& module) {
       .def_rw("regions", &ClashRequest::regions)
       .def_rw("group_by", &ClashRequest::group_by)
       .def_rw("group_distance_mm", &ClashRequest::group_distance_mm)
-      .def_rw("group_contacts", &ClashRequest::group_contacts);
+      .def_rw("group_contacts", &ClashRequest::group_contacts)
+      .def_rw("sort", &ClashRequest::sort)
+      .def_rw("classes", &ClashRequest::classes)
+      .def_rw("sag_mm", &ClashRequest::sag_mm)
+      .def_rw("weld_mm", &ClashRequest::weld_mm)
+      .def_rw("obstructions", &ClashRequest::obstructions)
+      .def_rw("insulation", &ClashRequest::insulation)
+      .def_rw("list_exempted", &ClashRequest::list_exempted)
+      .def_rw("log_pairs", &ClashRequest::log_pairs);
+}
+
+void bind_written_form(nb::module_& module) {
+  nb::class_<WrittenForm>(module, "WrittenForm")
+      .def(nb::init<>())
+      .def_rw("columns", &WrittenForm::columns)
+      .def_rw("csv", &WrittenForm::csv)
+      .def_rw("page_geometry", &WrittenForm::page_geometry)
+      .def_rw("bcf_date", &WrittenForm::bcf_date)
+      .def_rw("bcf_author", &WrittenForm::bcf_author)
+      .def_rw("bcf_3", &WrittenForm::bcf_3)
+      .def_rw("bcf_contacts", &WrittenForm::bcf_contacts)
+      .def_rw("bcf_most", &WrittenForm::bcf_most);
+}
+
+}  // namespace
+
+void bind_clash(nb::module_& module) {
+  bind_request(module);
+  bind_written_form(module);
   nb::class_<ClashRun>(module, "ClashRun")
       .def_prop_ro("model", [](const ClashRun& run) { return run.model; })
       .def_prop_ro("summary", &summary_of)
       .def_prop_ro("tests", &tests_of)
       .def_prop_ro("allowing_rules", &allowing_rules)
+      .def_ro("logs_pairs", &ClashRun::logs_pairs)
       .def_prop_ro("hash", [](const ClashRun& run) { return clash::hash_of(run.findings); })
       .def_prop_ro("diagnostics",
                    [](const ClashRun& run) { return listed(run.findings.all_diagnostics()); })
       .def(
           "table",
           [](const ClashRun& run, std::size_t count) {
-            return report::clash_table(run.contents(), {.rows = count});
+            return report::clash_table(run.contents(), {.rows = count, .sort = run.sort});
           },
           nb::arg("rows"));
   module.def(
@@ -205,8 +295,12 @@ void bind_clash(nb::module_& module) {
   module.def("clash_groups", &groups, nb::arg("run"));
   module.def("clash_words", &words_of_rows, nb::arg("run"), nb::arg("begin"), nb::arg("end"));
   module.def("clash_key", &key_of, nb::arg("run"), nb::arg("test"), nb::arg("a"), nb::arg("b"));
-  module.def("save_clashes", &save, nb::arg("run"), nb::arg("path"), nb::arg("columns"),
+  module.def("save_clashes", &save, nb::arg("run"), nb::arg("path"), nb::arg("form"),
              nb::arg("options"));
+  module.def("save_pair_log", &save_pair_log, nb::arg("run"), nb::arg("path"), nb::arg("csv"),
+             nb::arg("options"));
+  module.def("save_pictures", &save_pictures, nb::arg("run"), nb::arg("folder"), nb::arg("most"),
+             nb::arg("png"), nb::arg("options"));
 }
 
 }  // namespace strake::python

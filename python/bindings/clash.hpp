@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,18 @@ struct ClashRequest {
   std::string group_by;  ///< empty: no groups
   std::optional<double> group_distance_mm;
   bool group_contacts = false;
+  std::string sort;                  ///< "depth", "volume" or "size"; empty: depth
+  std::vector<std::string> classes;  ///< of the results that are kept; empty: all
+  std::optional<double> sag_mm, weld_mm;
+  bool obstructions = false, insulation = false, list_exempted = false, log_pairs = false;
+};
+
+/// How results are written, in the words of the program's options.
+struct WrittenForm {
+  std::vector<std::string> columns;
+  std::string csv, page_geometry, bcf_date, bcf_author;  ///< empty: as by default
+  bool bcf_3 = false, bcf_contacts = false;
+  std::size_t bcf_most = report::BcfForm{}.most;
 };
 
 /// What a clash run found, with what it is written with.
@@ -38,6 +51,8 @@ struct ClashRun {
   std::optional<clash::Grouping> grouping;
   std::optional<report::RulesSource> rules;
   report::WrittenClasses classes;
+  clash::SortBy sort = clash::SortBy::depth;
+  bool logs_pairs = false;
   Diagnostics loading;
   std::shared_ptr<const model::Scene> scene = nullptr;  ///< null where no process has all of it
 

@@ -75,6 +75,10 @@ Status ClashPlanner::read_test() {
   if (request.curves) engine.curves = clash::Curves::on;
   if (request.contacts != "list") engine.contacts = clash::Contacts::count;
   engine.most_regions = request.regions;
+  engine.log_pairs = request.log_pairs;
+  if (request.list_exempted && !file_ && !profile_)
+    return Error{ErrorCode::usage, "there are no rules that exempt", "list_exempted",
+                 "give rules or profile"};
   return {};
 }
 
@@ -84,6 +88,10 @@ model::SceneOptions ClashPlanner::scene_options() const {
     options.obstruction = profile_->scene_options().obstruction;
     options.insulation = profile_->scene_options().insulation;
   }
+  options.obstruction = options.obstruction || request_->obstructions;
+  options.insulation = options.insulation || request_->insulation;
+  options.sag_mm = request_->sag_mm.value_or(options.sag_mm);
+  options.weld_mm = request_->weld_mm.value_or(options.weld_mm);
   return options;
 }
 
@@ -144,6 +152,14 @@ Result<rules::PlannedTest> ClashPlanner::planned_test(const model::Scene& scene,
 
 Result<rules::Plan> ClashPlanner::plan(const model::Scene& scene, RequestFacts facts,
                                        const parallel::Context& context) const {
+  Result<rules::Plan> plan = plan_by_rules(scene, std::move(facts), context);
+  if (plan)
+    for (rules::PlannedTest& one : plan->tests) one.policy.list_exempted = request_->list_exempted;
+  return plan;
+}
+
+Result<rules::Plan> ClashPlanner::plan_by_rules(const model::Scene& scene, RequestFacts facts,
+                                                const parallel::Context& context) const {
   if (file_) {
     Result<rules::Plan> plan = file_->plan(scene, std::move(facts.file), context);
     if (plan)

@@ -48,6 +48,8 @@ class ClashPlanner {
   explicit ClashPlanner(const ClashRequest& request) : request_(&request) {}
   [[nodiscard]] Status read_rules();
   [[nodiscard]] Status read_test();
+  [[nodiscard]] Result<rules::Plan> plan_by_rules(const model::Scene& scene, RequestFacts facts,
+                                                  const parallel::Context& context) const;
   [[nodiscard]] Result<rules::PlannedTest> planned_test(const model::Scene& scene,
                                                         const RequestFacts& facts,
                                                         Diagnostics& diagnostics) const;

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "publish/form_words.hpp"
 #include "python/bindings/clash.hpp"
 #include "python/bindings/clash_plan.hpp"
 #include "strake/rules/rules.hpp"
@@ -27,6 +28,24 @@ Result<clash::Findings> findings_of(const model::Scene& scene, rules::Plan plan,
   return findings;
 }
 
+clash::SortBy sort_of(const ClashRequest& request) {
+  if (request.sort == "volume") return clash::SortBy::volume;
+  return request.sort == "size" ? clash::SortBy::size : clash::SortBy::depth;
+}
+
+Result<report::WrittenClasses> classes_of(const ClashRequest& request) {
+  report::WrittenClasses classes;
+  if (!request.classes.empty()) classes = {false, false, false};
+  for (const std::string& word : request.classes)
+    if (const Status added = publish::add_class(word, classes); !added) {
+      Error error = added.error();
+      error.where = "classes";
+      return error;
+    }
+  if (request.contacts == "off") classes.contact = false;
+  return classes;
+}
+
 Result<clash::GroupRules> group_rules(const ClashRequest& request) {
   clash::GroupRules rules;
   constexpr std::array kWays{clash::GroupBy::element, clash::GroupBy::proximity,
@@ -39,6 +58,7 @@ Result<clash::GroupRules> group_rules(const ClashRequest& request) {
   rules.by = *by;
   rules.distance_mm = request.group_distance_mm.value_or(rules.distance_mm);
   rules.contacts = request.group_contacts;
+  rules.sort = sort_of(request);
   rules.apart = request.group_distance_mm.has_value() && rules.by != clash::GroupBy::proximity;
   return rules;
 }
@@ -51,7 +71,11 @@ Result<std::shared_ptr<ClashRun>> run_of(const ModelPointer& model, const ClashR
   const auto run = std::make_shared<ClashRun>();
   run->model = model;
   run->findings = std::move(findings);
-  run->classes.contact = request.contacts != "off";
+  const Result<report::WrittenClasses> classes = classes_of(request);
+  if (!classes) return classes.error();
+  run->classes = *classes;
+  run->sort = sort_of(request);
+  run->logs_pairs = request.log_pairs;
   if (!run->classes.all()) report::leave_out_others(run->findings, run->classes);
   run->rules = planner.rules_source();
   run->loading = std::move(loading);

@@ -5,6 +5,7 @@
 
 #include "python/bindings/drawing.hpp"
 #include "strake/core/diagnostics.hpp"
+#include "strake/drawing/centre_lines.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
@@ -22,6 +23,7 @@ struct DrawJob {
   hlr::View view;
   hlr::Options options;
   drawing::LayoutOptions layout;
+  std::optional<drawing::CentreLineOptions> centre_lines = {};
   std::vector<bool> drawn = {};  ///< by object; empty: all
 };
 

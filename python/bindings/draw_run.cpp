@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
+#include "core/text_encoding.hpp"
 #include "drawing/layout/far_objects.hpp"
 #include "python/bindings/draw_request.hpp"
+#include "python/bindings/selection.hpp"
+#include "strake/drawing/centre_lines.hpp"
+#include "strake/drawing/hatching.hpp"
 
 namespace strake::python {
 
@@ -28,10 +37,45 @@ Status mind_far_objects(const model::Scene& scene, const hlr::View& view, bool l
 
 drawing::InkOptions ink_options(const DrawRequest& request) {
   drawing::InkOptions options{.hidden = request.hidden != "off",
-                              .clean_up = request.hidden != "all"};
+                              .clean_up = request.hidden != "all",
+                              .split_hidden = request.split_hidden};
   if (request.pens)
     options.pens = {(*request.pens)[0], (*request.pens)[1], (*request.pens)[2], (*request.pens)[3]};
   return options;
+}
+
+/// Returns the hatch of each object; "30deg,80mm: PIPE*" is for those that the selection picks, and
+/// the first that picks an object counts.
+Result<std::vector<hlr::Hatch>> hatches_of(const DrawRequest& request, const model::Scene& scene,
+                                           const parallel::Context& context) {
+  drawing::Hatching hatching(scene.model->objects.size());
+  for (const std::string& text : request.hatches) {
+    const std::size_t colon = text.find(':');
+    const auto hatch = drawing::parse_hatch(std::string_view(text).substr(0, colon));
+    if (!hatch) {
+      Error error = hatch.error();
+      error.where = "hatch";
+      return error;
+    }
+    std::vector<bool> picked;
+    if (colon != std::string::npos) {
+      auto some =
+          pick_some({{std::string(trimmed(text.substr(colon + 1)))}, {}}, scene, "hatch", context);
+      if (!some) return some.error();
+      picked = std::move(*some);
+    }
+    hatching.add(*hatch, picked);
+  }
+  return std::move(hatching).by_object();
+}
+
+Result<std::optional<drawing::CentreLineOptions>> centre_lines_of(const DrawRequest& request) {
+  if (request.centre_lines.empty()) return std::optional<drawing::CentreLineOptions>();
+  auto options = drawing::parse_centre_lines(request.centre_lines);
+  if (options) return options;
+  Error error = options.error();
+  error.where = "centre_lines";
+  return error;
 }
 
 }  // namespace
@@ -43,7 +87,9 @@ Result<DrawJob> job_of(const DrawRequest& request) {
   if (!options) return options.error();
   Result<drawing::LayoutOptions> layout = layout_options(request);
   if (!layout) return layout.error();
-  return DrawJob{std::move(*view), std::move(*options), std::move(*layout)};
+  auto centre_lines = centre_lines_of(request);
+  if (!centre_lines) return centre_lines.error();
+  return DrawJob{std::move(*view), std::move(*options), std::move(*layout), *centre_lines};
 }
 
 Status fit_job(const DrawRequest& request, const model::Scene& scene, std::vector<bool> drawn,
@@ -72,6 +118,10 @@ Status put_on_paper(const DrawRequest& request, const DrawJob& job, const hlr::D
   Result<drawing::Ink> ink = drawing::choose_ink(run.drawing, ink_options(request), context);
   if (!ink) return ink.error();
   run.ink = std::move(*ink);
+  if (!job.centre_lines) return {};
+  auto found = drawing::find_centre_lines(run.drawing, run.ink, model, *job.centre_lines, context);
+  if (!found) return found.error();
+  run.ink.centre_lines = std::move(*found);
   return {};
 }
 
@@ -83,6 +133,7 @@ Result<std::shared_ptr<DrawRun>> draw(const ModelPointer& model, const DrawReque
   if (!scene) return scene.error();
   const auto run = std::make_shared<DrawRun>();
   run->model = model;
+  run->scene = *scene;
   Result<std::vector<bool>> drawn = pick_some(request.select, **scene, "select", context);
   if (!drawn) return drawn.error();
   Result<std::vector<bool>> uncut = pick_some({request.uncut, {}}, **scene, "uncut", context);
@@ -91,6 +142,9 @@ Result<std::shared_ptr<DrawRun>> draw(const ModelPointer& model, const DrawReque
                                     run->diagnostics, context);
       !status)
     return status.error();
+  auto hatches = hatches_of(request, **scene, context);
+  if (!hatches) return hatches.error();
+  job->options.hatches = std::move(*hatches);
   const Result<hlr::Drawing> lines =
       hlr::draw(**scene, job->drawn, job->view, job->options, context);
   if (!lines) return lines.error();

@@ -109,7 +109,7 @@ nb::list save(const RunPointer& run, const std::filesystem::path& path, const Ru
     Result<AtomicFile> file = AtomicFile::create(path);
     if (!file) return file.error();
     Result<Diagnostics> written = writer.write(
-        {run->drawing, run->ink, run->model->model()},
+        {run->drawing, run->ink, run->model->model(), run->scene.get()},
         [&](std::string_view text) { file->write(text); }, context);
     if (!written) return written.error();
     noticed = std::move(*written);
@@ -133,7 +133,10 @@ void bind_request(nb::module_& module) {
       .def_rw("sections", &DrawRequest::sections)
       .def_rw("select", &DrawRequest::select)
       .def_rw("uncut", &DrawRequest::uncut)
+      .def_rw("hatches", &DrawRequest::hatches)
       .def_rw("hidden", &DrawRequest::hidden)
+      .def_rw("centre_lines", &DrawRequest::centre_lines)
+      .def_rw("split_hidden", &DrawRequest::split_hidden)
       .def_rw("stage", &DrawRequest::stage)
       .def_rw("intersections", &DrawRequest::intersections)
       .def_rw("own_polylines", &DrawRequest::own_polylines)

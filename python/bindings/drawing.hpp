@@ -26,7 +26,10 @@ struct DrawRequest {
   std::vector<std::string> sections;
   Pick select;
   std::vector<std::string> uncut;
+  std::vector<std::string> hatches;
   std::string hidden = "off";  ///< "off", "dashed" or "all"
+  std::string centre_lines;    ///< "on", "off" or a length on paper; empty: off
+  bool split_hidden = false;
   std::string stage = "global", intersections = "primitives", own_polylines = "visible",
               smooth = "off";
   /// Hidden lines are kept where they are shown, or where they are to be kept all the same.
@@ -40,6 +43,7 @@ struct DrawRequest {
 /// A drawing on paper, with the lines that get ink.
 struct DrawRun {
   ModelPointer model;
+  std::shared_ptr<const model::Scene> scene;
   drawing::NeutralDrawing drawing;
   drawing::Ink ink;
   Diagnostics diagnostics;

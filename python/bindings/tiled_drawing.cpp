@@ -96,6 +96,9 @@ std::shared_ptr<CutDrawing> cut(const std::vector<Path>& paths, std::optional<do
                                 const RunOptions& options) {
   Result<DrawJob> job = job_of(request);
   if (!job) raise(job.error());
+  if (job->centre_lines || !request.hatches.empty())
+    raise(Error{ErrorCode::usage, "centre lines and hatches by selection are not drawn by tiles",
+                "", "draw on one machine, or leave out 'centre_lines' and 'hatch'"});
   check(tiles::check_tiled_view(job->options));
   const auto made = std::make_shared<CutDrawing>(CutDrawing{
       request, std::move(*job), {}, reader_of(paths, unit_mm, up_axis, on_map, importers), {}});

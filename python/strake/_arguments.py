@@ -85,6 +85,14 @@ def optional_length(value: Length | None, name: str) -> float | None:
     return None if value is None else length(value, name)
 
 
+def weld_of(value: Length | None, name: str) -> float | None:
+    """How far apart seams are that close; None stays None. Raises: UsageError beyond a metre."""
+    mm = optional_length(value, name)
+    if mm is not None and mm > 1000:
+        raise UsageError(f"{shown(value)} is longer than a metre", name)
+    return mm
+
+
 def count(value: Any, name: str) -> int:
     """A whole number that is not negative. Raises: UsageError."""
     exact = number(value, name)
@@ -122,6 +130,13 @@ def text(value: Any, name: str) -> str:
         raise UsageError(f"{shown(value)} is no text", name)
     if "\0" in value or any("\ud800" <= c <= "\udfff" for c in value):
         raise UsageError(f"{shown(value)} has a character that no text has", name)
+    return value
+
+
+def one_of(value: Any, words: Sequence[str], name: str) -> str:
+    """One of some words. Raises: UsageError."""
+    if not isinstance(value, str) or value not in words:
+        raise UsageError(f"{shown(value)} is none of the words that it may be", name, f"write {', '.join(words[:-1])} or {words[-1]}")
     return value
 
 

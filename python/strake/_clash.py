@@ -23,6 +23,7 @@ from strake._arguments import (
     Selection,
     count,
     length,
+    one_of,
     optional_length,
     path,
     pick,
@@ -31,13 +32,16 @@ from strake._arguments import (
     text,
     texts,
     truth,
+    weld_of,
 )
 from strake._errors import OutputError, UsageError
-from strake._model import Diagnostic, Model, _position, model_core
+from strake._model import Diagnostic, Model, _position, model_core, sag_of
 
 if TYPE_CHECKING:
     import pandas
     import pyarrow
+
+_CSV = ("standard", "excel", "excel-comma")
 
 # Rows that a Parquet file gets at once: a row group of it.
 _ROWS_AT_ONCE = 131_072
@@ -228,15 +232,75 @@ class Clashes(Sequence[Clash]):
         columns: Sequence[str] = (),
         threads: int | None = None,
         progress: Progress | None = None,
+        *,
+        csv: Literal["standard", "excel", "excel-comma"] = "standard",
+        page_geometry: Literal["auto", "all", "near", "boxes", "none"] = "auto",
+        bcf_version: Literal["2.1", "3.0"] = "2.1",
+        bcf_most: int = 200,
+        bcf_contacts: bool = False,
+        bcf_date: str = "",
+        bcf_author: str = "",
     ) -> None:
         """Writes .json (schemas/clash.schema.json), .csv or another format of the program, the bytes that it writes.
 
-        A file is whole or not there. `columns` are attributes of both objects that are written, too, as "DN" or "@DN".
+        A file is whole or not there.
+
+        Args:
+            path_to: its suffix says the format: .json, .csv, .xlsx, .bcf, .html, .xml, .svg, .png ...
+            columns: attributes of both objects that are written, too, as "DN" or "@DN".
+            threads, progress: as in load().
+            csv: RFC 4180, or for a double click in Excel, also where its decimal sign is the comma.
+            page_geometry: what a page shows of the model.
+            bcf_version, bcf_most, bcf_contacts: the version of .bcf, at most how many topics it has, and whether of contacts, too.
+            bcf_date, bcf_author: when ("2026-01-31", or with "T12:00:00Z") topics were made, and by whom.
+
         Raises: UsageError, OutputError.
         """
+        form = _core.WrittenForm()
+        form.columns = [name.removeprefix("@") for name in texts(columns, "columns")]
+        form.csv = one_of(csv, _CSV, "csv")
+        form.page_geometry = one_of(page_geometry, ("auto", "all", "near", "boxes", "none"), "page_geometry")
+        form.bcf_3 = one_of(bcf_version, ("2.1", "3.0"), "bcf_version") == "3.0"
+        form.bcf_most, form.bcf_contacts = count(bcf_most, "bcf_most"), truth(bcf_contacts, "bcf_contacts")
+        form.bcf_date, form.bcf_author = text(bcf_date, "bcf_date"), text(bcf_author, "bcf_author")
+        _core.save_clashes(self._core, path(path_to, "path_to"), form, run_options(threads, progress))
+
+    def save_pictures(
+        self,
+        folder: PathLike,
+        most: int = 50,
+        picture_format: Literal["svg", "png"] = "svg",
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> tuple[int, int]:
+        """Writes a folder with a picture of each group, or of each clash without groups, the worst first, and an index.
+
+        Returns how many pictures there are, and how many more were left out. Raises: UsageError; OutputError where the folder
+        holds something else.
+        """
+        is_png = one_of(picture_format, ("svg", "png"), "picture_format") == "png"
         options = run_options(threads, progress)
-        names = [name.removeprefix("@") for name in texts(columns, "columns")]
-        _core.save_clashes(self._core, path(path_to, "path_to"), names, options)
+        drawn, left_out = _core.save_pictures(self._core, path(folder, "folder"), count(most, "most"), is_png, options)
+        return drawn, left_out
+
+    def save_pair_log(
+        self,
+        path_to: PathLike,
+        csv: Literal["standard", "excel", "excel-comma"] = "standard",
+        threads: int | None = None,
+        progress: Progress | None = None,
+    ) -> None:
+        """Writes every pair that was looked at in detail as .csv: its class, NO_HIT too, and what it cost.
+
+        clash(log_pairs=True) keeps them. Raises: UsageError, OutputError.
+        """
+        options = run_options(threads, progress)
+        into = path(path_to, "path_to")
+        if into.suffix != ".csv":
+            raise UsageError(f"{shown(str(into))} is no .csv", "path_to", "give a name that ends with .csv")
+        if not self._core.logs_pairs:
+            raise UsageError("the pairs were not kept", "path_to", "ask for them: clash(model, log_pairs=True)")
+        _core.save_pair_log(self._core, into, one_of(csv, _CSV, "csv"), options)
 
     def columns(self) -> dict[str, npt.NDArray[Any]]:
         """Returns flat columns by name: those of `array`, points split in x, y, z, with ids and names of both objects."""
@@ -377,6 +441,14 @@ def clash(
     group_by: Literal["element", "proximity", "test", "files", "assembly"] | None = None,
     group_distance: Length | None = None,
     group_contacts: bool = False,
+    sort: Literal["depth", "volume", "size"] = "depth",
+    classes: str | Sequence[str] | None = None,
+    list_exempted: bool = False,
+    log_pairs: bool = False,
+    sag: Length | None = None,
+    weld: Length | None = None,
+    obstructions: bool = False,
+    insulation: bool = False,
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> Clashes:
@@ -398,6 +470,12 @@ def clash(
         curves: check lines, too.
         regions: how many separate places of a pair are listed in files.
         group_by, group_distance, group_contacts: the groups of `Clashes.groups`, which are then saved, too.
+        sort: what comes first in tables and groups: the deepest, the largest common volume, or the largest group.
+        classes: results of these alone: "hit", "contact", "clearance".
+        list_exempted: list the pairs that rules exempt in what is saved.
+        log_pairs: keep what Clashes.save_pair_log() writes.
+        sag, weld: how fine curves are, and which seams close; None: by the tolerances, and by the precision of the files.
+        obstructions, insulation: take in bodies of these categories.
         threads, progress: as in load().
 
     Raises: UsageError; InputError for a rules file; KeyboardInterrupt at Ctrl-C.
@@ -422,6 +500,14 @@ def clash(
         group_by=group_by,
         group_distance=group_distance,
         group_contacts=group_contacts,
+        sort=sort,
+        classes=classes,
+        list_exempted=list_exempted,
+        log_pairs=log_pairs,
+        sag=sag,
+        weld=weld,
+        obstructions=obstructions,
+        insulation=insulation,
     )
     return Clashes(_core.clash(core, request, run_options(threads, progress)), model)
 
@@ -446,6 +532,14 @@ def request_of(
     group_by: Literal["element", "proximity", "test", "files", "assembly"] | None = None,
     group_distance: Length | None = None,
     group_contacts: bool = False,
+    sort: Literal["depth", "volume", "size"] = "depth",
+    classes: str | Sequence[str] | None = None,
+    list_exempted: bool = False,
+    log_pairs: bool = False,
+    sag: Length | None = None,
+    weld: Length | None = None,
+    obstructions: bool = False,
+    insulation: bool = False,
 ) -> _core.ClashRequest:
     """Returns what clash() is asked for over a model of so many objects. Raises: UsageError."""
     request = _core.ClashRequest()
@@ -484,6 +578,14 @@ def request_of(
     request.group_by = "" if group_by is None else text(group_by, "group_by")
     request.group_distance_mm = optional_length(group_distance, "group_distance")
     request.group_contacts = group_contacts
+    request.sort = one_of(sort, ("depth", "volume", "size"), "sort")
+    if sort == "size" and group_by is None:
+        raise UsageError("only groups have a size", "sort", "give group_by")
+    request.classes = texts(classes, "classes")
+    request.list_exempted, request.log_pairs = truth(list_exempted, "list_exempted"), truth(log_pairs, "log_pairs")
+    request.sag_mm = None if sag is None else sag_of(sag, "sag")
+    request.weld_mm = weld_of(weld, "weld")
+    request.obstructions, request.insulation = truth(obstructions, "obstructions"), truth(insulation, "insulation")
     return request
 
 

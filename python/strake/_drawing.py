@@ -19,6 +19,7 @@ from strake._arguments import (
     length,
     number,
     numbers,
+    one_of,
     optional_length,
     path,
     pick,
@@ -27,6 +28,7 @@ from strake._arguments import (
     text,
     texts,
     truth,
+    weld_of,
 )
 from strake._errors import UsageError
 from strake._model import Diagnostic, Model, model_core, sag_of
@@ -142,6 +144,9 @@ def draw(
     *,
     select: Selection | None = None,
     hidden: Literal["off", "dashed", "all"] | bool = "off",
+    hidden_layers: Literal["one", "two"] = "one",
+    centre_lines: bool | Length = False,
+    hatch: str | Sequence[str] | None = None,
     scale: str | float | None = None,
     paper: str | None = None,
     title: str = "",
@@ -172,6 +177,10 @@ def draw(
             far from all others); section ("z>4500mm", or several).
         select: objects to draw: a selection (docs/selection.md), several, or (N,) bool. None: all.
         hidden: hidden lines: "off", "dashed" where no line runs beside them, or "all"; True is "dashed".
+        hidden_layers: hidden lines as "one" layer, or what an object hides itself and what others hide as "two".
+        centre_lines: of round parts: whether, or the diameter on paper from which parts have them (True is 2 mm).
+        hatch: how sections are hatched: "30deg,80mm", "30deg", "80mm" or "off", of some objects "30deg: PIPE*", or several, of
+            which the first that picks an object counts. None: neighbours differ in angle.
         scale: as "1:50", or 50; None: the largest usual one that fits the paper.
         paper: "A3", "A1,portrait", "900mmx420mm" ...
         title: of the sheet.
@@ -247,6 +256,9 @@ def draw_request(
     _set_view(request, view)
     request.select = select
     request.hidden = text(hidden, "hidden") if isinstance(hidden, str) else ("dashed" if truth(hidden, "hidden") else "off")
+    request.split_hidden = one_of(hidden_layers, ("one", "two"), "hidden_layers") == "two"
+    request.centre_lines = _centre_lines(centre_lines)
+    request.hatches = texts(hatch, "hatch")
     request.scale = "" if scale is None else _scale(scale)
     request.paper, request.title = "" if paper is None else text(paper, "paper"), text(title, "title")
     request.stage, request.intersections = text(stage, "stage"), text(intersections, "intersections")
@@ -257,9 +269,7 @@ def draw_request(
     request.sharp_angle_deg = number(sharp_angle, "sharp_angle")
     request.contact_distance_mm = optional_length(contact_distance, "contact_distance")
     request.sag_mm = None if sag is None else sag_of(sag, "sag")
-    request.weld_mm = optional_length(weld, "weld")
-    if request.weld_mm is not None and request.weld_mm > 1000:
-        raise UsageError(f"{weld!r} is longer than a metre", "weld")
+    request.weld_mm = weld_of(weld, "weld")
     request.uncut = texts(uncut, "uncut")
     if pens is not None:
         request.pens = _pens(pens)
@@ -299,6 +309,15 @@ def _direction(value: Any, name: str) -> str:
     if value is None or isinstance(value, str):
         return text(value or "", name)
     return ",".join(f"{x:.17g}" for x in numbers(value, 3, name, "x, y and z"))
+
+
+def _centre_lines(value: bool | Length) -> str:
+    """As the program takes it."""
+    if isinstance(value, (bool, np.bool_)):
+        return "on" if value else ""
+    if isinstance(value, str):
+        return text(value, "centre_lines")
+    return f"{length(value, 'centre_lines')!r}mm"
 
 
 def _scale(scale: str | float) -> str:

@@ -32,7 +32,11 @@ CLASH_RUNS: list[tuple[list[str], dict[str, Any]]] = [
     (["--contacts", "count", "--group-by", "element"], {"contacts": "count", "group_by": "element"}),
     (["--group-by", "assembly", "--group-distance", "2m"], {"group_by": "assembly", "group_distance": "2m"}),
     (["--rules", str(ROOT / "examples/ship_rules.toml")], {"rules": ROOT / "examples/ship_rules.toml"}),
-]
+    (["--profile", "ship", "--list-exempted", "--class", "hit,contact"],
+     {"profile": "ship", "list_exempted": True, "classes": ["hit", "contact"]}),
+    (["--sag", "0.01mm", "--weld", "0.5mm", "--obstructions", "--insulation", "--group-by", "element", "--sort", "size"],
+     {"sag": 0.01, "weld": "0.5mm", "obstructions": True, "insulation": True, "group_by": "element", "sort": "size"}),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("words", "arguments"), CLASH_RUNS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
@@ -47,6 +51,47 @@ def test_clashes_on_any_number_of_threads(tmp_path: Path, ship: strake.Model, sh
     expected = written_by_program(tmp_path, "clashes.json", "clash", ship_file, "--threads", "1", "--clearance", "25mm")
     found = strake.clash(strake.load(ship_file, threads=threads), clearance=25, threads=threads)
     assert written_by_save(tmp_path, "clashes.json", found, threads=threads) == expected
+
+
+FORMS: list[tuple[str, list[str], dict[str, Any]]] = [
+    ("c.csv", ["--csv", "excel-comma"], {"csv": "excel-comma"}),
+    ("c.xlsx", [], {}),
+    ("c.html", ["--page-geometry", "near"], {"page_geometry": "near"}),
+    ("c.bcf", ["--bcf-version", "3.0", "--bcf-most", "7", "--bcf-contacts", "--bcf-date", "2026-01-31", "--bcf-author", "Ann"],
+     {"bcf_version": "3.0", "bcf_most": 7, "bcf_contacts": True, "bcf_date": "2026-01-31", "bcf_author": "Ann"}),
+    ("c.xml", [], {}),
+    ("c.svg", [], {}),
+    ("c.png", [], {}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "words", "arguments"), FORMS, ids=lambda x: x if isinstance(x, str) else "")
+def test_forms_of_clashes(
+    tmp_path: Path, ship: strake.Model, ship_file: Path, name: str, words: list[str], arguments: dict[str, Any]
+) -> None:
+    expected = written_by_program(tmp_path, name, "clash", ship_file, *words)
+    assert written_by_save(tmp_path, name, strake.clash(ship), **arguments) == expected
+
+
+def test_pictures_and_pair_log(tmp_path: Path, ship: strake.Model, ship_file: Path) -> None:
+    written_by_program(tmp_path, "c.json", "clash", ship_file, "--pictures", tmp_path / "a", "--top-pictures", 3,
+                       "--log-pairs", tmp_path / "a.csv")  # fmt: skip
+    clashes = strake.clash(ship, log_pairs=True)
+    drawn, left_out = clashes.save_pictures(tmp_path / "b", most=3)
+    assert drawn == 3 and left_out > 0
+    clashes.save_pair_log(tmp_path / "b.csv")
+    assert (tmp_path / "a.csv").read_bytes() == (tmp_path / "b.csv").read_bytes()
+    names = sorted(file.name for file in (tmp_path / "a").iterdir())
+    assert len(names) == 4 and names == sorted(file.name for file in (tmp_path / "b").iterdir())
+    for name in names:
+        assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
+    with pytest.raises(strake.UsageError, match="log_pairs=True"):
+        strake.clash(ship).save_pair_log(tmp_path / "c.csv")
+
+
+def test_page_of_a_drawing(tmp_path: Path, ship: strake.Model, ship_file: Path) -> None:
+    expected = written_by_program(tmp_path, "view.html", "draw", ship_file, "--view", "top")
+    assert written_by_save(tmp_path, "view.html", strake.draw(ship, "top")) == expected
 
 
 def test_clashes_with_attributes_as_columns(tmp_path: Path, ship: strake.Model, ship_file: Path) -> None:
@@ -75,13 +120,17 @@ DRAWINGS: list[tuple[list[str], dict[str, Any]]] = [
      {"view": {"view": "top", "section": "z=2500mm", "limits": [[0, -4000, 0], [6000, 4000, 9000]]}, "smooth": "on"}),
     (["--eye", "20000,-9000,6000", "--target", "3000,0,3000", "--hidden", "all"],
      {"view": {"eye": (20000, -9000, 6000), "target": (3000, 0, 3000)}, "hidden": "all"}),
+    (["--view", "front", "--hidden", "dashed", "--hidden-layers", "two", "--centre-lines", "on"],
+     {"view": "front", "hidden": "dashed", "hidden_layers": "two", "centre_lines": True}),
+    (["--section", "z=2500mm", "--view", "top", "--hatch", "30deg,80mm: PIP*", "--hatch", "off", "--centre-lines", "4mm"],
+     {"view": {"view": "top", "section": "z=2500mm"}, "hatch": ["30deg,80mm: PIP*", "off"], "centre_lines": 4}),
     (["--visible-only", "--flush-seams", "off", "--limits", "auto"],
      {"visible_only": True, "flush_seams": False, "view": {"limits": "auto"}}),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize(("words", "arguments"), DRAWINGS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
-@pytest.mark.parametrize("name", ["view.svg", "view.pdf", "view.json"])
+@pytest.mark.parametrize("name", ["view.svg", "view.pdf", "view.dxf", "view.json"])
 def test_drawings(tmp_path: Path, ship: strake.Model, ship_file: Path, name: str, words: list[str], arguments: dict[str, Any]) -> None:
     expected = written_by_program(tmp_path, name, "draw", ship_file, *words)
     drawing = strake.draw(ship, **arguments)

@@ -49,6 +49,8 @@ def calls(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Call, dic
         "from_trimesh": (strake.Model.from_trimesh, {"scene": SimpleNamespace(vertices=np.eye(3), faces=[[0, 1, 2]], metadata={})}),
         "clashes.save": (clashes.save, {"path_to": folder / "c.json"}),
         "clashes.table": (clashes.table, {}),
+        "clashes.save_pictures": (clashes.save_pictures, {"folder": folder / "pictures"}),
+        "clashes.save_pair_log": (strake.clash(model, log_pairs=True).save_pair_log, {"path_to": folder / "p.csv"}),
         "drawing.save": (drawing.save, {"path_to": folder / "d.svg"}),
         "sheet.read": (strake.Sheet.read, {"file": folder / "sheet.toml"}),
         "sheet.draw": (sheet.draw, {"model": model}),
@@ -69,7 +71,8 @@ def calls(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Call, dic
 
 NAMES = [
     *("clash", "draw", "load", "generate", "evaluate", "run_program", "select", "mesh", "save", "from_arrays", "from_trimesh"),
-    *("clashes.save", "clashes.table", "drawing.save", "sheet.read", "sheet.draw", "sheet.save", "project", "project.create"),
+    *("clashes.save", "clashes.table", "clashes.save_pictures", "clashes.save_pair_log"),
+    *("drawing.save", "sheet.read", "sheet.draw", "sheet.save", "project", "project.create"),
     *("project.add", "project.update", "project.remove", "project.clash", "project.list", "project.set_status"),
     *("project.draw", "project.store_view", "project.model", "cluster.clash"),
 ]

@@ -151,7 +151,7 @@ def decision_faults(project):
     index = (project / 'docs/decisions/README.md').read_text(encoding='utf-8')
     indexed = re.findall(r'^\| \[(\d{4})\]\(([\w-]+\.md)\) \|.*\| ([^|]*) \|$', index, re.MULTILINE)
     code = {path: path.read_text(encoding='utf-8') for folder in ('src', 'include', 'cli', 'cmake', 'scripts')
-            for path in sorted((project / folder).rglob('*')) if path.suffix in ('.hpp', '.cpp', '.cmake', '.py')}
+            for path in sorted((project / folder).rglob('*')) if path.suffix in ('.hpp', '.cpp', '.cmake', '.py', '.sh')}
     records = {path.name for path in (project / 'docs/decisions').glob('*.md')} - {'README.md'}
     names = [name for _, name, _ in indexed]
     yield from (f'docs/decisions/README.md: has no {name}' for name in sorted(records - set(names)))

@@ -10,6 +10,7 @@
 #include "cli/options/options.hpp"
 #include "core/text_encoding.hpp"
 #include "model/attribute_uses.hpp"
+#include "publish/form_words.hpp"
 
 namespace strake::cli {
 
@@ -48,23 +49,14 @@ Result<std::vector<std::string>> columns_of(const std::string& list) {
 Result<report::WrittenClasses> classes_of(const std::string& list) {
   report::WrittenClasses classes{false, false, false};
   for (const std::string& word : listed_words(list)) {
-    if (word == "hit")
-      classes.hit = true;
-    else if (word == "contact")
-      classes.contact = true;
-    else if (word == "clearance" || word == "clearance_violation")
-      classes.clearance_violation = true;
-    else
-      return option_error("'" + word + "' is no class", "--class",
-                          "name one or several of hit,contact,clearance");
+    const Status added = publish::add_class(word, classes);
+    if (!added) {
+      Error error = added.error();
+      error.where = "--class";
+      return error;
+    }
   }
   return classes;
-}
-
-report::CsvForm csv_form(const std::string& word) {
-  if (word == "excel") return {.separator = ',', .decimal = '.', .mark = true};
-  if (word == "excel-comma") return {.separator = ';', .decimal = ',', .mark = true};
-  return {};
 }
 
 }  // namespace
@@ -75,13 +67,6 @@ void add_page_geometry_option(CLI::App& command, std::string& option) {
              "for the rest; boxes; or nothing (default auto: all, or where that is too much for a "
              "browser what is near)")
       ->group("Result");
-}
-
-report::ModelShown page_geometry(const std::string& option) {
-  if (option == "all") return report::ModelShown::all;
-  if (option == "near") return report::ModelShown::near;
-  if (option == "boxes") return report::ModelShown::boxes;
-  return option == "none" ? report::ModelShown::nothing : report::ModelShown::automatic;
 }
 
 void add_clash_output_options(CLI::App& command, ClashOutputInput& options) {
@@ -135,13 +120,13 @@ Result<ClashOutput> clash_output(const ClashOutputInput& input, const WrittenFil
     if (!files.table)
       return option_error("there is no table with --json", "--top", "leave out one of them");
   }
-  output.csv = csv_form(input.csv);
+  output.csv = publish::csv_form(input.csv);
   if (!input.csv.empty() && !files.csv && !files.pair_log && !files.decisions)
     return option_error("no .csv is written", "--csv", "add -o FILE.csv");
   const Result<report::BcfForm> bcf = bcf_form(input.bcf, files.bcf);
   if (!bcf) return bcf.error();
   output.bcf = *bcf;
-  output.shown = page_geometry(input.page_geometry);
+  output.shown = publish::model_shown(input.page_geometry);
   if (!input.page_geometry.empty() && !files.page)
     return option_error("no page is written", "--page-geometry", "add -o FILE.html");
   return output;

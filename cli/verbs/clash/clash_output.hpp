@@ -48,8 +48,6 @@ void add_clash_output_options(CLI::App& command, ClashOutputInput& options);
 
 /// Adds --page-geometry: how much of the model a page shows.
 void add_page_geometry_option(CLI::App& command, std::string& option);
-/// Returns what the option asks for.
-[[nodiscard]] report::ModelShown page_geometry(const std::string& option);
 
 /// Errors: usage for what is misspelt, and for an option that bears on none of the files.
 [[nodiscard]] Result<ClashOutput> clash_output(const ClashOutputInput& input,

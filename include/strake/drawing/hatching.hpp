@@ -2,12 +2,18 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "strake/core/result.hpp"
 #include "strake/hlr/hlr.hpp"
 
 namespace strake::drawing {
+
+/// Parses "30deg,80mm", "30deg", "30", "80mm" or "off": an angle and the distance of the lines in
+/// the model, each said once, and each with its unit where both are said. Errors: usage.
+[[nodiscard]] Result<hlr::Hatch> parse_hatch(std::string_view text);
 
 /// Rules of hatching in order; the first rule that picks an object holds for it.
 class Hatching {

@@ -31,6 +31,15 @@ constexpr int hex_value(char c) {
   return -1;
 }
 
+/// Returns the fault that a list of the document has no entry of this number, as the file writes
+/// it.
+GltfFault nothing_of(std::string_view list, const JsonValue& number, std::size_t count) {
+  constexpr std::size_t kShown = 40;
+  if (!number.exists()) return {std::string(list), "it is not said which one is meant"};
+  return {fmt::format("{}/{}", list, number.raw().substr(0, kShown)),
+          fmt::format("does not exist; there are {}", count)};
+}
+
 }  // namespace
 
 std::optional<std::vector<std::byte>> decode_base64(std::string_view text) {
@@ -176,11 +185,11 @@ void Buffers::unpack_view(std::size_t index, const PackedView& packed) {
   result = std::move(unpacked.bytes);
 }
 
-Checked<Buffers::BufferView> Buffers::view(std::size_t index) const {
-  const std::string pointer = fmt::format("/bufferViews/{}", index);
-  if (index >= views_.size())
-    return GltfFault{pointer, fmt::format("does not exist; there are {}", views_.size())};
-  const Stated& stated = views_[index];
+Checked<Buffers::BufferView> Buffers::view(const JsonValue& number) const {
+  const std::optional<std::uint64_t> index = number.index();
+  if (!index || *index >= views_.size()) return nothing_of("/bufferViews", number, views_.size());
+  const std::string pointer = fmt::format("/bufferViews/{}", *index);
+  const Stated& stated = views_[*index];
   if (!stated.unpacked) return plain_view(stated, pointer);
   const Checked<std::vector<std::byte>>& unpacked = unpacked_[*stated.unpacked];
   if (const GltfFault* const fault = fault_of(unpacked)) return *fault;
@@ -326,7 +335,7 @@ Accessors::Accessors(const JsonValue& root, const Buffers& buffers) : buffers_(&
     stated.component = component.index();
     stated.width = type_width(type.text_value());
     stated.normalized = normalized.boolean().value_or(false);
-    if (view.exists()) stated.view = view.index().value_or(UINT64_MAX);
+    stated.view = view;
     stated.offset = offset.exists() ? offset.index() : std::optional<std::uint64_t>(0);
     stated.sparse = sparse;
     accessors_.push_back(stated);
@@ -340,12 +349,12 @@ std::uint64_t Accessors::stated_count(std::uint64_t index) const {
 std::uint64_t Accessors::copied_count(std::uint64_t index) const {
   if (index >= accessors_.size()) return 0;
   const Stated& stated = accessors_[index];
-  return stated.sparse.is_object() || !stated.view ? stated.count.value_or(0) : 0;
+  return stated.sparse.is_object() || !stated.view.exists() ? stated.count.value_or(0) : 0;
 }
 
 bool Accessors::has_data(std::uint64_t index) const {
   return index < accessors_.size() &&
-         (accessors_[index].view.has_value() || accessors_[index].sparse.exists());
+         (accessors_[index].view.exists() || accessors_[index].sparse.exists());
 }
 
 Checked<Accessor> Accessors::open_dense(std::uint64_t index) const {
@@ -363,7 +372,7 @@ Checked<Accessor> Accessors::open_dense(std::uint64_t index) const {
   accessor.normalized = stated.normalized;
   const std::size_t size = component_bytes(accessor.component) * accessor.width;
 
-  if (!stated.view) {
+  if (!stated.view.exists()) {
     // It is all zeros, of which a file may ask for any number: no more than its data could hold.
     const std::size_t most = std::max<std::size_t>(buffers_->total_bytes(), 4096);
     if (accessor.count > most / size)
@@ -374,7 +383,7 @@ Checked<Accessor> Accessors::open_dense(std::uint64_t index) const {
     accessor.bytes = accessor.dense;
     return {std::move(accessor)};
   }
-  const Checked<Buffers::BufferView> view = buffers_->view(*stated.view);
+  const Checked<Buffers::BufferView> view = buffers_->view(stated.view);
   if (const GltfFault* fault = fault_of(view)) return *fault;
   const auto& found = std::get<Buffers::BufferView>(view);
   if (!stated.offset)
@@ -405,8 +414,7 @@ bool Accessors::apply_sparse(Accessor& accessor, const JsonValue& sparse, GltfFa
   values.width = accessor.width;
   for (Accessor* part : {&indices, &values}) {
     const JsonValue json = sparse[part == &indices ? "indices" : "values"];
-    const Checked<Buffers::BufferView> view =
-        buffers_->view(json["bufferView"].index().value_or(UINT64_MAX));
+    const Checked<Buffers::BufferView> view = buffers_->view(json["bufferView"]);
     if (const GltfFault* broken = fault_of(view)) {
       fault = *broken;
       return false;
@@ -438,12 +446,12 @@ bool Accessors::apply_sparse(Accessor& accessor, const JsonValue& sparse, GltfFa
   return true;
 }
 
-Checked<Accessor> Accessors::open(std::uint64_t index) const {
-  if (index >= accessors_.size())
-    return GltfFault{fmt::format("/accessors/{}", index),
-                     fmt::format("does not exist; there are {}", accessors_.size())};
-  Checked<Accessor> opened = open_dense(index);
-  const JsonValue& sparse = accessors_[index].sparse;
+Checked<Accessor> Accessors::open(const JsonValue& number) const {
+  const std::optional<std::uint64_t> index = number.index();
+  if (!index || *index >= accessors_.size())
+    return nothing_of("/accessors", number, accessors_.size());
+  Checked<Accessor> opened = open_dense(*index);
+  const JsonValue& sparse = accessors_[*index].sparse;
   if (fault_of(opened) != nullptr || !sparse.is_object()) return opened;
   GltfFault fault;
   if (!apply_sparse(std::get<Accessor>(opened), sparse, fault)) return fault;

@@ -55,7 +55,8 @@ class Buffers {
   /// folder or below it. What cannot be loaded is a fault of its views.
   Buffers(const JsonValue& root, const Container& container, const std::filesystem::path& file);
 
-  [[nodiscard]] Checked<BufferView> view(std::size_t index) const;
+  /// Returns the view that a document names by its number.
+  [[nodiscard]] Checked<BufferView> view(const JsonValue& number) const;
   [[nodiscard]] std::size_t total_bytes() const { return total_bytes_; }
 
  private:
@@ -129,8 +130,9 @@ class Accessors {
  public:
   Accessors(const JsonValue& root, const Buffers& buffers);
 
-  /// Opens any accessor that is well-formed; without data it is zeros. Sparse ones are made dense.
-  [[nodiscard]] Checked<Accessor> open(std::uint64_t index) const;
+  /// Opens the accessor that a document names by its number, if it is well-formed; without data it
+  /// is zeros. Sparse ones are made dense.
+  [[nodiscard]] Checked<Accessor> open(const JsonValue& number) const;
 
   /// Returns the count that an accessor states, 0 if it does not exist; nothing else is checked.
   [[nodiscard]] std::uint64_t stated_count(std::uint64_t index) const;
@@ -144,7 +146,7 @@ class Accessors {
   /// accessor, and an object may hold any number of members that are none of ours.
   struct Stated {
     std::optional<std::uint64_t> count, component, offset;
-    std::optional<std::uint64_t> view;  ///< UINT64_MAX where it is no index
+    JsonValue view;
     std::size_t width = 0;
     bool normalized = false;
     JsonValue sparse;

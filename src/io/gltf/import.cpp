@@ -283,7 +283,7 @@ Status Importer::adopt_features() {
     if (features.several)
       model_.diagnostics.add(Severity::warning, "gltf-features",
                              "parts of a mesh are features of their own, which are not told apart: "
-                             "it is one object without their attributes",
+                             "it is one object, with the attributes of what all of it is alone",
                              place_text(fmt::format("/meshes/{}", mesh)));
     for (const auto& [table, row] : features.rows)
       bytes_of_mesh[mesh] += tables_.row_bytes(table, row);

@@ -104,8 +104,7 @@ bool MeshLoader::corners(const JsonValue& json, std::uint64_t vertices,
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = static_cast<std::uint32_t>(i);
     return true;
   }
-  const Checked<Accessor> opened =
-      input_.accessors->open(indices_json.index().value_or(UINT64_MAX));
+  const Checked<Accessor> opened = input_.accessors->open(indices_json);
   if (const GltfFault* fault = fault_of(opened)) return fail(*fault);
   const auto& indices = std::get<Accessor>(opened);
   const bool whole = indices.component == Component::uint8 ||
@@ -211,7 +210,7 @@ bool MeshLoader::primitive(const JsonValue& json, const std::string& pointer) {
   if (json["extensions"]["KHR_draco_mesh_compression"].exists() &&
       !input_.accessors->has_data(position.index().value_or(UINT64_MAX)))
     return fail({pointer, "is packed by KHR_draco_mesh_compression, which is not read"});
-  const Checked<Accessor> opened = input_.accessors->open(position.index().value_or(UINT64_MAX));
+  const Checked<Accessor> opened = input_.accessors->open(position);
   if (const GltfFault* fault = fault_of(opened)) return fail(*fault);
   const auto& positions = std::get<Accessor>(opened);
   if (positions.width != 3) return fail({positions.pointer, "positions must be VEC3"});

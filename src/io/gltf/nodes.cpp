@@ -228,7 +228,7 @@ std::optional<GltfFault> open_attribute(const JsonValue& attributes, const char*
                                         std::optional<Accessor>& out) {
   const JsonValue json = attributes[name];
   if (!json.exists()) return std::nullopt;
-  Checked<Accessor> opened = accessors.open(json.index().value_or(UINT64_MAX));
+  Checked<Accessor> opened = accessors.open(json);
   if (const GltfFault* fault = fault_of(opened)) return *fault;
   auto& accessor = std::get<Accessor>(opened);
   if (accessor.width != width)
@@ -327,12 +327,9 @@ Instances read_instances(const GltfNode& node, const Accessors& accessors,
     if (scale) scale->element(i, s.data());
     const std::optional<Placement> placement =
         placement_of({t[0], t[1], t[2]}, r.data(), {s[0], s[1], s[2]});
-    if (!placement || !is_finite(*placement)) {
-      result.fault = GltfFault{"EXT_mesh_gpu_instancing",
-                               fmt::format("instance {} has no finite transformation", i)};
-      return result;
-    }
-    result.placements.push_back(*placement);
+    const bool finite = placement && is_finite(*placement);
+    result.placements.push_back(finite ? *placement : Placement{});
+    result.lost.push_back(!finite);
   }
   const JsonDocument extras = node.instance_extras().parse();
   read_names(extras.root(), result.placements.size(), result);

@@ -104,12 +104,13 @@ class NodeTable {
 /// The instances of a node, in the node's frame.
 struct Instances {
   std::vector<geometry::Placement> placements;
+  std::vector<bool> lost;       ///< its numbers make no finite transformation: it has no placement
   double translation_step = 0;  ///< spacing of quantised translations; 0: float32
   /// One entry per instance; what has neither name nor id is "instance 12".
   std::vector<std::string> names, ids;
   std::vector<bool> counted;                  ///< the name is "instance 12"
   std::vector<model::Attributes> attributes;  ///< those of their features; or none at all
-  std::optional<GltfFault> fault;
+  std::optional<GltfFault> fault;             ///< of all of them
 
   /// Returns half the spacing of the numbers that say where an instance is.
   [[nodiscard]] double half_spacing(std::size_t instance) const;

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "io/gltf/packed_attributes.hpp"
+
 namespace strake::io::gltf {
 namespace {
 
@@ -19,9 +21,10 @@ PackedMode mode_of(std::string_view mode) {
 }
 
 /// Returns how many bytes one packed byte can become at most: attributes that are all alike take
-/// two bits for sixteen bytes, a triangle a byte for three indices, an index a byte.
-std::uint64_t largest_ratio(PackedMode mode, std::uint64_t stride) {
-  if (mode == PackedMode::attributes) return 64;
+/// two bits for sixteen bytes, or since version 1 for 256, a triangle a byte for three indices, an
+/// index a byte.
+std::uint64_t largest_ratio(PackedMode mode, std::uint64_t stride, bool version_1) {
+  if (mode == PackedMode::attributes) return version_1 ? 1024 : 64;
   return mode == PackedMode::triangles ? 3 * stride : stride;
 }
 
@@ -75,7 +78,9 @@ Unpacked unpack(const PackedView& view, std::span<const std::byte> packed, std::
     return {{},
             fmt::format("has no valid mode, filter, count or byteStride of {}", view.extension)};
   constexpr std::uint64_t kFree = 8192;  // a block that is begun
-  const std::uint64_t room = std::min(largest_ratio(mode, stride) * packed.size() + kFree, most);
+  const bool version_1 = mode == PackedMode::attributes && is_attributes_version_1(packed);
+  const std::uint64_t room =
+      std::min(largest_ratio(mode, stride, version_1) * packed.size() + kFree, most);
   if (count > room / stride)
     return {
         {},
@@ -87,7 +92,11 @@ Unpacked unpack(const PackedView& view, std::span<const std::byte> packed, std::
   int status = 0;
   switch (mode) {
     case PackedMode::attributes:
-      status = meshopt_decodeVertexBuffer(result.bytes.data(), count, stride, from, packed.size());
+      if (version_1)
+        status = unpack_attributes_version_1(packed, stride, result.bytes) ? 0 : -1;
+      else
+        status =
+            meshopt_decodeVertexBuffer(result.bytes.data(), count, stride, from, packed.size());
       break;
     case PackedMode::triangles:
       status = meshopt_decodeIndexBuffer(result.bytes.data(), count, stride, from, packed.size());

@@ -212,13 +212,20 @@ void Placer::each_instance(GltfNode& node, const NodePlace& here, Visit&& elemen
     places.push_back({here.world * instances.placements[i],
                       std::max(here.half_spacing_mm, scale_mm * instances.half_spacing(i))});
   whole.places = places;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    check_bounds({.node = node,
-                  .instances = &instances,
-                  .instance = i,
-                  .counted = here.counted || instances.counted[i],
-                  .places = whole.places.subspan(i, 1)},
-                 element);
+  const GltfFault lost{"EXT_mesh_gpu_instancing", "it has no finite transformation"};
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Element one{.node = node,
+                .instances = &instances,
+                .instance = i,
+                .counted = here.counted || instances.counted[i],
+                .places = whole.places.subspan(i, 1)};
+    if (!instances.lost[i]) {
+      check_bounds(one, element);
+      continue;
+    }
+    one.fault = &lost;
+    element(one);
+  }
 }
 
 Amount Placer::amount_of(std::size_t visit) const {

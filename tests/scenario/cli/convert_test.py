@@ -93,6 +93,17 @@ class Convert(Scenario):
         self.text('convert', 'p.strake', 'project.glb')
         self.assertEqual((self.folder / 'project.glb').read_bytes(), (self.folder / 'all.glb').read_bytes())
 
+    def test_from_the_second_time_on_bytes_are_the_same(self):
+        self.text('generate', 'ship', '--objects', 200, '-o', 'ship.glb')
+        (self.folder / 'a.rvm').write_bytes(rvm([('one', (0, 0, 0)), ('two', (50, 0.3, 0)), ('two', (0, 130, 0))]))
+        self.write('b.obj', cube('a', 0, (0.1, 0.2, 0.3), 100.01))
+        for files in (['ship.glb'], ['ship.glb', 'a.rvm', 'b.obj']):
+            self.text('convert', *files, '1.glb')
+            for n in (1, 2):
+                shutil.copy(self.folder / f'{n}.glb', self.folder / 'x.glb')
+                self.text('convert', 'x.glb', f'{n + 1}.glb')
+            self.assertEqual((self.folder / '2.glb').read_bytes(), (self.folder / '3.glb').read_bytes(), files)
+
     def test_obj_is_written_by_its_suffix(self):
         self.text('generate', 'ship', '--objects', 100, '-o', 'ship.glb')
         self.text('convert', 'ship.glb', 'ship.obj')

@@ -91,6 +91,15 @@ class Schemas(unittest.TestCase):
         self.assertGreater(odd['skipped'], 0)
         self.assertEqual(odd['files'][0]['inverted'], 1)
 
+    def test_convert(self):
+        told = self.follows(self.run_strake('convert', 'odd.obj', 'ship.glb', 'whole.glb', '--json'), 'convert')
+        self.assertEqual([told['output'], told['bytes']], ['whole.glb', (self.folder / 'whole.glb').stat().st_size])
+        self.assertEqual([one['file'] for one in told['files']], ['odd.obj', 'ship.glb'])
+        info = json.loads(self.run_strake('info', 'odd.obj', 'ship.glb', '--json'))
+        for word in ('objects', 'bodies', 'shapes'):
+            self.assertEqual(told[word], info['total'][word], word)
+        self.assertGreater(told['skipped'], 0)
+
     def test_kept_scenes(self):
         (self.folder / 'cache' / 'scenes').mkdir(parents=True)
         (self.folder / 'cache' / 'scenes' / 'x.scene').write_text('damaged')

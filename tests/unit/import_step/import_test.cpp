@@ -48,6 +48,13 @@ class StepImport : public testing::Test {
   }
   static std::string report() { return text_of(folder() / "report.jsonl"); }
 
+  /// Returns why a file of this text is refused.
+  static std::string refusal(const std::string& name, const std::string& text) {
+    std::ofstream(folder() / name, std::ios::binary) << text;
+    const Import done = import(folder() / name);
+    return done.model ? "read" : done.model.error().message;
+  }
+
   struct Import {
     Result<model::Model> model;
     std::string unit;
@@ -239,6 +246,56 @@ TEST_F(StepImport, OfAPartThatIsAllEachSolidIsAnObject) {
   EXPECT_EQ(stated(*done.model, done.model->objects[0], "Product"), "Pair");
 }
 
+/// A colour that one occurrence has, by its path through the assemblies, goes before all others.
+TEST_F(StepImport, ColoursOfOccurrences) {
+  const Import rig = import(folder() / "overridden.step");
+  ASSERT_TRUE(rig.model) << rig.model.error().text();
+  ASSERT_EQ(rig.model->objects.size(), 4U);
+  for (const model::Object& object : rig.model->objects) {
+    const model::Color& color = rig.model->bodies[object.first_body].color;
+    const bool is_overridden = object.id == "Rig/second/left";
+    EXPECT_EQ(color.green, is_overridden ? 255 : 0) << object.id;
+    EXPECT_EQ(color.blue, is_overridden ? 0 : 255) << object.id;
+  }
+}
+
+/// What is cut off or lacks lines is refused, with the line.
+TEST_F(StepImport, IgesThatIsNotWholeIsRefused) {
+  std::vector<std::string> lines;
+  std::string whole = text_of(folder() / "faces.igs");
+  std::erase(whole, '\r');
+  for (std::size_t at = 0; at < whole.size();) {
+    const std::size_t end = std::min(whole.find('\n', at), whole.size());
+    lines.push_back(whole.substr(at, end - at));
+    at = end + 1;
+  }
+  ASSERT_GT(lines.size(), 100U);
+  const auto refused = [&](const std::vector<std::string>& some) {
+    std::string text;
+    for (const std::string& line : some) text += line + "\n";
+    return refusal("x.igs", text);
+  };
+  const std::vector<std::string> cut(lines.begin(), lines.begin() + 60);
+  EXPECT_NE(refused(cut).find("behind line 60, in section "), std::string::npos) << refused(cut);
+  std::vector<std::string> within = cut;
+  within.back().resize(40);
+  EXPECT_NE(refused(within).find("ends too soon, within line 60"), std::string::npos)
+      << refused(within);
+  std::vector<std::string> lacking = lines;
+  lacking.erase(lacking.begin() + 50);
+  EXPECT_NE(refused(lacking).find("line 51 is not line"), std::string::npos) << refused(lacking);
+  std::vector<std::string> short_of_last = lines;
+  short_of_last.erase(short_of_last.end() - 2);
+  EXPECT_NE(refused(short_of_last).find("says that section P has"), std::string::npos)
+      << refused(short_of_last);
+  std::vector<std::string> turned = lines;
+  std::swap(turned[1], turned[lines.size() - 5]);
+  EXPECT_NE(refused(turned).find("line 2 "), std::string::npos) << refused(turned);
+  std::vector<std::string> more = lines;
+  more.push_back("more");
+  EXPECT_NE(refused(more).find("behind the T line"), std::string::npos) << refused(more);
+}
+
 TEST_F(StepImport, FacesOfIgesAreSewn) {
   const Import faces = import(folder() / "faces.igs");
   ASSERT_TRUE(faces.model) << faces.model.error().text();
@@ -272,11 +329,6 @@ TEST_F(StepImport, NamesAreThoseOfTheFile) {
 }
 
 TEST_F(StepImport, WhatIsNoModelIsRefusedWithAReason) {
-  const auto refusal = [&](const std::string& name, const std::string& text) {
-    std::ofstream(folder() / name, std::ios::binary) << text;
-    const Import done = import(folder() / name);
-    return done.model ? "read" : done.model.error().message;
-  };
   const std::string rig = text_of(folder() / "rig.step"), faces = text_of(folder() / "faces.igs");
   EXPECT_EQ(refusal("a.step", ""), "is empty");
   EXPECT_NE(refusal("a.step", "Dear reader\n").find("neither STEP nor IGES"), std::string::npos);

@@ -15,6 +15,7 @@
 #include <Interface_Static.hxx>
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Writer.hxx>
+#include <TDF_LabelSequence.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Application.hxx>
 #include <TDocStd_Document.hxx>
@@ -26,6 +27,7 @@
 #include <TopoDS_Compound.hxx>
 #include <XCAFDoc_ColorTool.hxx>
 #include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_GraphNode.hxx>
 #include <XCAFDoc_LayerTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <gp_Ax1.hxx>
@@ -80,10 +82,19 @@ class Draft {
     TDataStd_Name::Set(label, name);
     return label;
   }
-  void place(const TDF_Label& assembly, const TDF_Label& part, const gp_Trsf& place,
-             const char* name) {
+  TDF_Label place(const TDF_Label& assembly, const TDF_Label& part, const gp_Trsf& place,
+                  const char* name) {
     const TDF_Label label = shapes_->AddComponent(assembly, part, TopLoc_Location(place));
     TDataStd_Name::Set(label, name);
+    return label;
+  }
+  /// Colours one occurrence, which instances lead to, the outermost first.
+  void color_occurrence(const std::vector<TDF_Label>& instances, double red, double green,
+                        double blue) {
+    TDF_LabelSequence chain;
+    for (const TDF_Label& instance : instances) chain.Append(instance);
+    Handle(XCAFDoc_GraphNode) occurrence;
+    if (shapes_->SetSHUO(chain, occurrence)) color(occurrence->Label(), red, green, blue);
   }
   void color(const TDF_Label& label, double red, double green, double blue) {
     XCAFDoc_DocumentTool::ColorTool(document_->Main())
@@ -101,6 +112,7 @@ class Draft {
     Interface_Static::SetCVal("write.step.unit", unit);
     Interface_Static::SetCVal("write.step.schema", "AP214IS");
     STEPCAFControl_Writer writer;
+    writer.SetSHUOMode(Standard_True);
     return writer.Transfer(document_, STEPControl_AsIs) &&
            writer.Write(file.c_str()) == IFSelect_RetDone;
   }
@@ -139,6 +151,21 @@ bool write_rig(const std::filesystem::path& file, const char* unit) {
   turned.SetRotation(gp_Ax1(gp_Pnt(70, 30, 0), gp_Dir(0, 0, 1)), 0.5);
   draft.place(rig, bracket, turned, "second");
   return draft.write_step(file, unit);
+}
+
+/// Two equal brackets of two bolts, all blue but the left bolt of the second bracket.
+bool write_overridden(const std::filesystem::path& file) {
+  Draft draft;
+  const TDF_Label bolt = draft.part(BRepPrimAPI_MakeCylinder(4, 30).Shape(), "Bolt");
+  draft.color(bolt, 0, 0, 1);
+  const TDF_Label bracket = draft.assembly("Bracket");
+  const TDF_Label left = draft.place(bracket, bolt, moved(5, 5, 20), "left");
+  draft.place(bracket, bolt, moved(15, 15, 20), "right");
+  const TDF_Label rig = draft.assembly("Rig");
+  draft.place(rig, bracket, moved(0, 0, 0), "first");
+  const TDF_Label second = draft.place(rig, bracket, moved(100, 0, 0), "second");
+  draft.color_occurrence({second, left}, 0, 1, 0);
+  return draft.write_step(file, "MM");
 }
 
 bool write_single(const std::filesystem::path& file, const TopoDS_Shape& shape, const char* name) {
@@ -183,6 +210,7 @@ bool write_step_files(const std::filesystem::path& folder) {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 10).Shape();
   return write_rig(folder / "rig.step", "MM") && write_rig(folder / "rig_inch.step", "INCH") &&
          write_rig(folder / "rig_metre.step", "M") &&
+         write_overridden(folder / "overridden.step") &&
          write_single(folder / "curved.step", curved_solids(), "Curved") &&
          write_single(folder / "two_solids.step", together({box, at(box, 5)}), "Pair") &&
          write_single(folder / "open.step", box_without_lid(), "Tray") && write_all_iges(folder);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <random>
 #include <string>
@@ -110,6 +111,64 @@ TEST(GltfFeatures, RowsBecomeAttributesUnderTheNameOfTheirClass) {
   ASSERT_EQ(model->objects[3].attributes.size(), 5U);
   EXPECT_EQ(model->objects[3].attributes[0].first, set + "IsExternal");
   EXPECT_EQ(model->objects[3].attributes[0].second, "false");
+}
+
+/// A mesh is of one storey and has parts that are features of their own: what is said of all of it
+/// counts.
+TEST(GltfFeatures, OfSeveralSetsThoseByWhichAMeshIsOneFeatureCount) {
+  const Result<model::Model> model =
+      read(document(R"("_FEATURE_ID_0":3},"extensions":{"EXT_mesh_features":{"featureIds":)"
+                    R"([{"featureCount":1,"attribute":0,"propertyTable":0}])",
+                    R"("_FEATURE_ID_0":2,"_FEATURE_ID_1":3},"extensions":{"EXT_mesh_features":)"
+                    R"({"featureIds":[{"featureCount":3,"attribute":0,"propertyTable":0},)"
+                    R"({"featureCount":1,"attribute":1,"propertyTable":0}])"));
+  ASSERT_TRUE(model) << model.error().text();
+  EXPECT_EQ(model->diagnostics.count("gltf-features"), 1U);
+  ASSERT_EQ(model->objects[3].attributes.size(), 5U);
+  EXPECT_EQ(model->objects[3].attributes[0].second, "false");
+}
+
+/// A number that is none costs the instance that it belongs to, and no other.
+TEST(GltfFeatures, SkipsAnInstanceWithoutAPlace) {
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  const std::string binary = bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}) +
+                             bytes_of(std::vector<float>{1, 0, 0, 0, none, 0, 0, 0, 3});
+  const Result<model::Model> model = read(
+      test::glb(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":72}],)"
+                R"("bufferViews":[{"buffer":0,"byteLength":36},)"
+                R"({"buffer":0,"byteOffset":36,"byteLength":36}],)"
+                R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+                R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"}],)"
+                R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+                R"("nodes":[{"name":"bolts","mesh":0,"extensions":{"EXT_mesh_gpu_instancing":)"
+                R"({"attributes":{"TRANSLATION":1}}}}]})",
+                binary));
+  ASSERT_TRUE(model) << model.error().text();
+  ASSERT_EQ(model->objects.size(), 3U);
+  ASSERT_EQ(model->bodies.size(), 2U);
+  EXPECT_TRUE(model->objects[1].incomplete);
+  EXPECT_FALSE(model->objects[0].incomplete || model->objects[2].incomplete);
+  EXPECT_EQ(model->bodies[1].placement.translation, (geometry::Vec3d{0, -3000, 0}));
+  EXPECT_EQ(model->diagnostics.skipped(), 1U);
+  EXPECT_NE(model->diagnostics.kept().back().message.find("'instance 1' is skipped"),
+            std::string::npos)
+      << model->diagnostics.kept().back().message;
+}
+
+/// A number that can be none of a list's is named as the file writes it.
+TEST(GltfFeatures, NamesAWrongNumberAsItIsWritten) {
+  for (const char* const number : {"-1", "1.5", "\"x\"", "1e99", "7"}) {
+    const Result<model::Model> model = read(test::glb(
+        std::string(R"({"asset":{"version":"2.0"},"accessors":[],"meshes":[{"primitives":)"
+                    R"([{"attributes":{"POSITION":)") +
+        number + R"(}}]}],"nodes":[{"mesh":0}]})"));
+    ASSERT_FALSE(model);
+    const std::string text = model.error().text();
+    std::string written = number;
+    std::erase(written, '"');
+    EXPECT_NE(text.find("/accessors/" + written), std::string::npos) << text;
+    EXPECT_EQ(text.find("18446744073709551615"), std::string::npos) << text;
+  }
 }
 
 /// What stands for nothing is stated as it is stored, before what makes values of that, and however

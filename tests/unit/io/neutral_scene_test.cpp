@@ -117,6 +117,40 @@ TEST(NeutralScene, AnyModelComesBackToTheLastBit) {
   }
 }
 
+std::string bytes_written(const Model& model) {
+  const test::TemporaryFolder folder;
+  EXPECT_TRUE(write_glb(model, folder.path() / "x.glb", keeping_all(), {}));
+  std::ifstream file(folder.path() / "x.glb", std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Groups of several files in any order, with and without objects: what was read is written with
+/// the same bytes, however often.
+TEST(NeutralScene, WhatWasReadIsWrittenWithTheSameBytes) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    test::PrimitiveDraw draw(seed);
+    Model model;
+    const std::uint64_t files = 1 + draw.below(3);
+    for (std::uint64_t f = 0; f < files; ++f)
+      model.files.push_back({"file " + std::to_string(f), "made", "mm (stated)", "z", 0, 0});
+    std::vector<model::GroupId> groups{model::GroupId::none};
+    for (int g = 0; g < 12; ++g)
+      groups.push_back(
+          test::add_group(model, "g" + std::to_string(g), groups[draw.below(groups.size())]));
+    const model::ShapeId shape = test::add_shape(model, geometry::SpherePrimitive{5});
+    for (int i = 0; i < 20; ++i) {
+      test::add_object(model, "id " + std::to_string(draw.below(30)), "n",
+                       groups[draw.below(groups.size())]);
+      model.objects.back().file = static_cast<std::uint32_t>(draw.below(files));
+      test::add_body(model, shape, {draw.linear(), draw.point(1e6)});
+    }
+    const Model once = written_and_read(finished(std::move(model)));
+    const std::string second = bytes_written(once);
+    const Model twice = written_and_read(once);
+    EXPECT_EQ(bytes_written(twice), second) << seed;
+  }
+}
+
 /// Equal shapes of different colours, and a primitive at different scales, are one shape.
 TEST(NeutralScene, SharedShapesStayShared) {
   Model model;

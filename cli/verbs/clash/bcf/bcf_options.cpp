@@ -5,16 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <optional>
 
 #include "bcf/output/write_bcf.hpp"
-#include "bcf/xml/xml_text.hpp"
 #include "cli/options/options.hpp"
 #include "cli/output/console.hpp"
 #include "cli/verbs/clash/clash_project.hpp"
 #include "core/output_format.hpp"
-#include "core/text/dates.hpp"
-#include "core/text_encoding.hpp"
+#include "publish/form_words.hpp"
 
 namespace strake::cli {
 
@@ -28,6 +25,11 @@ const char* first_given(const BcfInput& input) {
   if (!input.author.empty()) return "--bcf-author";
   if (input.history) return "--bcf-history";
   return input.contacts ? "--bcf-contacts" : nullptr;
+}
+
+Error in_option(Error error, const char* option) {
+  error.where = option;
+  return error;
 }
 
 }  // namespace
@@ -79,18 +81,14 @@ Result<report::BcfForm> bcf_form(const BcfInput& input, bool is_written) {
     form.most = static_cast<std::size_t>(most);
   }
   if (!input.date.empty()) {
-    std::optional<std::string> date = utc_of(input.date);
-    if (!date) date = utc_of(input.date + "T00:00:00");
-    if (!date)
-      return Error{ErrorCode::usage, in_quotes(input.date) + " is no date", "--bcf-date",
-                   "write it as 2026-01-31 or 2026-01-31T12:00:00Z"};
+    const Result<std::string> date = publish::bcf_date(input.date);
+    if (!date) return in_option(date.error(), "--bcf-date");
     form.date = *date;
   }
   if (!input.author.empty()) {
-    form.author = bcf::compared_text(input.author);
-    if (form.author.empty())
-      return Error{ErrorCode::usage, "this is no name", "--bcf-author",
-                   "write who made the topics"};
+    const Result<std::string> author = publish::bcf_author(input.author);
+    if (!author) return in_option(author.error(), "--bcf-author");
+    form.author = *author;
   }
   return form;
 }

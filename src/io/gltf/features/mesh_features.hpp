@@ -12,8 +12,9 @@ namespace strake::io::gltf {
 
 /// The features of EXT_mesh_features that a mesh is.
 struct MeshFeatures {
-  std::vector<std::pair<std::uint64_t, std::uint64_t>> rows;  ///< of tables
-  bool several = false;  ///< parts of the mesh are different ones, and it has no rows
+  /// Of tables: those of the sets by which all of the mesh is one feature.
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> rows;
+  bool several = false;  ///< by another set parts of the mesh are different ones
 };
 
 /// Looks at the ids of `left` vertices at most, and takes those that it looked at off it: many

@@ -269,7 +269,7 @@ std::optional<GltfFault> read_values(const Buffers& buffers, const JsonValue& js
   property.array_offset_bytes = offset_bytes(array_type);
   property.string_offset_bytes = offset_bytes(string_type);
   const auto open = [&](const JsonValue& number, std::span<const std::byte>& bytes) {
-    const Checked<Buffers::BufferView> view = buffers.view(number.index().value_or(UINT64_MAX));
+    const Checked<Buffers::BufferView> view = buffers.view(number);
     if (const GltfFault* const fault = fault_of(view)) return std::optional<GltfFault>(*fault);
     bytes = std::get<Buffers::BufferView>(view).bytes;
     return std::optional<GltfFault>();

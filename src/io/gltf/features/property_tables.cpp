@@ -81,18 +81,21 @@ std::vector<FeatureIds> read_feature_ids(const JsonValue& extension, const JsonV
                                          const Accessors& accessors) {
   constexpr std::size_t kMostSets = 16;
   std::vector<FeatureIds> sets;
+  std::size_t stated = 0;
   extension["featureIds"].elements([&](const JsonValue& json) {
+    const std::size_t place = stated++;
     if (sets.size() == kMostSets) return;
     const auto [attribute, texture, table, null_id] =
         json.pick<4>({"attribute", "texture", "propertyTable", "nullFeatureId"});
     if (texture.exists() || !table.exists()) return;
     FeatureIds set;
+    set.place = place;
     set.table = table.index().value_or(UINT64_MAX);
     set.null_id = null_id.index();
     if (attribute.exists()) {
       const std::string name =
           fmt::format("_FEATURE_ID_{}", attribute.index().value_or(UINT64_MAX));
-      Checked<Accessor> opened = accessors.open(attributes[name].index().value_or(UINT64_MAX));
+      Checked<Accessor> opened = accessors.open(attributes[name]);
       if (fault_of(opened) != nullptr || std::get<Accessor>(opened).width != 1) return;
       set.ids = std::move(std::get<Accessor>(opened));
     }

@@ -48,6 +48,7 @@ class PropertyTables {
 
 /// A set of feature ids of a node's instances or of a mesh: a table, and which of its rows.
 struct FeatureIds {
+  std::size_t place = 0;  ///< among the sets that are stated
   std::uint64_t table = 0;
   std::optional<std::uint64_t> null_id;
   std::optional<Accessor> ids;  ///< none: each element is numbered by its place

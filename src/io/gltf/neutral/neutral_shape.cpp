@@ -74,7 +74,7 @@ bool NeutralShapeLoader::analytic(const JsonValue& stated) {
 /// Reads the numbers of a buffer view that extras name; there are `count` of them.
 template <class T>
 bool NeutralShapeLoader::block(const char* name, std::size_t count, std::vector<T>& out) {
-  const Checked<Buffers::BufferView> view = buffers_.view(says_[name].index().value_or(UINT64_MAX));
+  const Checked<Buffers::BufferView> view = buffers_.view(says_[name]);
   if (const GltfFault* const fault = fault_of(view)) return fail(*fault);
   const std::span<const std::byte> bytes = std::get<Buffers::BufferView>(view).bytes;
   if (bytes.size() / sizeof(T) != count || bytes.size() % sizeof(T) != 0)
@@ -85,8 +85,7 @@ bool NeutralShapeLoader::block(const char* name, std::size_t count, std::vector<
 }
 
 bool NeutralShapeLoader::points(std::vector<Vec3d>& out) {
-  const Checked<Accessor> opened =
-      accessors_.open(primitive_["attributes"]["POSITION"].index().value_or(UINT64_MAX));
+  const Checked<Accessor> opened = accessors_.open(primitive_["attributes"]["POSITION"]);
   if (const GltfFault* const fault = fault_of(opened)) return fail(*fault);
   const auto& positions = std::get<Accessor>(opened);
   if (positions.width != 3 || positions.count > kMostVertices)
@@ -109,8 +108,7 @@ bool NeutralShapeLoader::points(std::vector<Vec3d>& out) {
 }
 
 bool NeutralShapeLoader::triangles(std::size_t vertices, std::vector<geometry::Triangle>& out) {
-  const Checked<Accessor> opened =
-      accessors_.open(primitive_["indices"].index().value_or(UINT64_MAX));
+  const Checked<Accessor> opened = accessors_.open(primitive_["indices"]);
   if (const GltfFault* const fault = fault_of(opened)) return fail(*fault);
   const auto& indices = std::get<Accessor>(opened);
   const bool whole =
@@ -140,8 +138,7 @@ bool NeutralShapeLoader::mesh() {
 bool NeutralShapeLoader::lines() {
   geometry::Polylines lines;
   if (!points(lines.points)) return false;
-  const Checked<Buffers::BufferView> view =
-      buffers_.view(says_["chains"].index().value_or(UINT64_MAX));
+  const Checked<Buffers::BufferView> view = buffers_.view(says_["chains"]);
   if (const GltfFault* const fault = fault_of(view)) return fail(*fault);
   const std::size_t entries =
       std::get<Buffers::BufferView>(view).bytes.size() / sizeof(lines.first[0]);

@@ -37,8 +37,9 @@ std::string_view word_of(model::Category category) {
   return category == model::Category::obstruction ? "obstruction" : "insulation";
 }
 
-/// The nodes of a document: first the frame, then groups, objects and bodies, each in the order of
-/// the model; but a body that is all of its object is none of its own.
+/// The nodes of a document: first the frame, then groups in the order of the tree, in which they
+/// are read, then objects and bodies in the order of the model; but a body that is all of its
+/// object is none of its own.
 class NeutralNodes {
  public:
   NeutralNodes(const model::Model& model, const NeutralPlan& plan) : model_(model), plan_(plan) {}
@@ -51,6 +52,7 @@ class NeutralNodes {
   }
   void count_ids();
   void make_tree();
+  void number_groups(std::uint32_t first_group);
   [[nodiscard]] bool is_whole(const model::Object& object) const { return object.body_count == 1; }
   void asset();
   void node_start(std::string_view name);
@@ -65,6 +67,7 @@ class NeutralNodes {
   /// Children of each group, then of each file where there are several.
   std::vector<std::vector<std::uint32_t>> children_;
   std::vector<std::uint32_t> roots_;
+  std::vector<std::uint32_t> group_order_;  ///< numbers of groups in the order of their nodes
   std::string out_;
 };
 
@@ -111,6 +114,37 @@ void NeutralNodes::make_tree() {
     }
   for (std::uint32_t file = 0; several && file < model_.files.size(); ++file)
     roots_.push_back(1 + file);
+  number_groups(first_group);
+}
+
+/// Gives groups the numbers that they get where the file is read: what was read from a neutral
+/// scene is written with the same bytes. Until then node `first_group + g` is group g.
+void NeutralNodes::number_groups(std::uint32_t first_group) {
+  const auto groups = static_cast<std::uint32_t>(model_.groups.size());
+  const bool several = model_.files.size() > 1;
+  const auto is_group = [&](std::uint32_t node) {
+    return node >= first_group && node - first_group < groups;
+  };
+  std::vector<std::uint32_t> open(roots_.rbegin(), roots_.rend()), rank(groups);
+  while (!open.empty()) {
+    const std::uint32_t node = open.back();
+    open.pop_back();
+    const bool group = is_group(node);
+    if (group) {
+      rank[node - first_group] = static_cast<std::uint32_t>(group_order_.size());
+      group_order_.push_back(node - first_group);
+    }
+    if (!group && (!several || node >= first_group)) continue;
+    const std::vector<std::uint32_t>& below =
+        children_[group ? node - first_group : groups + node - 1];
+    open.insert(open.end(), below.rbegin(), below.rend());
+  }
+  const auto renumber = [&](std::vector<std::uint32_t>& nodes) {
+    for (std::uint32_t& node : nodes)
+      if (is_group(node)) node = first_group + rank[node - first_group];
+  };
+  std::ranges::for_each(children_, renumber);
+  renumber(roots_);
 }
 
 void NeutralNodes::asset() {
@@ -208,7 +242,7 @@ std::string NeutralNodes::text() {
     append_nodes(out_, "children", children_[model_.groups.size() + file]);
     out_ += '}';
   }
-  for (std::size_t i = 0; i < model_.groups.size(); ++i) group(i);
+  for (const std::uint32_t g : group_order_) group(g);
   auto next_body_node =
       static_cast<std::uint32_t>(1 + (model_.files.size() > 1 ? model_.files.size() : 0) +
                                  model_.groups.size() + model_.objects.size());

