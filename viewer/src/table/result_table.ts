@@ -18,6 +18,8 @@ export interface TableEvents {
   chosen(row: number): void;
   opened(row: number): void;
   sorted(column: SortColumn, down: boolean): void;
+  /** the space bar, where rows can be marked */
+  marked?(row: number): void;
 }
 
 export const ROW_HEIGHT = 38;
@@ -144,6 +146,9 @@ export class ResultTable {
     } else if (event.key === 'Enter' && this.current >= 0) {
       event.preventDefault();
       this.events.opened(this.rows[this.current]!);
+    } else if (event.key === ' ' && this.current >= 0 && this.events.marked) {
+      event.preventDefault();
+      this.events.marked(this.rows[this.current]!);
     }
   }
 }
