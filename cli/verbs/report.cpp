@@ -156,14 +156,14 @@ Status put_together(Session& session, const std::string& geometry, const OpenedP
     return at == facts.decisions.clashes.end() ? std::string_view() : at->second.row.assignee;
   };
   page::PageContents page{opened.project.path().filename().string(),
-                                model,
-                                has_results ? &clash : nullptr,
-                                assignee,
-                                is_as_tested ? &loaded.scene : nullptr,
-                                page_geometry(geometry),
-                                {},
-                                std::move(facts.drawings),
-                                std::move(facts.trend)};
+                          model,
+                          has_results ? &clash : nullptr,
+                          assignee,
+                          is_as_tested ? &loaded.scene : nullptr,
+                          page_geometry(geometry),
+                          {},
+                          std::move(facts.drawings),
+                          std::move(facts.trend)};
   return take(page);
 }
 

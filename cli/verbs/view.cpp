@@ -50,12 +50,10 @@ Result<serve::ServedPage> served_page(Session& session, OpenedProject& opened,
   const Result<project::SeenState> seen = project::state_now(database);
   if (!seen) return seen.error();
   std::string html;
-  const Status status = make_project_page(
-      session, opened, geometry, [&](page::PageContents& page) {
-        page.served = {seen->run, seen->event, by};
-        return page::write_page(
-            page, [&](std::string_view text) { html += text; }, session.context());
-      });
+  const Status status = make_project_page(session, opened, geometry, [&](page::PageContents& page) {
+    page.served = {seen->run, seen->event, by};
+    return page::write_page(page, [&](std::string_view text) { html += text; }, session.context());
+  });
   if (!status) return status.error();
   return serve::ServedPage{std::make_shared<const std::string>(std::move(html)),
                            page::served_policy(), *seen};
@@ -82,10 +80,9 @@ Result<ExitCode> run_view(Session& session, const ViewOptions& given) {
   const Result<serve::Gate> gate = gate_of(server->port());
   if (!gate) return gate.error();
   const std::string by = given.by.empty() ? person() : given.by;
-  serve::Site site(*gate,
-                   {opened->project.database(),
-                    [&] { return served_page(session, *opened, given.page_geometry, by); }, by,
-                    utc_time});
+  serve::Site site(*gate, {opened->project.database(),
+                           [&] { return served_page(session, *opened, given.page_geometry, by); },
+                           by, utc_time});
   if (const Status status = site.prepare(); !status) return status.error();
   if (const Status status = session.write_stdout(gate->address() + "\n"); !status)
     return status.error();

@@ -15,9 +15,7 @@ constexpr std::uint16_t kPlainPort = 80;
 /// Names of this machine that no name server decides about.
 constexpr std::array<std::string_view, 2> kLoopbackNames{"127.0.0.1", "localhost"};
 
-Answer forbidden(std::string why) {
-  return text_answer(HttpStatus::forbidden, std::move(why));
-}
+Answer forbidden(std::string why) { return text_answer(HttpStatus::forbidden, std::move(why)); }
 
 /// What a page says that asks: "same-origin", "none" for a person, or something else.
 bool is_of_this_page(const Request& request) {
@@ -47,7 +45,8 @@ std::optional<Answer> Gate::refuse(const Request& request) const {
     return forbidden("pages of others may ask nothing here");
   if (request.method != "GET" && !origin) return forbidden("it is not said which page asks");
   const bool is_page = request.path == kPagePath;
-  if (!is_page && !is_of_this_page(request)) return forbidden("pages of others may ask nothing here");
+  if (!is_page && !is_of_this_page(request))
+    return forbidden("pages of others may ask nothing here");
   if (has_token(request) || (is_page && request.method == "GET" && has_cookie(request))) return {};
   return forbidden(
       "open the address that 'strake view' printed: it has a token, without which nothing is "
@@ -75,9 +74,9 @@ bool Gate::has_cookie(const Request& request) const {
     const std::size_t end = rest.find(';');
     const std::string_view pair = trimmed(rest.substr(0, end));
     rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
-    if (const std::size_t sign = pair.find('=');
-        sign != std::string_view::npos && pair.substr(0, sign) == cookie_name_ &&
-        is_secret(pair.substr(sign + 1), cookie_))
+    if (const std::size_t sign = pair.find('='); sign != std::string_view::npos &&
+                                                 pair.substr(0, sign) == cookie_name_ &&
+                                                 is_secret(pair.substr(sign + 1), cookie_))
       return true;
   }
   return false;

@@ -144,8 +144,7 @@ struct Server::State {
     *exchange = made.release();
     if (const auto refusal = service->refuse(begun.request))
       return answer(connection, *refusal, begun);
-    if (const auto refusal = refuse_body(begun.request))
-      return answer(connection, *refusal, begun);
+    if (const auto refusal = refuse_body(begun.request)) return answer(connection, *refusal, begun);
     return MHD_YES;
   }
 
@@ -159,8 +158,7 @@ struct Server::State {
     std::size_t bytes = 0;
     const auto [end, fault] =
         std::from_chars(length->data(), length->data() + length->size(), bytes);
-    if (fault != std::errc() || end != length->data() + length->size() ||
-        bytes > limits.body_bytes)
+    if (fault != std::errc() || end != length->data() + length->size() || bytes > limits.body_bytes)
       return text_answer(HttpStatus::too_large, "the request is too large");
     return std::nullopt;
   }
@@ -214,8 +212,8 @@ Result<Server> Server::listen(std::uint16_t port, const ServerLimits& limits) {
   auto state = std::make_unique<State>(limits);
   state->port = socket->port();
   state->daemon = MHD_start_daemon(
-      MHD_USE_EPOLL, 0, nullptr, nullptr, &State::on_request, state.get(),
-      MHD_OPTION_LISTEN_SOCKET, socket->descriptor(),                                //
+      MHD_USE_EPOLL, 0, nullptr, nullptr, &State::on_request, state.get(), MHD_OPTION_LISTEN_SOCKET,
+      socket->descriptor(),                                                          //
       MHD_OPTION_CONNECTION_LIMIT, limits.connections,                               //
       MHD_OPTION_CONNECTION_MEMORY_LIMIT, limits.head_bytes,                         //
       MHD_OPTION_CONNECTION_TIMEOUT, static_cast<unsigned>(limits.silence.count()),  //
@@ -234,9 +232,9 @@ Result<Server> Server::listen(std::uint16_t port, const ServerLimits& limits) {
 Status Server::serve(Service& service, const std::stop_token& stop) {
   state_->service = &service;
   const Wake wake(stop);
-  const MHD_DaemonInfo* const info =
-      MHD_get_daemon_info(state_->daemon, MHD_DAEMON_INFO_EPOLL_FD);
-  if (info == nullptr) return Error{ErrorCode::internal, "the server has nothing to wait for", {}, {}};
+  const MHD_DaemonInfo* const info = MHD_get_daemon_info(state_->daemon, MHD_DAEMON_INFO_EPOLL_FD);
+  if (info == nullptr)
+    return Error{ErrorCode::internal, "the server has nothing to wait for", {}, {}};
   std::array<pollfd, 2> files{{{.fd = info->epoll_fd, .events = POLLIN, .revents = 0},
                                {.fd = wake.descriptor(), .events = POLLIN, .revents = 0}}};
   while (!stop.stop_requested()) {

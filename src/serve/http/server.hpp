@@ -15,7 +15,7 @@ namespace strake::serve {
 
 /// What a client may take.
 struct ServerLimits {
-  unsigned connections = 128;                ///< at once; more wait until one ends
+  unsigned connections = 128;                       ///< at once; more wait until one ends
   std::size_t head_bytes = std::size_t{64} << 10U;  ///< of a request line and its headers
   std::size_t body_bytes = std::size_t{8} << 20U;
   /// How long a client may be silent, and how long it may take to send a request, slowly or not.

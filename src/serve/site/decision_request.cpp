@@ -24,8 +24,8 @@ constexpr double kGreatestNumber = 9007199254740992.0;
 Error no_request(std::string what) { return {ErrorCode::usage, std::move(what), {}, {}}; }
 
 std::optional<DecisionStatus> status_named(std::string_view word) {
-  const auto at = std::ranges::find_if(
-      report::kDecisionStatuses, [&](DecisionStatus s) { return report::name(s) == word; });
+  const auto at = std::ranges::find_if(report::kDecisionStatuses,
+                                       [&](DecisionStatus s) { return report::name(s) == word; });
   return at == report::kDecisionStatuses.end() ? std::nullopt : std::optional(*at);
 }
 
@@ -50,7 +50,8 @@ class RequestReader {
       if (!seen_.contains(needed)) fail(std::string("the request has no ") + needed);
     if (request_.keys.empty()) fail("no clash is named");
     const project::ClashDecision& decision = request_.decision;
-    if (!decision.status && !decision.assignee && !decision.comment) fail("there is nothing to set");
+    if (!decision.status && !decision.assignee && !decision.comment)
+      fail("there is nothing to set");
     if (fault_) return no_request(*fault_);
     return std::move(request_);
   }
@@ -109,7 +110,8 @@ Result<DecisionRequest> read_decision_request(std::string_view text) {
   report::JsonReader json(in, kMostDepth);
   RequestReader reader(json);
   try {
-    if (json.kind() != report::JsonReader::Kind::object) return no_request("the request is no object");
+    if (json.kind() != report::JsonReader::Kind::object)
+      return no_request("the request is no object");
     json.members([&](std::string_view name) { reader.take(name); });
     json.end();
   } catch (const report::JsonReader::Fault&) {

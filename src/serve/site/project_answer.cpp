@@ -65,13 +65,14 @@ Result<std::string> project_answer(project::Database& database, std::int64_t eve
                       [&](const project::ListedClash& clash) { append_clash(out, clash); });
   if (done != nullptr) {
     out += ", \"changed\": " + std::to_string(done->changed) + ", ";
-    report::append_list(out, "refused", done->refused, [&](const project::RefusedDecision& refused) {
-      out += '{';
-      append_text(out, "key", refused.key);
-      out += ", ";
-      append_text(out, "why", refused.why);
-      out += '}';
-    });
+    report::append_list(out, "refused", done->refused,
+                        [&](const project::RefusedDecision& refused) {
+                          out += '{';
+                          append_text(out, "key", refused.key);
+                          out += ", ";
+                          append_text(out, "why", refused.why);
+                          out += '}';
+                        });
   }
   out += "}\n";
   return out;
@@ -79,7 +80,8 @@ Result<std::string> project_answer(project::Database& database, std::int64_t eve
 
 Answer error_answer(const Error& error) {
   std::string out = "{";
-  append_text(out, "error", error.where.empty() ? error.message : error.where + ": " + error.message);
+  append_text(out, "error",
+              error.where.empty() ? error.message : error.where + ": " + error.message);
   out += ", ";
   append_text(out, "mend", error.mend);
   out += "}\n";

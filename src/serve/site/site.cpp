@@ -34,7 +34,8 @@ Answer guarded(Answer answer) {
     answer.headers.emplace_back(name, value);
   // The page has a policy of its own.
   if (answer.type != "text/html; charset=utf-8")
-    answer.headers.emplace_back("Content-Security-Policy", "default-src 'none'; frame-ancestors 'none'");
+    answer.headers.emplace_back("Content-Security-Policy",
+                                "default-src 'none'; frame-ancestors 'none'");
   return answer;
 }
 
