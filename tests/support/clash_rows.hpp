@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "project/database/database.hpp"
 #include "project/database/history_tables.hpp"
@@ -30,8 +31,9 @@ inline void add_run(project::Database& database, int number) {
 /// A project in memory of which run 1 found clashes.
 inline std::unique_ptr<project::Database> project_with_clashes(int count) {
   std::unique_ptr<project::Database> database = std::move(project::Database::in_memory()).value();
-  for (const char* const tables :
-       {project::kResultTables, project::kViewTables, project::kHistoryTables})
+  for (const std::string_view tables :
+       {std::string_view(project::kResultTables), std::string_view(project::kViewTables),
+        std::string_view(project::kHistoryTables)})
     EXPECT_TRUE(database->execute(tables));
   EXPECT_TRUE(database->execute(
       "INSERT INTO run VALUES (1, '2026-01-01T00:00:00Z', '1', 'night', 1);"
