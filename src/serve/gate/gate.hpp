@@ -19,7 +19,8 @@ inline constexpr std::string_view kPagePath = "/";
 ///
 /// The token, which stands in the address that is printed, opens everything. The page that this
 /// address leads to sets a cookie, which opens the page again and nothing else: cookies go to
-/// whatever listens on any port of the same machine, so that one is worth a look and no change.
+/// whatever listens on any port of the same machine, so that one is worth a look and no change
+/// (decision 0101).
 class Gate {
  public:
   /// Both secrets are of make_secret().

@@ -26,6 +26,7 @@ struct ServerLimits {
 
 /// Serves HTTP/1.1 on the loopback address, to many clients at once and on the thread that calls:
 /// connections take turns as their bytes come and go, so that a slow one keeps nobody waiting.
+/// Decision 0101 says why.
 class Server {
  public:
   /// Errors: output where the port is not to be had; memory.
