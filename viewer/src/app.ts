@@ -42,6 +42,7 @@ export class App {
       decide: (rows) => this.tell(rows, () => markedDetails(rows.length)),
       decided: (rows) => this.redecided(rows),
     });
+    this.live?.explain(this.help);
     if (report.results) {
       this.list = new ListPanel(report, {
         chosen: (row) => this.choose(row, true),

@@ -47,7 +47,8 @@ export class DecideForm {
     // Letters that are typed here are none of the page's shortcuts.
     this.element.addEventListener('keydown', (event) => {
       if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) this.element.requestSubmit();
-      if (event.key !== 'Escape') event.stopPropagation();
+      if (event.key === 'Escape') (event.target as HTMLElement).blur();
+      event.stopPropagation();
     });
     this.element.addEventListener('submit', (event) => {
       event.preventDefault();

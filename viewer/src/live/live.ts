@@ -61,6 +61,14 @@ export class Live {
     this.poll();
   }
 
+  /** Adds to the help what a page that is a file does not have. */
+  explain(help: HTMLElement): void {
+    if (!this.form) return;
+    help.append(
+      h('h3', {}, 'Deciding'),
+      h('p', {}, 'Set status, who sees to it and a comment of the chosen clash or group, and press Save or Ctrl+Enter. What is not touched stays as it is. Tick several rows, or press the space bar on the chosen one, and press Decide. What others set shows by itself. This page speaks with ‘strake view’ on this machine, and with nobody else.'));
+  }
+
   /** Decisions are about these rows from now on. */
   about(rows: ArrayLike<number>): void {
     this.form?.about(rows);
