@@ -100,7 +100,8 @@ struct Server::State {
                      MHD_RequestTerminationCode /*why*/) {
     delete static_cast<Exchange*>(*exchange);
     *exchange = nullptr;
-    static_cast<State*>(self)->allow(connection, static_cast<State*>(self)->limits.sending);
+    State& state = *static_cast<State*>(self);
+    state.allow(connection, state.limits.silence, state.limits.sending);
   }
 
   static void on_connection(void* self, MHD_Connection* connection, void** /*context*/,
@@ -119,15 +120,18 @@ struct Server::State {
     }
   }
 
-  /// From now on a connection may take so long for what it does.
-  void allow(MHD_Connection* connection, std::chrono::seconds time) {
+  /// From now on a connection may be silent and take for what it does so long.
+  void allow(MHD_Connection* connection, std::chrono::seconds silence, std::chrono::seconds time) {
+    MHD_set_connection_option(connection, MHD_CONNECTION_OPTION_TIMEOUT,
+                              static_cast<unsigned>(silence.count()));
     if (const auto at = connections.find(connection); at != connections.end())
       at->second.until = Clock::now() + time;
   }
 
   MHD_Result answer(MHD_Connection* connection, const Answer& text, Exchange& exchange) {
     exchange.is_answered = true;
-    allow(connection, limits.receiving);
+    // An answer that took long to make is not the client's silence.
+    allow(connection, limits.receiving, limits.receiving);
     return send(connection, text);
   }
 
@@ -177,11 +181,14 @@ struct Server::State {
     return MHD_YES;
   }
 
-  /// Ends connections that take too long; the library notices, and closes them.
-  void end_overdue() const {
+  /// Ends connections that take too long; the library notices, and closes them. For `busy` the
+  /// server itself was at work, which is not their fault.
+  void end_overdue(Clock::duration busy) {
     const Clock::time_point now = Clock::now();
-    for (const auto& [connection, at] : connections)
+    for (auto& [connection, at] : connections) {
+      at.until += busy;
       if (at.until < now) ::shutdown(at.descriptor, SHUT_RDWR);
+    }
   }
 
   /// Returns how long to wait for bytes, in milliseconds.
@@ -240,9 +247,10 @@ Status Server::serve(Service& service, const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     if (::poll(files.data(), files.size(), state_->wait_ms()) < 0 && errno != EINTR)
       return Error{ErrorCode::internal, "the server cannot wait for its clients", {}, {}};
+    const Clock::time_point begun = Clock::now();
     if (MHD_run(state_->daemon) != MHD_YES)
       return Error{ErrorCode::internal, "the server cannot go on", {}, {}};
-    state_->end_overdue();
+    state_->end_overdue(Clock::now() - begun);
   }
   return {};
 }

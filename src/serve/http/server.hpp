@@ -21,7 +21,7 @@ struct ServerLimits {
   /// How long a client may be silent, and how long it may take to send a request, slowly or not.
   std::chrono::seconds silence{20}, sending{30};
   /// How long it may take to receive an answer.
-  std::chrono::seconds receiving{600};
+  std::chrono::seconds receiving{300};
 };
 
 /// Serves HTTP/1.1 on the loopback address, to many clients at once and on the thread that calls:
