@@ -97,11 +97,13 @@ struct Server::State {
   }
 
   static void on_end(void* self, MHD_Connection* connection, void** exchange,
-                     MHD_RequestTerminationCode /*why*/) {
+                     MHD_RequestTerminationCode why) {
     delete static_cast<Exchange*>(*exchange);
     *exchange = nullptr;
+    // Another request may follow on the same connection.
     State& state = *static_cast<State*>(self);
-    state.allow(connection, state.limits.silence, state.limits.sending);
+    if (why == MHD_REQUEST_TERMINATED_COMPLETED_OK)
+      state.allow(connection, state.limits.silence, state.limits.sending);
   }
 
   static void on_connection(void* self, MHD_Connection* connection, void** /*context*/,
