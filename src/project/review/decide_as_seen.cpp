@@ -85,6 +85,8 @@ Result<DecisionsAsSeen> decide_as_seen(Database& database, std::span<const std::
     }
     Result<std::optional<std::string>> later = events->last_of((**row).id);
     if (!later) return later.error();
+    if (!*later && (**row).gone_run && *(**row).gone_run > seen.run)
+      *later = "run " + std::to_string(*(**row).gone_run) + " does not find it any more";
     if (*later) {
       outcome.refused.push_back({key, std::move(**later)});
       continue;

@@ -127,10 +127,10 @@ export class Live {
   private async decide(rows: ArrayLike<number>, decision: Decision): Promise<Outcome> {
     const { key } = this.report.results!;
     const keys = Array.from(rows, (row) => key.at(row));
+    // What was seen when somebody pressed Save, whatever is told before it is their turn.
+    const seen = { ...this.seen };
     return this.inTurn(async () => {
       const outcome: Outcome = { decided: 0, refused: [] };
-      // All parts are about what was seen before the first of them.
-      const seen = { ...this.seen };
       for (let from = 0; from < keys.length; from += KEYS_AT_ONCE) {
         const part = keys.slice(from, from + KEYS_AT_ONCE);
         const state = await this.api!.decide(seen, part, decision);

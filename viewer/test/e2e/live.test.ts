@@ -145,7 +145,7 @@ test('a new run is told and loaded', { skip }, async () => {
   const key = await choose(page, 20);
   project.run('clash', '-p', 'ship.strake', '--clearance', '25mm', '--group-by', 'element');
   await page.waitForSelector('.live-bar:has-text("Run 2 has tested this project")');
-  await page.click('.live-bar button');
+  await Promise.all([page.waitForEvent('load'), page.click('.live-bar button')]);
   await page.waitForSelector('.decide');
   assert.equal(await page.textContent('.details code'), key, 'the clash that was looked at');
   assert.equal(await page.textContent('.live-bar'), '');
