@@ -87,11 +87,14 @@ TEST_F(DecideAsSeen, a_run_meanwhile_that_leaves_a_clash_as_it_is_is_no_change) 
   ASSERT_TRUE(database_->execute(
       "INSERT INTO event (clash, run, at, who, before, after, comment) VALUES "
       "(1, 2, '2026-01-03T00:00:00Z', 'strake', 'new', 'resolved', 'no longer found')"));
-  const DecisionsAsSeen done =
-      decide({clash_key(0), clash_key(1)}, decision_by("ann", DecisionStatus::approved), seen);
+  // One that a person had resolved is gone without another word.
+  ASSERT_TRUE(database_->execute("UPDATE clash SET gone_run = 2 WHERE id = 3"));
+  const DecisionsAsSeen done = decide({clash_key(0), clash_key(1), clash_key(2)},
+                                      decision_by("ann", DecisionStatus::approved), seen);
   EXPECT_EQ(done.changed, 1U);
-  ASSERT_EQ(done.refused.size(), 1U);
+  ASSERT_EQ(done.refused.size(), 2U);
   EXPECT_EQ(done.refused[0].why, "a later run made it resolved: no longer found");
+  EXPECT_EQ(done.refused[1].why, "run 2 does not find it any more");
   EXPECT_EQ(status(1), "approved");
 }
 
