@@ -50,7 +50,8 @@ class View(Scenario):
 
     def ask(self, method, path, body=None, **changed):
         """The answer, with its body as text; a header that is None is left out."""
-        headers = {'Host': f'127.0.0.1:{self.port}', 'Strake-Token': self.token, **changed}
+        headers = {'Host': f'127.0.0.1:{self.port}', 'Strake-Token': self.token,
+                   **{name.replace('_', '-'): value for name, value in changed.items()}}
         if method == 'POST':
             headers.setdefault('Origin', f'http://127.0.0.1:{self.port}')
             headers.setdefault('Content-Type', 'application/json')
@@ -58,7 +59,7 @@ class View(Scenario):
         connection.putrequest(method, path, skip_host=True, skip_accept_encoding=True)
         for name, value in headers.items():
             if value is not None:
-                connection.putheader(name.replace('_', '-'), value)
+                connection.putheader(name, value)
         data = b'' if body is None else body.encode()
         if method == 'POST':
             connection.putheader('Content-Length', str(len(data)))

@@ -20,13 +20,13 @@ using strake::test::add_run;
 using strake::test::clash_key;
 using strake::test::project_with_clashes;
 
-constexpr std::uint16_t kPort = 8123;
-const std::string kToken(40, 'a'), kCookie(40, 'b');
+constexpr std::uint16_t kSitePort = 8123;
+const std::string kSiteToken(40, 'a'), kSiteCookie(40, 'b');
 
 class SiteTest : public ::testing::Test {
  protected:
   Site site() {
-    return {Gate(kPort, kToken, kCookie),
+    return {Gate(kSitePort, kSiteToken, kSiteCookie),
             {*database_,
              [this]() -> Result<ServedPage> {
                ++made_;
@@ -43,7 +43,7 @@ class SiteTest : public ::testing::Test {
             .headers = {{"Host", "127.0.0.1:8123"},
                         {"Origin", "http://127.0.0.1:8123"},
                         {"Content-Type", "application/json"},
-                        {"Strake-Token", kToken}},
+                        {"Strake-Token", kSiteToken}},
             .body = {}};
   }
   static unsigned refusal(Site& site, const Request& asked) {
@@ -80,8 +80,8 @@ TEST_F(SiteTest, the_page_is_made_once_for_each_run) {
   const Answer first = here.answer(page);
   EXPECT_EQ(*first.body, "<p>page");
   EXPECT_EQ(header_of(first, "Content-Security-Policy"), "default-src 'none'");
-  EXPECT_NE(header_of(first, "Set-Cookie").find(kCookie), std::string::npos);
-  EXPECT_EQ(header_of(first, "Set-Cookie").find(kToken), std::string::npos);
+  EXPECT_NE(header_of(first, "Set-Cookie").find(kSiteCookie), std::string::npos);
+  EXPECT_EQ(header_of(first, "Set-Cookie").find(kSiteToken), std::string::npos);
   (void)here.answer(page);
   EXPECT_EQ(made_, 1);
   decide(here, {{"run", 1}, {"event", 0}, {"keys", {clash_key(0)}}, {"status", "approved"}},
@@ -209,11 +209,11 @@ TEST_F(SiteTest, what_makes_no_sense_changes_nothing) {
 }
 
 TEST_F(SiteTest, many_clients_of_a_server_see_what_one_of_them_decides) {
-  Site here(Gate(kPort, kToken, kCookie),
+  Site here(Gate(kSitePort, kSiteToken, kSiteCookie),
             {*database_, {}, "ann", [] { return std::string("2026-01-02T03:04:05Z"); }});
   // The port of a test is chosen by the system; the gate knows the one that requests state.
   test::Served served(Server::listen(0).value(), here);
-  const std::string head = "Host: 127.0.0.1:8123\r\nStrake-Token: " + kToken + "\r\n";
+  const std::string head = "Host: 127.0.0.1:8123\r\nStrake-Token: " + kSiteToken + "\r\n";
   const std::string body =
       R"({"run":1,"event":0,"keys":[")" + clash_key(2) + R"("],"status":"approved"})";
   const std::string answer =
