@@ -88,7 +88,7 @@ Result<ExitCode> run_view(Session& session, const ViewOptions& given) {
     return status.error();
   session.console().note(
       fmt::format("{}: open this address in a browser; Ctrl-C ends it", opened->file));
-  session.end_progress();
+  session.begin_serving();
   if (const Status status = server->serve(site, session.context().stop); !status)
     return status.error();
   return ExitCode::done;

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { after, before, test } from 'node:test';
-import type { Browser, Page } from 'playwright-core';
+import type { Browser, BrowserContextOptions, Page } from 'playwright-core';
 import { launch } from '../support/browser.ts';
 import { PROGRAM, ServedProject } from '../support/served.ts';
 
@@ -31,8 +31,8 @@ interface Served {
   faults: string[];
 }
 
-async function open(url = address): Promise<Served> {
-  const page = await (await browser.newContext({ viewport: { width: 1440, height: 900 } })).newPage();
+async function open(url = address, options: BrowserContextOptions = {}): Promise<Served> {
+  const page = await (await browser.newContext({ viewport: { width: 1440, height: 900 }, ...options })).newPage();
   page.setDefaultTimeout(40000);
   const faults: string[] = [];
   page.on('pageerror', (error) => faults.push(String(error)));
@@ -92,6 +92,7 @@ test('several are marked with the keys and decided about at once', { skip }, asy
   await page.getByRole('button', { name: 'Decide', exact: true }).click();
   assert.match((await page.textContent('.details h2'))!, /6 marked clashes/);
   await page.selectOption('#decide-status', 'approved');
+  await page.focus('#decide-status');
   await page.keyboard.press('Tab');
   await page.keyboard.type('jkpg');
   assert.equal(await page.inputValue('#decide-assignee'), 'jkpg', 'letters are no shortcuts here');
@@ -142,7 +143,7 @@ test('what others decide shows, and is not overwritten unseen', { skip }, async 
 
 test('a new run is told and loaded', { skip }, async () => {
   const { page, faults } = await open();
-  const key = await choose(page, 20);
+  const key = await choose(page, 10);
   project.run('clash', '-p', 'ship.strake', '--clearance', '25mm', '--group-by', 'element');
   await page.waitForSelector('.live-bar:has-text("Run 2 has tested this project")');
   await Promise.all([page.waitForEvent('load'), page.click('.live-bar button')]);
@@ -154,20 +155,18 @@ test('a new run is told and loaded', { skip }, async () => {
 });
 
 test('axe finds nothing wrong, light or dark, wide or narrow', { skip }, async () => {
-  const { page } = await open();
-  await choose(page, 0);
-  await page.locator('#results-row-1 .mark-box').click();
-  for (const [scheme, width] of [['light', 1440], ['dark', 1440], ['light', 400]] as const) {
-    await page.emulateMedia({ colorScheme: scheme });
-    await page.setViewportSize({ width, height: 900 });
+  for (const [colorScheme, width] of [['light', 1440], ['dark', 1440], ['light', 400]] as const) {
+    const { page } = await open(address, { colorScheme, viewport: { width, height: 900 }, reducedMotion: 'reduce' });
+    await choose(page, 0);
+    await page.locator('#results-row-1 .mark-box').click();
     await page.evaluate(axe);
     const wrong = await page.evaluate(async () => {
       const result = await (window as any).axe.run(document, { resultTypes: ['violations'] });
       return result.violations.map((v: any) => `${v.id}: ${v.nodes.map((n: any) => `${n.target} ${n.failureSummary}`).join(' | ').slice(0, 600)}`);
     });
-    assert.deepEqual(wrong, [], `${scheme} ${width}`);
+    assert.deepEqual(wrong, [], `${colorScheme} ${width}`);
+    await page.context().close();
   }
-  await page.context().close();
 });
 
 test('pages of others and the file itself set nothing', { skip }, async () => {
