@@ -103,8 +103,7 @@ async function run(url: string, clicks: number): Promise<Run> {
     const opening = less(await cpu(browser), before);
     const { list, model } = (await page.evaluate(() => (window as any).seen)) as { list: number; model: number };
     await page.click('#tab-list');
-    await settle(page);
-    // The first clicks compile programs.
+    // The first clicks compile programs. The whole of a large model is not waited for.
     for (let i = 0; i < 4; ++i) await click(page, i);
     await settle(page);
     const start = await cpu(browser);
