@@ -96,7 +96,7 @@ Status Site::prepare() {
 
 Answer Site::page() {
   if (const Status status = prepare(); !status) {
-    Answer refusal = error_answer(status.error());
+    const Answer refusal = error_answer(status.error());
     return text_answer(refusal.status, status.error().text());
   }
   return {HttpStatus::ok,
