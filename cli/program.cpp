@@ -35,6 +35,7 @@ Examples:
   strake project new ship.strake hull.rvm hvac.rvm
   strake clash -p ship.strake
   strake report -p ship.strake -o report.html
+  strake view -p ship.strake
   strake convert hull.rvm hull.glb
   strake generate ship --objects 20000 --seed 1 -o ship.glb --truth ship.truth.json
   strake evaluate --scale 0.02
@@ -94,13 +95,14 @@ int run(int argc, char** argv) {
   const Verb info = add_info(program, common);
   std::vector<Verb> verbs = add_project_verbs(program, common);
   for (Verb& verb : add_cache_verbs(program, common)) verbs.push_back(std::move(verb));
-  verbs.insert(verbs.end(),
-               {add_clash_diff(*clash.command, common), add_clash_set(*clash.command, common),
-                add_clash_list(*clash.command, common), add_clash_history(*clash.command, common),
-                clash, add_draw_diff(*draw.command, common), draw, info, add_rules_verb(program),
-                add_report(program, common), add_convert(program, common),
-                add_generate(program, common), add_evaluate(program, common), add_help(program),
-                add_man(program), add_completion(program)});
+  verbs.insert(
+      verbs.end(),
+      {add_clash_diff(*clash.command, common), add_clash_set(*clash.command, common),
+       add_clash_list(*clash.command, common), add_clash_history(*clash.command, common), clash,
+       add_draw_diff(*draw.command, common), draw, info, add_rules_verb(program),
+       add_report(program, common), add_view(program, common), add_convert(program, common),
+       add_generate(program, common), add_evaluate(program, common), add_help(program),
+       add_man(program), add_completion(program)});
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& wanted) {  // --help, --version

@@ -90,6 +90,7 @@ set(manual
   docs/selection.md
   docs/sheets.md
   docs/statuses.md
+  docs/view.md
   examples/nightly.sh
   examples/ship_rules.toml
   examples/ship_notes.toml

@@ -28,6 +28,7 @@ MAY_USE = {
     'pictures': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'hlr', 'drawing', 'report'],
     'bcf': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing', 'report', 'pictures'],
     'page': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing', 'sheets', 'report'],
+    'serve': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'settings', 'rules', 'hlr', 'drawing', 'report', 'project'],
     'publish': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'hlr', 'drawing', 'sheets', 'report', 'workbook',
                 'pictures', 'bcf', 'page'],
 }
@@ -97,6 +98,7 @@ OWN_CONCURRENCY = {
     'cli/program.cpp': 'a file beyond the limit is an error of writing, no signal',
     'cli/run/session.cpp': 'the step that the progress line names',
     'cli/run/session.hpp': 'the step that the progress line names',
+    'src/serve/http/wake.cpp': 'a stop request ends the wait for clients',
     'src/io/importer/child_process.cpp': 'starts another program and waits for its end',
 }
 

@@ -27,7 +27,7 @@ async function script() {
 }
 
 async function style() {
-  return (await transform(await read('src/style.css'), { loader: 'css', minify: true, target: ['chrome111', 'firefox115', 'safari16.4'] })).code;
+  return (await transform((await read('src/style.css')) + (await read('src/live/live.css')), { loader: 'css', minify: true, target: ['chrome111', 'firefox115', 'safari16.4'] })).code;
 }
 
 async function page() {

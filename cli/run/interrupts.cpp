@@ -76,7 +76,7 @@ void Interrupts::wait() {
   if (files[0].revents != 0) return;
   source_.request_stop();
   int ready = 0;
-  while ((ready = ::poll(files.data(), 1, kGraceMs)) < 0 && errno == EINTR) {
+  while ((ready = ::poll(files.data(), 1, grace_ms_)) < 0 && errno == EINTR) {
   }
   if (ready == 0) end_now();
 }

@@ -22,6 +22,8 @@ namespace strake::cli {
 class Interrupts {
  public:
   static constexpr int kGraceMs = 25;
+  /// Of a verb that a signal ends well: its project is closed, which may write to a slow disk.
+  static constexpr int kLongGraceMs = 5000;
 
   explicit Interrupts(Console& console);
   ~Interrupts();
@@ -31,6 +33,8 @@ class Interrupts {
   Interrupts& operator=(Interrupts&&) = delete;
 
   [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+  /// From now on a signal is how the verb ends, and what it does then is waited for.
+  void expect() { grace_ms_ = kLongGraceMs; }
   /// Names a file that the run will write.
   void guard(const std::filesystem::path& target);
 
@@ -43,6 +47,7 @@ class Interrupts {
   std::stop_source source_;
   std::mutex mutex_;
   std::vector<std::filesystem::path> targets_;
+  std::atomic<int> grace_ms_{kGraceMs};
   int signals_ = -1;  ///< signalfd
   int closing_ = -1;  ///< eventfd, readable once the program is done
   std::thread thread_;

@@ -51,6 +51,11 @@ class Session {
   /// Writes data to standard output.
   [[nodiscard]] Status write_stdout(Producer producer);
   [[nodiscard]] Status write_stdout(std::string_view text);
+  /// Removes the progress line for good: what waits for people is no work, and a signal ends it.
+  void begin_serving() {
+    line_.reset();
+    interrupts_.expect();
+  }
   /// Removes the progress line and prints what --stats asks for.
   void finish();
 

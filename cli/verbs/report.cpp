@@ -17,6 +17,7 @@
 #include "cli/verbs/clash/clash_output.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/draw/draw_stored.hpp"
+#include "cli/verbs/project_page.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
 #include "page/page.hpp"
@@ -141,8 +142,8 @@ page::WithoutModel why_without_model(const ProjectFacts& facts, const Result<Loa
       "'strake clash -p " + project + "' tests it as it is now; then write this report once more."};
 }
 
-Status write_project_page(Session& session, const ReportOptions& given, const OpenedProject& opened,
-                          const Result<Loaded>& loaded, ProjectFacts& facts) {
+Status put_together(Session& session, const std::string& geometry, const OpenedProject& opened,
+                    const Result<Loaded>& loaded, ProjectFacts& facts, const PageTaker& take) {
   const project::LastRun& run = facts.run;
   const bool has_results = !run.findings.tests.empty();
   page::WithoutModel without =
@@ -173,22 +174,17 @@ Status write_project_page(Session& session, const ReportOptions& given, const Op
     const auto at = facts.decisions.clashes.find(run.rows[row.test][row.pair]);
     return at == facts.decisions.clashes.end() ? std::string_view() : at->second.row.assignee;
   };
-  const page::PageContents page{opened.project.path().filename().string(),
-                                model,
-                                has_results ? &clash : nullptr,
-                                assignee,
-                                is_as_tested ? &loaded->scene : nullptr,
-                                publish::model_shown(given.page_geometry),
-                                std::move(without),
-                                {},
-                                std::move(facts.drawings),
-                                std::move(facts.trend)};
-  for (const std::string& file : given.outputs) {
-    const Status status = session.write(
-        file, [&](Session::Sink sink) { return page::write_page(page, sink, session.context()); });
-    if (!status) return status;
-  }
-  return {};
+  page::PageContents page{opened.project.path().filename().string(),
+                          model,
+                          has_results ? &clash : nullptr,
+                          assignee,
+                          is_as_tested ? &loaded->scene : nullptr,
+                          publish::model_shown(geometry),
+                          std::move(without),
+                          {},
+                          std::move(facts.drawings),
+                          std::move(facts.trend)};
+  return take(page);
 }
 
 Result<ExitCode> run_report(Session& session, const ReportOptions& given) {
@@ -200,19 +196,33 @@ Result<ExitCode> run_report(Session& session, const ReportOptions& given) {
     return status.error();
   Result<OpenedProject> opened = open_project(session, given.project, project::Access::read);
   if (!opened) return opened.error();
-  Result<ProjectFacts> facts = facts_of(session, *opened);
-  if (!facts) return facts.error();
-  // The page shows curves coarser than any test needs them.
-  const Result<Loaded> loaded = load_project(session, *opened, {});
-  // Results are worth a page although their model cannot be read.
-  const bool has_results = !facts->run.findings.tests.empty();
-  if (!loaded && (loaded.error().code != ErrorCode::input || !has_results)) return loaded.error();
-  if (const Status status = write_project_page(session, given, *opened, loaded, *facts); !status)
-    return status.error();
+  const Status status = make_project_page(
+      session, *opened, given.page_geometry, [&](const page::PageContents& page) -> Status {
+        for (const std::string& file : given.outputs) {
+          const Status written = session.write(file, [&](Session::Sink sink) {
+            return page::write_page(page, sink, session.context());
+          });
+          if (!written) return written;
+        }
+        return {};
+      });
+  if (!status) return status.error();
   return ExitCode::done;
 }
 
 }  // namespace
+
+Status make_project_page(Session& session, OpenedProject& opened, const std::string& geometry,
+                         const PageTaker& take) {
+  Result<ProjectFacts> facts = facts_of(session, opened);
+  if (!facts) return facts.error();
+  // The page shows curves coarser than any test needs them.
+  const Result<Loaded> loaded = load_project(session, opened, {});
+  // Results are worth a page although their model cannot be read.
+  const bool has_results = !facts->run.findings.tests.empty();
+  if (!loaded && (loaded.error().code != ErrorCode::input || !has_results)) return loaded.error();
+  return put_together(session, geometry, opened, loaded, *facts, take);
+}
 
 Verb add_report(CLI::App& program, CommonOptions& common) {
   const auto options = std::make_shared<ReportOptions>();

@@ -35,6 +35,7 @@ struct Verb {
 /// The verbs of 'strake cache'; it has no run of its own.
 [[nodiscard]] std::vector<Verb> add_cache_verbs(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_report(CLI::App& program, CommonOptions& common);
+[[nodiscard]] Verb add_view(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_convert(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_generate(CLI::App& program, CommonOptions& common);
 [[nodiscard]] Verb add_evaluate(CLI::App& program, CommonOptions& common);

@@ -10,6 +10,7 @@
 #include "page/geometry/model_blocks.hpp"
 #include "page/geometry/shown_objects.hpp"
 #include "page/page_head.hpp"
+#include "page/page_policy.hpp"
 #include "page/page_template.hpp"
 #include "page/results/page_objects.hpp"
 #include "page/results/result_blocks.hpp"
@@ -60,9 +61,12 @@ std::vector<bool> named_objects(const PageContents& contents, const ShownObjects
 }
 
 /// Writes the page once everything in it is known.
-Status put_out(const std::vector<Block>& blocks, report::Sink sink,
+Status put_out(const std::vector<Block>& blocks, bool is_served, report::Sink sink,
                const parallel::Context& context) {
-  for (const std::string_view piece : kBeforePayload) sink(piece);
+  // The policy stands in the first piece.
+  const std::string first = is_served ? with_served_policy(kBeforePayload[0]) : std::string();
+  for (std::size_t i = 0; i < kBeforePayload.size(); ++i)
+    sink(i == 0 && is_served ? std::string_view(first) : kBeforePayload[i]);
   for (const Block& block : blocks)
     if (const Status status = write_block(block, sink, context); !status) return status;
   for (const std::string_view piece : kAfterPayload) sink(piece);
@@ -117,7 +121,11 @@ Status write_page(const PageContents& contents, report::Sink sink,
                 context);
   if (!head) return head.error();
   blocks.insert(blocks.begin(), text_block("strake-head", std::move(*head)));
-  return put_out(blocks, sink, context);
+  return put_out(blocks, contents.served.has_value(), sink, context);
+}
+
+std::string served_policy() {
+  return std::string(policy_in(with_served_policy(kBeforePayload[0]))) + "; frame-ancestors 'none'";
 }
 
 Status write_clash_page(const report::ClashContents& contents, report::Sink sink,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,6 +45,12 @@ struct WithoutModel {
   std::string why, remedy;
 };
 
+/// What a page that is served shows of a project, and who decides in it.
+struct ServedFacts {
+  std::int64_t run = 0, event = 0;  ///< the last ones that it knows of
+  std::string by;
+};
+
 /// What a page has; what is null or empty it has not.
 struct PageContents {
   std::string title;
@@ -60,7 +67,12 @@ struct PageContents {
   std::vector<bool> drawn = {};
   std::vector<PageDrawing> drawings = {};
   std::vector<TrendPoint> trend = {};
+  /// Of a page that 'strake view' serves: it may then ask its server, and nobody else.
+  std::optional<ServedFacts> served = {};
 };
+
+/// Returns the policy (Content-Security-Policy) that a page is served with.
+[[nodiscard]] std::string served_policy();
 
 /// Writes a page. Its bytes depend on the contents alone. Nothing of a model stands in markup: all
 /// is base64. Errors: cancelled, out of memory.

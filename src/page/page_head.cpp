@@ -120,6 +120,13 @@ Result<std::string> page_head(const PageContents& contents, const HeadFacts& fac
     report::append_json(out, drawing.title);
     out += ", \"objects\": " + std::to_string(drawing.objects) + "}";
   });
+  if (contents.served) {
+    member(out, "served");
+    out += "{\"run\": " + std::to_string(contents.served->run) +
+           ", \"event\": " + std::to_string(contents.served->event) + ", \"by\": ";
+    report::append_json(out, contents.served->by);
+    out += '}';
+  }
   out += "\n}\n";
   return out;
 }

@@ -6,6 +6,7 @@ where STRAKE_DATA names a folder that holds those."""
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -31,6 +32,17 @@ def bring(pattern, folder, data):
     return bool(found)
 
 
+def run(command, folder, strake):
+    """The exit code of a command, and what it told. One that serves is ended as by Ctrl-C once it has told where."""
+    serves = command.startswith('strake view ')
+    process = subprocess.Popen('exec ' * serves + command, shell=True, cwd=folder, text=True, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, env={**os.environ, 'PATH': f'{strake.parent}:{os.environ["PATH"]}'})
+    if serves and process.stdout.readline():
+        process.send_signal(signal.SIGINT)
+    told = process.communicate(timeout=600)[1]
+    return process.returncode, told
+
+
 def faults_of(page, strake, project, data):
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -38,11 +50,10 @@ def faults_of(page, strake, project, data):
         for command in commands_of(page.read_text(encoding='utf-8')):
             if not all([bring(pattern, folder, data) for pattern in REAL_MODEL.findall(command)]):
                 continue
-            done = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True, timeout=600,
-                                  env={**os.environ, 'PATH': f'{strake.parent}:{os.environ["PATH"]}'})
+            code, told = run(command, folder, strake)
             # What --fail-on stops at is an answer, too.
-            if done.returncode not in ((0, 1) if '--fail-on' in command else (0,)):
-                yield f'{page.name}: {command}: exit code {done.returncode}\n{done.stderr}'
+            if code not in ((0, 1) if '--fail-on' in command else (0,)):
+                yield f'{page.name}: {command}: exit code {code}\n{told}'
 
 
 def main():

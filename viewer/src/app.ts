@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Puts the panels together: what is chosen in one is shown in the others, and stands in the address.
-import { noFilter, worstOf } from './data/filter.ts';
+import { noFilter, rowsOf, worstOf } from './data/filter.ts';
 import { type Report, shown } from './data/report.ts';
 import { DrawingPanel } from './drawings/drawing_panel.ts';
-import { groupDetails, objectDetails, resultDetails, type DetailEvents } from './panels/details.ts';
+import { Live } from './live/live.ts';
+import { groupDetails, markedDetails, objectDetails, resultDetails, type DetailEvents } from './panels/details.ts';
 import { helpDialog } from './panels/help.ts';
 import { ListPanel } from './panels/list_panel.ts';
 import { overview } from './panels/overview.ts';
@@ -28,16 +29,26 @@ export class App {
   private readonly views: Partial<Record<Place, HTMLElement>> = {};
   private readonly tabs: Partial<Record<Place, HTMLButtonElement>> = {};
   private readonly help = helpDialog();
+  private readonly live: Live | undefined;
   private readonly printed = h('div', { class: 'print-only' });
   private place: Place = 'overview';
   private row: number | undefined;
   private addressTimer: ReturnType<typeof setTimeout> | undefined;
+  /** what the details tell, and of which results */
+  private told: { rows: ArrayLike<number>; make(): HTMLElement } | undefined;
 
   constructor(
     private readonly report: Report,
     private readonly root: HTMLElement,
   ) {
     this.scene = new ScenePanel(report, { picked: (object) => this.pick(object) });
+    this.live = Live.of(report, {
+      shown: () => this.list?.listed.rows ?? new Uint32Array(0),
+      changed: () => this.list?.refresh(),
+      decide: (rows) => this.tell(rows, () => markedDetails(rows.length)),
+      decided: (rows) => this.redecided(rows),
+    });
+    this.live?.explain(this.help);
     if (report.results) {
       this.list = new ListPanel(report, {
         chosen: (row) => this.choose(row, true),
@@ -46,7 +57,7 @@ export class App {
           this.scene.fly();
         },
         group: (group) => this.showGroup(group),
-      });
+      }, this.live?.marks);
     }
     if (report.head.drawings.length > 0) this.drawings = new DrawingPanel(report, { picked: (object) => this.pick(object) });
     this.build();
@@ -59,6 +70,7 @@ export class App {
     const { clash, scene } = this.report.head;
     if (!this.followAddress()) this.go(clash ? 'overview' : this.drawings ? 'drawings' : scene ? 'list' : 'overview');
     void this.scene.open();
+    this.live?.start();
   }
 
   private build(): void {
@@ -83,19 +95,56 @@ export class App {
           theme,
           h('button', { type: 'button', class: 'small', title: 'Print (P)', onclick: () => window.print() }, 'Print'),
           h('button', { type: 'button', class: 'small', title: 'Help (?)', onclick: () => this.help.showModal() }, 'Help'))),
+      this.live?.bar,
       h('main', {},
-        panel('overview', overview(this.report, {
-          showClass: (cls) => this.limit((f) => f.classes.add(cls)),
-          showCell: (cell) => this.limit((f) => (f.cell = cell)),
-          showTest: (test) => this.limit((f) => (f.test = test)),
-          showStatus: (status) => this.limit((f) => f.statuses.add(status)),
-        })),
+        panel('overview', this.overview()),
         panel('list', h('div', { class: `work${this.list ? '' : ' no-list'}` }, this.list?.element, h('div', { class: 'right-side' }, this.scene.element, this.details))),
         ...(this.drawings ? [panel('drawings', this.drawings.element)] : [])),
       h('footer', { class: 'foot' }, [shown(head.program), head.made && shown(head.made).slice(0, 40), 'all lengths in millimetres'].filter(Boolean).join(' · ')),
       this.help,
       this.printed,
     );
+  }
+
+  private overview(): HTMLElement {
+    return overview(this.report, {
+      showClass: (cls) => this.limit((f) => f.classes.add(cls)),
+      showCell: (cell) => this.limit((f) => (f.cell = cell)),
+      showTest: (test) => this.limit((f) => (f.test = test)),
+      showStatus: (status) => this.limit((f) => f.statuses.add(status)),
+    });
+  }
+
+  /** Decisions about rows are others now. */
+  private redecided(rows: readonly number[]): void {
+    const before = this.views.overview!;
+    const { scrollTop } = before.firstElementChild!;
+    fill(before, this.overview());
+    before.firstElementChild!.scrollTop = scrollTop;
+    this.list?.redecided();
+    const told = this.told;
+    if (!told) return;
+    const changed = new Set(rows);
+    for (let i = 0; i < told.rows.length; ++i) {
+      if (!changed.has(told.rows[i]!)) continue;
+      this.live?.keepFocus(() => this.fillDetails());
+      return;
+    }
+  }
+
+  /** Tells something in the details. Where that is about results, these can be decided about. */
+  private tell(rows: ArrayLike<number>, make: () => HTMLElement): void {
+    this.told = { rows, make };
+    this.live?.about(rows);
+    this.fillDetails();
+    this.details.scrollTop = 0;
+  }
+
+  private fillDetails(): void {
+    const { rows, make } = this.told!;
+    const details = make();
+    if (rows.length > 0) this.live?.place(details);
+    fill(this.details, details);
   }
 
   private listen(): void {
@@ -137,8 +186,7 @@ export class App {
   private choose(row: number, fly: boolean): void {
     this.row = row;
     const results = this.report.results!;
-    fill(this.details, resultDetails(this.report, row, this.detailEvents()));
-    this.details.scrollTop = 0;
+    this.tell([row], () => resultDetails(this.report, row, this.detailEvents()));
     this.scene.showResult(row, fly);
     this.drawings?.mark([results.a[row]!, results.b[row]!]);
     this.tellAddress(`#clash=${results.key.at(row)}`);
@@ -150,7 +198,7 @@ export class App {
       return;
     }
     this.row = undefined;
-    fill(this.details, objectDetails(this.report, object, this.scene.hasShape(object), this.detailEvents(object)));
+    this.tell([], () => objectDetails(this.report, object, this.scene.hasShape(object), this.detailEvents(object)));
     this.scene.showObject(object, false);
     this.drawings?.mark([object]);
   }
@@ -176,7 +224,7 @@ export class App {
   }
 
   private tellNothing(): void {
-    fill(this.details, h('p', { class: 'hint' }, `Choose ${[this.list && 'a clash in the list', this.report.head.scene && 'an object in the model', this.drawings && 'an object in a drawing'].filter(Boolean).join(', or ')}.`));
+    this.tell([], () => h('p', { class: 'hint' }, `Choose ${[this.list && 'a clash in the list', this.report.head.scene && 'an object in the model', this.drawings && 'an object in a drawing'].filter(Boolean).join(', or ')}.`));
   }
 
   private detailEvents(object?: number): DetailEvents {
@@ -197,9 +245,8 @@ export class App {
   private showGroup(group: number): void {
     const groups = this.report.groups!;
     this.row = undefined;
-    fill(this.details, groupDetails(this.report, group, this.detailEvents()));
-    this.details.scrollTop = 0;
     const results = this.report.results!;
+    this.tell(rowsOf(results, group), () => groupDetails(this.report, group, this.detailEvents()));
     const worst = worstOf(results, group);
     // One of the group stands for it, in colour, amid the place of all of them.
     this.drawings?.mark(worst === undefined ? [] : [results.a[worst]!, results.b[worst]!]);
@@ -213,7 +260,7 @@ export class App {
     const row = this.report.results.key.find(key);
     this.go('list');
     if (row < 0) {
-      fill(this.details, h('p', { class: 'note', role: 'alert' }, 'This report has no clash of the key that the link names. It may be mended, or the link is of another model.'));
+      this.tell([], () => h('p', { class: 'note', role: 'alert' }, 'This report has no clash of the key that the link names. It may be mended, or the link is of another model.'));
       return true;
     }
     this.choose(row, true);

@@ -131,6 +131,25 @@ Result<std::vector<ListedClash>> list_clashes(Database& database, const ClashFil
   }
 }
 
+Result<std::vector<ListedClash>> read_clashes(Database& database,
+                                              std::span<const std::int64_t> ids) {
+  const Result<std::map<std::int64_t, TestName>> tests = tests_of(database);
+  if (!tests) return tests.error();
+  Result<ClashRows> rows = ClashRows::of(database);
+  if (!rows) return rows.error();
+  std::vector<ListedClash> found;
+  for (const std::int64_t id : ids) {
+    Result<std::optional<ClashRow>> row = rows->find(id);
+    if (!row) return row.error();
+    if (!*row) continue;
+    const auto test = tests->find((**row).test);
+    if (test == tests->end()) return database.damaged("a clash is of no test");
+    const DecisionStatus status = (**row).status(test->second.run);
+    found.push_back({std::move(**row), test->second.name, status, test->second.run});
+  }
+  return found;
+}
+
 Result<std::map<std::int64_t, report::DecisionStatus>> statuses_at(Database& database,
                                                                    std::int64_t event) {
   Result<Statement> select =

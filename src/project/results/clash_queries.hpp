@@ -32,6 +32,10 @@ struct ClashFilter {
 [[nodiscard]] Result<std::vector<ListedClash>> list_clashes(Database& database,
                                                             const ClashFilter& filter);
 
+/// Returns clashes by the ids of their rows, in that order; ids that no row has are left out.
+[[nodiscard]] Result<std::vector<ListedClash>> read_clashes(Database& database,
+                                                            std::span<const std::int64_t> ids);
+
 /// Returns the statuses that clashes had after an event, of those of which people changed it since.
 [[nodiscard]] Result<std::map<std::int64_t, report::DecisionStatus>> statuses_at(
     Database& database, std::int64_t event);

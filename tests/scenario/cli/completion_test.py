@@ -13,7 +13,7 @@ from pathlib import Path
 
 from scenario import VERBS, Scenario, main
 
-PROGRAM_VERBS = {'clash', 'draw', 'info', 'project', 'rules', 'cache', 'report', 'convert', 'evaluate', 'generate', 'help', 'man', 'completion'}
+PROGRAM_VERBS = {'clash', 'draw', 'info', 'project', 'rules', 'cache', 'report', 'view', 'convert', 'evaluate', 'generate', 'help', 'man', 'completion'}
 
 
 class Completion:

@@ -16,7 +16,7 @@ VERBS = [[], ['clash'], ['clash', 'diff'], ['clash', 'set'], ['clash', 'list'], 
          *[['project', *verb] for verb in ([], ['new'], ['add'], ['update'], ['remove'], ['list'], ['info'], ['check'],
                                            ['export'])],
          ['rules'], ['rules', 'list'], ['rules', 'show'],
-         ['cache'], ['cache', 'list'], ['cache', 'clear'], ['report'], ['convert'], ['evaluate'], ['generate'],
+         ['cache'], ['cache', 'list'], ['cache', 'clear'], ['report'], ['view'], ['convert'], ['evaluate'], ['generate'],
          ['generate', 'ship'], ['help'], ['man'], ['completion']]
 CUBE_FACES = [(1, 4, 3, 2), (5, 6, 7, 8), (1, 2, 6, 5), (2, 3, 7, 6), (3, 4, 8, 7), (4, 1, 5, 8)]
 

@@ -177,6 +177,13 @@ export class Rows {
   }
 }
 
+/** The results of a group, in the order of the document. */
+export function rowsOf(results: Results, group: number): Uint32Array {
+  const rows: number[] = [];
+  for (let i = 0; i < results.count; ++i) if (results.group?.[i] === group) rows.push(i);
+  return Uint32Array.from(rows);
+}
+
 /** The severest result of a group, the deepest of several, or undefined where it has none. */
 export function worstOf(results: Results, group: number): number | undefined {
   let worst: number | undefined;

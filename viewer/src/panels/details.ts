@@ -202,6 +202,11 @@ export function objectDetails(report: Report, object: number, geometry: boolean,
   );
 }
 
+/** What is told of clashes that are marked in the list. */
+export function markedDetails(count: number): HTMLElement {
+  return h('div', { class: 'details' }, h('div', { class: 'details-head' }, h('h2', {}, plural(count, 'marked clash', 'marked clashes'))));
+}
+
 export function groupDetails(report: Report, group: number, events: DetailEvents): HTMLElement {
   const groups = report.groups!;
   const cls = groups.class[group]!;

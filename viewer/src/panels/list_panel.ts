@@ -5,6 +5,7 @@ import { filterGroups, type GroupColumn, type GroupCounts, namedGroups, sortGrou
 import { disciplineOf, fileName, objectName, type Report, shown } from '../data/report.ts';
 import { CLASS_PLURALS, CLASS_WORDS, coordinate, count, length, plural, STATUS_WORDS } from '../data/words.ts';
 import { NONE8 } from '../payload/payload.ts';
+import type { Marks } from '../live/marks.ts';
 import { classCell, type Column, ResultTable } from '../table/result_table.ts';
 import { classMark, fill, h, shortName, toggle, wrappedName } from '../ui/dom.ts';
 import { FurtherLimits } from './further_limits.ts';
@@ -48,6 +49,7 @@ export class ListPanel {
   constructor(
     private readonly report: Report,
     events: ListEvents,
+    private readonly marks?: Marks,
   ) {
     this.rows = new Rows(report);
     this.table = new ResultTable('Results', this.columns(), {
@@ -56,6 +58,7 @@ export class ListPanel {
         events.chosen(row);
       },
       opened: (row) => events.opened(row),
+      ...(marks && { marked: (row: number) => marks.toggle(row) }),
       sorted: (column, down) => {
         this.sort = { column, down };
         this.table.setSort(column, down);
@@ -85,7 +88,7 @@ export class ListPanel {
     this.further.tell(this.filter);
     this.makeBar();
     fill(this.holder, this.table.element);
-    this.element = h('div', { class: 'list' }, h('div', { class: 'list-head' }, this.search, this.bar, this.pills, h('div', { class: 'list-foot' }, this.counted, this.further.element)), this.holder);
+    this.element = h('div', { class: 'list' }, h('div', { class: 'list-head' }, this.search, this.bar, this.pills, h('div', { class: 'list-foot' }, this.counted, this.further.element), marks?.bar), this.holder);
   }
 
   /** Limits the list, and shows it. */
@@ -125,6 +128,14 @@ export class ListPanel {
   refresh(): void {
     if (this.groupsShown) this.groupTable?.refresh();
     else this.table.refresh();
+  }
+
+  /** Shows other decisions: the list stays where it is, unless they change what is in it. */
+  redecided(): void {
+    const rows = this.rows.sort(this.rows.filter(this.filter), this.sort.column, this.sort.down);
+    const { shown } = this.table;
+    if (rows.length === shown.length && rows.every((row, i) => row === shown[i])) this.refresh();
+    else this.update();
   }
 
   private say(shownRows: number, all: number, what: string): void {
@@ -206,6 +217,12 @@ export class ListPanel {
     fill(this.pills, ...list);
   }
 
+  private classOf(row: number): HTMLElement {
+    const cls = this.report.results!.class[row]!;
+    const cell = classCell(cls, CLASS_WORDS[cls]!);
+    return this.marks ? this.marks.cell(row, cell) : cell;
+  }
+
   private columns(): Column<SortColumn>[] {
     const results = this.report.results!;
     const objects = this.report.objects!;
@@ -217,7 +234,7 @@ export class ListPanel {
     };
     const widest = [results.x, results.y, results.z].reduce((n, v) => n + mostDigits(v), 4);
     const columns: Column<SortColumn>[] = [
-      { id: 'class', label: 'Class', title: 'What it is', width: '6rem', cell: (r) => classCell(results.class[r]!, CLASS_WORDS[results.class[r]!]!) },
+      { id: 'class', label: 'Class', title: 'What it is', width: this.marks ? '7.4rem' : '6rem', cell: (r) => this.classOf(r) },
       { id: 'd', label: 'd mm', title: 'Distance; less than 0 is depth', width: '4.6rem', right: true, cell: (r) => length(results.d[r]!) },
       { id: 'a', label: 'Object A', title: 'The one object', width: 'minmax(5rem, 1fr)', cell: (r) => name(results.a[r]!, r, 'a') },
       { id: 'b', label: 'Object B', title: 'The other object', width: 'minmax(5rem, 1fr)', cell: (r) => name(results.b[r]!, r, 'b') },

@@ -115,6 +115,8 @@ export interface Head {
   /** why there is no scene, and what to do about it */
   no_model?: { why: string; remedy?: string };
   drawings: { title: string; objects: number }[];
+  /** of a page that is served: what of the project it shows, and who decides in it */
+  served?: { run: number; event: number; by: string };
 }
 
 type Shape = 'text' | 'number' | 'count' | 'boolean' | 'point' | { list: Shape } | { members: Record<string, Shape>; may?: Record<string, Shape> };
@@ -189,6 +191,7 @@ const head: Shape = {
   },
   may: {
     made: 'text',
+    served: { members: { run: 'count', event: 'count', by: 'text' } },
     clash,
     trend: {
       list: {

@@ -20,6 +20,8 @@ export interface TableEvents<Id extends string> {
   chosen(row: number): void;
   opened(row: number): void;
   sorted(column: Id, down: boolean): void;
+  /** the space bar, where rows can be marked */
+  marked?(row: number): void;
 }
 
 export const ROW_HEIGHT = 38;
@@ -146,6 +148,9 @@ export class ResultTable<Id extends string> {
     } else if (event.key === 'Enter' && this.current >= 0) {
       event.preventDefault();
       this.events.opened(this.rows[this.current]!);
+    } else if (event.key === ' ' && this.current >= 0 && this.events.marked) {
+      event.preventDefault();
+      this.events.marked(this.rows[this.current]!);
     }
   }
 }

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "serve/site/site.hpp"
+
+#include <charconv>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "core/text_encoding.hpp"
+#include "project/results/clash_queries.hpp"
+#include "serve/site/decision_request.hpp"
+#include "serve/site/project_answer.hpp"
+
+namespace strake::serve {
+namespace {
+
+constexpr std::string_view kStatePath = "/api/state", kDecidePath = "/api/decide";
+constexpr std::string_view kJson = "application/json";
+
+/// Returns the one method of a path; nothing where there is no such path.
+std::optional<std::string_view> method_of(std::string_view path) {
+  if (path == kPagePath || path == kStatePath) return "GET";
+  if (path == kDecidePath) return "POST";
+  return std::nullopt;
+}
+
+/// Adds what every answer says: that it is nobody else's, and not to be kept.
+Answer guarded(Answer answer) {
+  for (const auto& [name, value] :
+       {std::pair("Cache-Control", "no-store"), std::pair("X-Content-Type-Options", "nosniff"),
+        std::pair("X-Frame-Options", "DENY"), std::pair("Referrer-Policy", "no-referrer"),
+        std::pair("Cross-Origin-Resource-Policy", "same-origin"),
+        std::pair("Cross-Origin-Opener-Policy", "same-origin")})
+    answer.headers.emplace_back(name, value);
+  // The page has a policy of its own.
+  if (answer.type != "text/html; charset=utf-8")
+    answer.headers.emplace_back("Content-Security-Policy",
+                                "default-src 'none'; frame-ancestors 'none'");
+  return answer;
+}
+
+bool is_json(std::string_view type) {
+  const std::size_t end = type.find(';');
+  return lowered(trimmed(type.substr(0, end))) == kJson;
+}
+
+Answer json_answer(HttpStatus status, std::string text) {
+  return {status, std::string(kJson), std::make_shared<const std::string>(std::move(text))};
+}
+
+std::optional<std::int64_t> row_number(std::string_view text) {
+  std::int64_t number = 0;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (fault != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+Site::Site(Gate gate, SiteContents contents)
+    : gate_(std::move(gate)), contents_(std::move(contents)) {}
+
+std::optional<Answer> Site::refuse(const Request& request) {
+  if (auto refusal = gate_.refuse(request)) return guarded(std::move(*refusal));
+  const auto method = method_of(request.path);
+  if (!method) return guarded(text_answer(HttpStatus::not_found, "there is nothing of this name"));
+  if (request.method != *method) {
+    Answer refusal = text_answer(HttpStatus::method_not_allowed, "this is asked in another way");
+    refusal.headers.emplace_back("Allow", *method);
+    return guarded(std::move(refusal));
+  }
+  if (*method == "POST" && !is_json(request.header("Content-Type").value_or(std::string_view())))
+    return guarded(text_answer(HttpStatus::wrong_type, "this is asked in JSON"));
+  return std::nullopt;
+}
+
+Answer Site::answer(const Request& request) {
+  if (request.path == kPagePath) return guarded(page());
+  if (request.path == kStatePath) return guarded(state(request));
+  return guarded(decide(request));
+}
+
+Status Site::prepare() {
+  if (page_.html) {
+    const Result<project::SeenState> now = project::state_now(contents_.database);
+    if (!now) return now.error();
+    // What people decided since the page asks for.
+    const auto most = static_cast<std::int64_t>(kMostChanges);
+    if (now->run == page_.seen.run && now->event - page_.seen.event < most) return {};
+  }
+  Result<ServedPage> made = contents_.make_page();
+  if (!made) return made.error();
+  page_ = std::move(*made);
+  return {};
+}
+
+Answer Site::page() {
+  if (const Status status = prepare(); !status) {
+    const Answer refusal = error_answer(status.error());
+    return text_answer(refusal.status, status.error().text());
+  }
+  return {HttpStatus::ok,
+          "text/html; charset=utf-8",
+          page_.html,
+          {{"Content-Security-Policy", page_.policy}, {"Set-Cookie", gate_.set_cookie()}}};
+}
+
+Answer Site::state(const Request& request) {
+  const auto event = row_number(request.argument("event").value_or(std::string_view()));
+  if (!event) return error_answer({ErrorCode::usage, "event is no number of a row", {}, {}});
+  const Result<project::ReadScope> scope = project::ReadScope::begin(contents_.database);
+  if (!scope) return error_answer(scope.error());
+  Result<std::string> told = project_answer(contents_.database, *event, nullptr);
+  if (!told) return error_answer(told.error());
+  return json_answer(HttpStatus::ok, std::move(*told));
+}
+
+Answer Site::decide(const Request& request) {
+  Result<DecisionRequest> asked = read_decision_request(request.body);
+  if (!asked) return error_answer(asked.error());
+  asked->decision.by = contents_.by;
+  asked->decision.at = contents_.utc_now();
+  Result<project::Transaction> transaction = project::Transaction::begin(contents_.database);
+  if (!transaction) return error_answer(transaction.error());
+  const Result<project::DecisionsAsSeen> done =
+      project::decide_as_seen(contents_.database, asked->keys, asked->decision, asked->seen);
+  if (!done) return error_answer(done.error());
+  Result<std::string> told = project_answer(contents_.database, asked->seen.event, &*done);
+  if (!told) return error_answer(told.error());
+  if (const Status status = transaction->commit(); !status) return error_answer(status.error());
+  return json_answer(done->refused.empty() ? HttpStatus::ok : HttpStatus::conflict,
+                     std::move(*told));
+}
+
+}  // namespace strake::serve

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "project/review/decide_as_seen.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "support/clash_rows.hpp"
+
+namespace strake::project {
+namespace {
+
+using report::DecisionStatus;
+using test::add_run;
+using test::clash_key;
+using test::project_with_clashes;
+
+ClashDecision decision_by(const std::string& who, DecisionStatus status) {
+  ClashDecision decision;
+  decision.status = status;
+  decision.by = who;
+  decision.at = "2026-01-02T00:00:00Z";
+  return decision;
+}
+
+class DecideAsSeen : public ::testing::Test {
+ protected:
+  DecisionsAsSeen decide(const std::vector<std::string>& keys, const ClashDecision& decision,
+                         const SeenState& seen) {
+    return decide_as_seen(*database_, keys, decision, seen).value();
+  }
+  SeenState now() { return state_now(*database_).value(); }
+  std::string status(int number) {
+    const std::vector<std::int64_t> id{number + 1};
+    return std::string(report::name(read_clashes(*database_, id).value().at(0).status));
+  }
+  std::unique_ptr<Database> database_ = project_with_clashes(4);
+};
+
+TEST_F(DecideAsSeen, what_is_as_it_was_seen_is_decided) {
+  const DecisionsAsSeen done =
+      decide({clash_key(0), clash_key(2)}, decision_by("ann", DecisionStatus::approved), now());
+  EXPECT_EQ(done.changed, 2U);
+  EXPECT_TRUE(done.refused.empty());
+  EXPECT_EQ(done.decided, (std::vector<std::int64_t>{1, 3}));
+  EXPECT_EQ(status(0), "approved");
+  EXPECT_EQ(status(1), "new");
+  EXPECT_EQ(now(), (SeenState{1, 2}));
+}
+
+TEST_F(DecideAsSeen, what_somebody_decided_meanwhile_is_refused_and_the_rest_stands) {
+  const SeenState seen = now();
+  decide({clash_key(1)}, decision_by("bob", DecisionStatus::reviewed), seen);
+  const DecisionsAsSeen done = decide({clash_key(0), clash_key(1), clash_key(2)},
+                                      decision_by("ann", DecisionStatus::approved), seen);
+  EXPECT_EQ(done.changed, 2U);
+  ASSERT_EQ(done.refused.size(), 1U);
+  EXPECT_EQ(done.refused[0].key, clash_key(1));
+  EXPECT_EQ(done.refused[0].why, "bob made it reviewed meanwhile");
+  EXPECT_EQ(status(1), "reviewed");
+  EXPECT_EQ(status(2), "approved");
+  // Who has seen that may decide otherwise.
+  EXPECT_EQ(decide({clash_key(1)}, decision_by("ann", DecisionStatus::approved), now()).changed,
+            1U);
+  EXPECT_EQ(status(1), "approved");
+}
+
+TEST_F(DecideAsSeen, a_comment_meanwhile_is_a_change_too) {
+  const SeenState seen = now();
+  ClashDecision comment;
+  comment.comment = "wait for rev C";
+  comment.by = "bob";
+  comment.at = "2026-01-02T00:00:00Z";
+  decide({clash_key(3)}, comment, seen);
+  const DecisionsAsSeen done =
+      decide({clash_key(3)}, decision_by("ann", DecisionStatus::approved), seen);
+  EXPECT_EQ(done.changed, 0U);
+  ASSERT_EQ(done.refused.size(), 1U);
+  EXPECT_EQ(done.refused[0].why, "bob wrote about it meanwhile: wait for rev C");
+}
+
+TEST_F(DecideAsSeen, a_run_meanwhile_that_leaves_a_clash_as_it_is_is_no_change) {
+  const SeenState seen = now();
+  add_run(*database_, 2);
+  ASSERT_TRUE(database_->execute(
+      "INSERT INTO event (clash, run, at, who, before, after, comment) VALUES "
+      "(1, 2, '2026-01-03T00:00:00Z', 'strake', 'new', 'resolved', 'no longer found')"));
+  // One that a person had resolved is gone without another word.
+  ASSERT_TRUE(database_->execute("UPDATE clash SET gone_run = 2 WHERE id = 3"));
+  const DecisionsAsSeen done = decide({clash_key(0), clash_key(1), clash_key(2)},
+                                      decision_by("ann", DecisionStatus::approved), seen);
+  EXPECT_EQ(done.changed, 1U);
+  ASSERT_EQ(done.refused.size(), 2U);
+  EXPECT_EQ(done.refused[0].why, "a later run made it resolved: no longer found");
+  EXPECT_EQ(done.refused[1].why, "run 2 does not find it any more");
+  EXPECT_EQ(status(1), "approved");
+}
+
+TEST_F(DecideAsSeen, keys_of_no_clash_are_refused_each) {
+  const std::string strange(10000, '\'');
+  const DecisionsAsSeen done =
+      decide({strange, "", clash_key(0)}, decision_by("ann", DecisionStatus::active), now());
+  EXPECT_EQ(done.changed, 1U);
+  ASSERT_EQ(done.refused.size(), 2U);
+  EXPECT_EQ(done.refused[0].key, strange);
+  EXPECT_NE(done.refused[1].why.find("no clash has the key"), std::string::npos);
+}
+
+TEST_F(DecideAsSeen, changes_are_told_once_each_from_an_event_on) {
+  decide({clash_key(2)}, decision_by("ann", DecisionStatus::approved), now());
+  const SeenState seen = now();
+  decide({clash_key(0), clash_key(1)}, decision_by("ann", DecisionStatus::approved), now());
+  decide({clash_key(0)}, decision_by("ann", DecisionStatus::reviewed), now());
+  EXPECT_EQ(changed_since(*database_, seen.event, 100).value(), (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(changed_since(*database_, seen.event, 1).value(), (std::vector<std::int64_t>{1}));
+  EXPECT_TRUE(changed_since(*database_, now().event, 100).value().empty());
+}
+
+}  // namespace
+}  // namespace strake::project
