@@ -11,7 +11,7 @@ from pathlib import Path
 # What stands below each other, and what the columns of the picture are about.
 COLUMNS = [('The model', ['file', 'file_block', 'shape_pack', 'model_seal']),
            ('What became of it', ['revision', 'changed_file', 'changed_object']),
-           ('Tests', ['test', 'report', 'report_part', 'test_objects', 'run', 'run_test', 'run_report', 'run_result']),
+           ('Tests', ['test', 'report', 'report_part', 'snapshot_part', 'test_objects', 'run', 'run_test', 'run_report', 'run_result']),
            ('Clashes', ['clash', 'event', 'former', 'unseen']),
            ('Views', ['view', 'drawing', 'drawing_objects'])]
 WIDTH, BETWEEN, LINE, MARGIN = 176, 52, 15, 16

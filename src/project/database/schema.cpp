@@ -14,6 +14,7 @@
 #include "project/database/model_tables.hpp"
 #include "project/database/result_tables.hpp"
 #include "project/database/revision_tables.hpp"
+#include "project/database/snapshot_tables.hpp"
 #include "project/database/view_tables.hpp"
 
 namespace strake::project {
@@ -53,12 +54,12 @@ Result<std::unique_ptr<Database>> empty_tables() {
 }  // namespace
 
 std::string all_tables() {
-  return fmt::format("{}\n{}\n{}\n{}\n{}", kModelTables, kRevisionTables, kResultTables,
-                     kViewTables, kHistoryTables);
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}", kModelTables, kRevisionTables, kResultTables,
+                     kViewTables, kHistoryTables, kSnapshotTables);
 }
 
 std::span<const MigrationStep> migration_steps() {
-  static constexpr std::array<MigrationStep, 1> kSteps{{{1, kHistoryTables}}};
+  static constexpr std::array<MigrationStep, 2> kSteps{{{1, kHistoryTables}, {2, kSnapshotTables}}};
   return kSteps;
 }
 
