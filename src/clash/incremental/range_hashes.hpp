@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0106 says what may be known of objects without looking at them.
+
 #include <cstddef>
 #include <vector>
 
