@@ -11,8 +11,8 @@ from pathlib import Path
 # What stands below each other, and what the columns of the picture are about.
 COLUMNS = [('The model', ['file', 'file_block', 'shape_pack', 'model_seal']),
            ('What became of it', ['revision', 'changed_file', 'changed_object']),
-           ('Tests', ['test', 'report', 'report_part', 'test_objects', 'run', 'run_test', 'run_report', 'run_result']),
-           ('Clashes', ['clash', 'event', 'said', 'former', 'unseen']),
+            ('Tests', ['test', 'report', 'report_part', 'snapshot_part', 'test_objects', 'run', 'run_test', 'run_report', 'run_result']),
+            ('Clashes', ['clash', 'event', 'said', 'former', 'unseen']),
            ('Views', ['view', 'drawing', 'drawing_objects'])]
 WIDTH, BETWEEN, LINE, MARGIN = 176, 52, 15, 16
 STYLE = """text { font: 11px sans-serif; fill: #222 } .table { font-weight: bold } .part { font-size: 13px; fill: #555 }

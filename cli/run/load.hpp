@@ -12,6 +12,7 @@
 #include "cli/options/options.hpp"
 #include "cli/run/exit_code.hpp"
 #include "cli/run/session.hpp"
+#include "strake/clash/incremental.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
@@ -45,8 +46,13 @@ struct Loaded {
   /// The model files; of a project those that it was made of.
   std::vector<std::filesystem::path> files = {};
 
-  /// Of a project: project::SignedModel::shape_hashes; otherwise none.
+  // Of a project, what project::SignedModel has; otherwise nothing.
   std::vector<Hash128> shape_hashes = {};
+  Hash128 names = {};
+  std::vector<clash::HashedBodies> bodies = {};
+
+  /// Returns all of it that hashes of objects may be made from.
+  [[nodiscard]] clash::KnownModel known() const { return {shape_hashes, bodies, names}; }
 
   /// Returns what reading and placing noticed.
   [[nodiscard]] Diagnostics diagnostics() const;

@@ -171,6 +171,8 @@ Result<Loaded> load_project(Session& session, OpenedProject& opened,
   if (!loaded) return loaded;
   loaded->files = std::move(*files);
   loaded->shape_hashes = std::move(stored->shape_hashes);
+  loaded->names = stored->names;
+  loaded->bodies = std::move(stored->bodies);
   return loaded;
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "project/model/file_rows.hpp"
 #include "project/stored_report/report_codec.hpp"
 #include "strake/clash/incremental.hpp"
+#include "strake/core/hash.hpp"
 
 namespace strake::cli {
 
@@ -61,6 +63,17 @@ Result<bool> is_same_run(Session& session, const Loaded& loaded, const project::
                          const std::vector<std::uint32_t>& now_of) {
   if (!is_same(now_of, loaded.model->objects.size())) return false;
   return clash::have_same_names(before.results.report, *loaded.model, session.context());
+}
+
+/// Returns a hash of a model, of which the project has this seal, and of how it is on the grid.
+Hash128 hash_of_scene(const Hash128& seal, const Loaded& loaded,
+                      const model::SceneOptions& options) {
+  WordHash hash;
+  hash.add(seal).add(hash_bytes(std::as_bytes(std::span(loaded.shape_hashes))));
+  hash.add(options.sag_mm).add(options.weld_mm);
+  for (const bool is_placed : {options.physical, options.obstruction, options.insulation})
+    hash.add(is_placed);
+  return hash.value();
 }
 
 /// Counts the results of the earlier run whose objects are as they were.
@@ -110,21 +123,20 @@ Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions&
   const Result<Hash128> seal = project::model_seal(opened_.project.database());
   if (!seal) return seal.error();
   model_seal_ = *seal;
-  return load_project(session, opened_, options, said_of_files);
+  Result<Loaded> loaded = load_project(session, opened_, options, said_of_files);
+  if (loaded) scene_ = hash_of_scene(*seal, *loaded, options);
+  return loaded;
 }
 
 Result<clash::Findings> ProjectClashes::find(Session& session, const Loaded& loaded,
                                              rules::Plan plan, bool list_exempted) {
-  const Result<std::vector<std::uint64_t>> identities =
-      project::identities(*loaded.model, session.context());
-  if (!identities) return identities.error();
   clash::Findings findings;
   findings.diagnostics = plan.diagnostics;
   for (rules::PlannedTest& planned : plan.tests) {
     planned.policy.list_exempted = list_exempted;
     planned.options.engine.keep_for_changes = true;
     Tested& tested = tests_.emplace_back();
-    Result<clash::Report> report = test(session, loaded, *identities, planned, tested);
+    Result<clash::Report> report = test(session, loaded, planned, tested);
     if (!report) return report.error();
     report->name = planned.name;
     session.console().note(told(planned.name, tested.work));
@@ -142,7 +154,6 @@ Result<clash::Findings> ProjectClashes::find(Session& session, const Loaded& loa
 }
 
 Result<clash::Report> ProjectClashes::test(Session& session, const Loaded& loaded,
-                                           const std::vector<std::uint64_t>& identities,
                                            const rules::PlannedTest& planned, Tested& tested) {
   {
     const auto timer = session.step("read earlier result");
@@ -151,20 +162,13 @@ Result<clash::Report> ProjectClashes::test(Session& session, const Loaded& loade
     if (!before) return before.error();
     tested.before = std::move(*before);
   }
-  {
-    const auto timer = session.step("signatures");
-    Result<clash::Signatures> signatures =
-        clash::signatures(loaded.scene, planned.sets, planned.options, planned.policy,
-                          session.context(), loaded.shape_hashes);
-    if (!signatures) return signatures.error();
-    tested.snapshot = {signatures->rules, identities, std::move(signatures->objects)};
-  }
+  if (const Status status = sign(session, loaded, planned, tested); !status) return status.error();
   const std::string step = planned.name.empty() ? "clash" : "clash " + planned.name;
   const auto timer = session.step(step);
   tested.work.objects = tested.work.changed_objects = loaded.model->objects.size();
   // A log of pairs is about the work of a full run.
   const bool follows = tested.before && !input_.full && !planned.options.engine.log_pairs &&
-                       tested.before->snapshot.whole == tested.snapshot.whole &&
+                       tested.before->snapshot.whole == tested.snapshot().whole &&
                        tested.before->results.report.kept;
   if (follows) return follow(session, loaded, planned, tested);
   Result<clash::Report> report =
@@ -173,24 +177,48 @@ Result<clash::Report> ProjectClashes::test(Session& session, const Loaded& loade
   return report;
 }
 
+Status ProjectClashes::sign(Session& session, const Loaded& loaded,
+                            const rules::PlannedTest& planned, Tested& tested) {
+  const auto timer = session.step("signatures");
+  const Hash128 source =
+      WordHash()
+          .add(scene_)
+          .add(clash::hash_of_inputs(loaded.scene, planned.sets, planned.options, planned.policy))
+          .value();
+  const project::Snapshot* const before = tested.before ? &tested.before->snapshot : nullptr;
+  if (before != nullptr && project::is_same_known(before->source, source)) return {};
+  clash::EarlierSignatures earlier;
+  if (before != nullptr) earlier = {before->signatures, before->ranges};
+  Result<clash::Signatures> signatures =
+      clash::signatures(loaded.scene, planned.sets, planned.options, planned.policy,
+                        session.context(), loaded.known(), earlier);
+  if (!signatures) return signatures.error();
+  if (identities_.empty()) {
+    if (before != nullptr && project::is_same_known(before->names, loaded.names)) {
+      identities_ = before->identities;
+    } else {
+      Result<std::vector<std::uint64_t>> all =
+          project::identities(*loaded.model, session.context());
+      if (!all) return all.error();
+      identities_ = std::move(*all);
+    }
+  }
+  tested.made = project::Snapshot{signatures->rules, identities_, std::move(signatures->objects),
+                                  loaded.names,      source,      std::move(signatures->ranges)};
+  return {};
+}
+
 Result<clash::Report> ProjectClashes::follow(Session& session, const Loaded& loaded,
                                              const rules::PlannedTest& planned, Tested& tested) {
   project::StoredTest& before = *tested.before;
+  if (!tested.made) return keep(planned, tested);
   const Result<std::vector<std::uint32_t>> now_of =
-      project::unchanged(before.snapshot, tested.snapshot, session.context());
+      project::unchanged(before.snapshot, *tested.made, session.context());
   if (!now_of) return now_of.error();
-  project::TestWork& work = tested.work;
   const Result<bool> nothing_changed = is_same_run(session, loaded, before, *now_of);
   if (!nothing_changed) return nothing_changed.error();
-  if (*nothing_changed) {
-    work.how = project::Retested::nothing;
-    work.kept_results = before.results.report.pairs.size();
-    work.changed_objects = 0;
-    clash::Report report = std::move(before.results.report);
-    report.counters = {};
-    report.options = planned.options;
-    return report;
-  }
+  if (*nothing_changed) return keep(planned, tested);
+  project::TestWork& work = tested.work;
   work.how = project::Retested::changes;
   work.changed_objects = work.objects - static_cast<std::uint64_t>(now_of->size()) +
                          static_cast<std::uint64_t>(std::ranges::count(*now_of, model::kNoObject));
@@ -198,7 +226,7 @@ Result<clash::Report> ProjectClashes::follow(Session& session, const Loaded& loa
   Result<clash::FollowedRun> run =
       clash::follow_changes(loaded.scene, planned.sets, planned.options, planned.policy,
                             {std::move(before.results.report), *now_of,
-                             before.snapshot.identities == tested.snapshot.identities},
+                             before.snapshot.identities == tested.made->identities},
                             session.context());
   if (!run) return run.error();
   before.results.report = std::move(run->earlier);
@@ -207,6 +235,16 @@ Result<clash::Report> ProjectClashes::follow(Session& session, const Loaded& loa
                                      : count_kept(before.results.report, *now_of);
   work.tested_pairs = run->report.counters.candidate_pairs;
   return std::move(run->report);
+}
+
+clash::Report ProjectClashes::keep(const rules::PlannedTest& planned, Tested& tested) {
+  clash::Report report = std::move(tested.before->results.report);
+  tested.work.how = project::Retested::nothing;
+  tested.work.kept_results = report.pairs.size();
+  tested.work.changed_objects = 0;
+  report.counters = {};
+  report.options = planned.options;
+  return report;
 }
 
 Status ProjectClashes::verify(Session& session, const Loaded& loaded,
@@ -246,9 +284,12 @@ Status ProjectClashes::remember(Session& session, const Loaded& loaded,
   for (std::size_t t = 0; t < tests_.size(); ++t) {
     Tested& tested = tests_[t];
     // What --verify put in place of the result is written as such.
-    if (differs_) tested.work.how = project::Retested::full;
-    if (differs_) tested.before.reset();
-    tests.push_back({&findings.tests[t], &tested.snapshot, &tested.sets, &tested.policy,
+    if (differs_) {
+      tested.work.how = project::Retested::full;
+      if (!tested.made) tested.made = std::move(tested.before->snapshot);
+      tested.before.reset();
+    }
+    tests.push_back({&findings.tests[t], &tested.snapshot(), &tested.sets, &tested.policy,
                      tested.before ? &*tested.before : nullptr, tested.work,
                      tested.before && tested.changes ? &*tested.changes : nullptr});
   }

@@ -74,18 +74,28 @@ class ProjectClashes {
   struct Tested {
     clash::Sets sets;
     clash::Policy policy;
-    project::Snapshot snapshot;
     std::optional<project::StoredTest> before;
+    std::optional<project::Snapshot> made;      ///< absent: it is that of `before`
     std::optional<clash::PairChanges> changes;  ///< of the results of `before`, where known
     project::TestWork work;
+
+    /// Returns what the result was computed from.
+    [[nodiscard]] const project::Snapshot& snapshot() const {
+      return made ? *made : before->snapshot;
+    }
   };
 
   ProjectClashes(OpenedProject opened, const ClashProjectInput& input);
   [[nodiscard]] Result<clash::Report> test(Session& session, const Loaded& loaded,
-                                           const std::vector<std::uint64_t>& identities,
                                            const rules::PlannedTest& planned, Tested& tested);
+  /// Finds out what the test is computed from; that of the run before it where all of it is the
+  /// same.
+  [[nodiscard]] Status sign(Session& session, const Loaded& loaded,
+                            const rules::PlannedTest& planned, Tested& tested);
   [[nodiscard]] Result<clash::Report> follow(Session& session, const Loaded& loaded,
                                              const rules::PlannedTest& planned, Tested& tested);
+  /// Takes the result of the run before, which is that of this one.
+  [[nodiscard]] static clash::Report keep(const rules::PlannedTest& planned, Tested& tested);
   [[nodiscard]] Status verify(Session& session, const Loaded& loaded,
                               const rules::PlannedTest& planned, clash::Report& report);
 
@@ -93,7 +103,9 @@ class ProjectClashes {
   ClashProjectInput input_;
   std::string started_;
   double started_s_ = 0;
-  Hash128 model_seal_;  ///< of the model that was read
+  Hash128 model_seal_;                     ///< of the model that was read
+  Hash128 scene_;                          ///< of the model, and of how it was put on the grid
+  std::vector<std::uint64_t> identities_;  ///< of the objects, where some test needed them
   std::vector<Tested> tests_;
   std::optional<project::Transaction> transaction_;
   std::optional<project::RememberedRun> run_;

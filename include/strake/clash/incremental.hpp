@@ -25,20 +25,54 @@ struct Signatures {
   /// and id, which tell whose signature it is. Equal signatures of two runs say nothing where their
   /// `rules` differ.
   std::vector<Hash128> objects;
+  /// Of so many objects each, all that their signatures were made from; none where not all of it
+  /// was known of the model.
+  std::vector<Hash128> ranges = {};
+};
+
+/// A hash of some bodies of a model: of those from `first` on, up to the next.
+struct HashedBodies {
+  std::uint32_t first = 0;
+  Hash128 hash;
+};
+
+/// What somebody knows of a model without looking at all of it: hashes that are equal only where
+/// what they are of is.
+struct KnownModel {
+  /// Of each shape, so that meshes are not hashed again; zeros for one that is not known. Runs with
+  /// and without them have other signatures.
+  std::span<const Hash128> shapes = {};
+  /// Of all bodies, with the numbers of the shapes that they refer to, ascending.
+  std::span<const HashedBodies> bodies = {};
+  /// Of all that objects are but their bodies, in their order; zeros: not known.
+  Hash128 objects = {};
+};
+
+/// The signatures of an earlier run of the test.
+struct EarlierSignatures {
+  std::span<const Hash128> objects = {}, ranges = {};  ///< as in Signatures
 };
 
 /// Returns the signatures of one test. The numbers of objects, shapes and labels do not show in
 /// them; what stays the same of a label is its name (SameLabel::names), without which another first
 /// object of a label changes all that carry it.
 ///
-/// `shape_hashes` are those that somebody has of the model's shapes, so that meshes are not hashed
-/// again: equal ones stand for equal shapes, zeros for one that is not known. Runs with and without
-/// them have other signatures. Errors: those of detect() for its inputs; usage for another number
-/// of hashes than of shapes; cancelled.
+/// Where all of `known` is there, objects are looked at only where their numbers, places or source
+/// differ from those of `earlier`: a pass over the scene's bodies says where.
+///
+/// Errors: those of detect() for its inputs; usage for another number of hashes than of shapes;
+/// cancelled.
 [[nodiscard]] Result<Signatures> signatures(const model::Scene& scene, const Sets& sets,
                                             const Options& options, const Policy& policy,
                                             const parallel::Context& context,
-                                            std::span<const Hash128> shape_hashes = {});
+                                            const KnownModel& known = {},
+                                            const EarlierSignatures& earlier = {});
+
+/// Returns a hash of all that a test asks of the objects of a scene by their numbers. Two tests of
+/// equal scenes with equal ones have equal signatures, which then need not be made again; equal
+/// signatures may have other ones.
+[[nodiscard]] Hash128 hash_of_inputs(const model::Scene& scene, const Sets& sets,
+                                     const Options& options, const Policy& policy);
 
 /// A run whose rules had the same signature, as detect() or detect_changes() reported it: nothing
 /// may have been taken out of the report since. With KeptForChanges all its numbers are within the

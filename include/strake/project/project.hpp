@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "strake/clash/incremental.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/io/reader.hpp"
@@ -46,6 +47,11 @@ struct SignedModel {
   /// Of each shape, over all that there is of a mesh or of polylines; zeros for a primitive. Two
   /// models of projects have equal hashes where shapes are equal, to the last bit, and only there.
   std::vector<Hash128> shape_hashes;
+  /// Of the labels of files and of all that their objects are but bodies: two models of projects
+  /// with equal ones have the same objects, by label, id, name and number.
+  Hash128 names = {};
+  /// Of the bodies of each block that is stored, with what numbers of shapes mean there.
+  std::vector<clash::HashedBodies> bodies = {};
 };
 
 /// Whether the file begins as a project does: the program takes it where it takes model files.

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "clash/rules/rule_matcher.hpp"
 #include "clash/rules/tolerance_lengths.hpp"
+#include "strake/clash/incremental.hpp"
 #include "strake/core/version.hpp"
 
 namespace strake::clash {
@@ -121,6 +125,45 @@ Hash128 sum_of_names(const Linked::Lists& lists, const std::vector<Hash128>& nam
   return all;
 }
 
+/// Adds a flag of each object, many to a word.
+void add_flags(WordHash& hash, const std::vector<bool>& flags) {
+  hash.add(flags.size());
+  std::uint64_t word = 0;
+  for (std::size_t i = 0; i < flags.size(); ++i) {
+    word = word << 1U | (flags[i] ? 1U : 0U);
+    if (i % 64 == 63) hash.add(std::exchange(word, 0));
+  }
+  hash.add(word);
+}
+
+/// Adds the values of a list, whose type has no padding, as they lie in memory.
+template <class T>
+void add_values(WordHash& hash, const std::vector<T>& values) {
+  static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, double>);
+  hash.add(values.size()).add(hash_bytes(std::as_bytes(std::span(values))));
+}
+
+/// Adds what an exemption says of each object, by its numbers.
+struct ExemptionInputs {
+  WordHash& hash;
+
+  void operator()(const Between& test) const {
+    add_flags(hash, test.a);
+    add_flags(hash, test.b);
+  }
+  void operator()(const SameLabel& test) const {
+    add_values(hash, test.label);
+    add_values(hash, test.names);
+  }
+  void operator()(const Linked& test) const {
+    for (const Linked::Lists* const lists : {&test.answers_to, &test.refers_to}) {
+      add_values(hash, lists->first);
+      add_values(hash, lists->numbers);
+    }
+    add_values(hash, test.names);
+  }
+};
+
 }  // namespace
 
 Hash128 settings_signature(const model::Scene& scene, const Sets& sets, const Options& options,
@@ -146,6 +189,27 @@ Hash128 settings_signature(const model::Scene& scene, const Sets& sets, const Op
   hash.add(policy.allowed.size());
   for (const Allowed& rule : policy.allowed) add_allowed(hash, rule);
   return hash.add(policy.list_exempted).value();
+}
+
+Hash128 hash_of_inputs(const model::Scene& scene, const Sets& sets, const Options& options,
+                       const Policy& policy) {
+  WordHash hash;
+  hash.add(settings_signature(scene, sets, options, policy));
+  add_flags(hash, sets.in_a);
+  add_flags(hash, sets.in_b);
+  add_values(hash, sets.group);
+  add_values(hash, sets.group_names);
+  for (const Exemption& exemption : policy.exemptions)
+    std::visit(ExemptionInputs{hash}, exemption.test);
+  for (const Allowed& rule : policy.allowed) {
+    add_flags(hash, rule.a);
+    add_flags(hash, rule.b);
+  }
+  if (policy.matrix) add_values(hash, policy.matrix->discipline);
+  if (policy.levels) add_values(hash, policy.levels->object);
+  for (const Tolerances& t : all_tolerances(policy, options))
+    if (t.object_clearances) add_values(hash, t.object_clearances->mm);
+  return hash.value();
 }
 
 RuleSignatures::RuleSignatures(const Sets& sets, const Options& options, const Policy& policy,

@@ -15,6 +15,7 @@
 #include "project/database/model_tables.hpp"
 #include "project/database/result_tables.hpp"
 #include "project/database/revision_tables.hpp"
+#include "project/database/snapshot_tables.hpp"
 #include "project/database/view_tables.hpp"
 
 namespace strake::project {
@@ -54,12 +55,14 @@ Result<std::unique_ptr<Database>> empty_tables() {
 }  // namespace
 
 std::string all_tables() {
-  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}", kModelTables, kRevisionTables, kResultTables,
-                     kViewTables, kHistoryTables, kExchangeTables);
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", kModelTables, kRevisionTables, kResultTables,
+                     kViewTables, kHistoryTables, kExchangeTables,
+                     kSnapshotTables);
 }
 
 std::span<const MigrationStep> migration_steps() {
-  static constexpr std::array<MigrationStep, 2> kSteps{{{1, kHistoryTables}, {2, kExchangeTables}}};
+  static constexpr std::array<MigrationStep, 3> kSteps{
+      {{1, kHistoryTables}, {2, kExchangeTables}, {3, kSnapshotTables}}};
   return kSteps;
 }
 

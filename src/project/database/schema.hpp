@@ -13,7 +13,7 @@ namespace strake::project {
 
 inline constexpr std::uint32_t kApplicationId = 0x5354524B;  ///< "STRK"
 /// The version of the tables; every change of them is a new one, with a step that leads there.
-inline constexpr std::int64_t kSchemaVersion = 3;
+inline constexpr std::int64_t kSchemaVersion = 4;
 
 /// Returns the statements that make all tables.
 [[nodiscard]] std::string all_tables();

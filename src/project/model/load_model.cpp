@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,7 +52,8 @@ class ModelLoader {
     for (const auto step : steps)
       if (const Status status = (this->*step)(); !status) return status.error();
     join_diagnostics();
-    return SignedModel{std::move(model_), std::move(shape_hashes_)};
+    return SignedModel{std::move(model_), std::move(shape_hashes_), hash_of_names(),
+                       hashes_of_bodies()};
   }
 
  private:
@@ -64,6 +66,8 @@ class ModelLoader {
   Status check_blocks();
   Status share_shapes();
   void join_diagnostics();
+  [[nodiscard]] Hash128 hash_of_names() const;
+  [[nodiscard]] std::vector<clash::HashedBodies> hashes_of_bodies() const;
   [[nodiscard]] std::string name_of(const BlockTask& task) const {
     return block_name(database_, rows_[task.row], task.kind);
   }
@@ -295,6 +299,34 @@ void ModelLoader::join_diagnostics() {
                                           row.file.source.label, row.file.given};
   }
   model_.diagnostics = joined_diagnostics(files);
+}
+
+/// Objects are ordered by the labels of their files, then as their blocks are.
+Hash128 ModelLoader::hash_of_names() const {
+  std::vector<std::vector<Hash128>> blocks(rows_.size());
+  for (const BlockTask& task : tasks_)
+    if (task.kind == BlockKind::objects)
+      blocks[task.row].push_back(BlobReader::raw_hash(task.blob));
+  Hasher hasher;
+  for (const std::uint32_t row : by_label_) {
+    hasher.add(std::string_view(rows_[row].file.source.label)).add(rows_[row].file.objects);
+    for (const Hash128& block : blocks[row]) hasher.add(block.high).add(block.low);
+  }
+  return hasher.value();
+}
+
+/// In the order of bodies.
+std::vector<clash::HashedBodies> ModelLoader::hashes_of_bodies() const {
+  std::vector<clash::HashedBodies> hashes;
+  for (const BlockTask& task : tasks_) {
+    if (task.kind != BlockKind::bodies) continue;
+    const FilePlace& place = places_[task.row];
+    hashes.push_back(
+        {static_cast<std::uint32_t>(place.first_body + first_of(task)),
+         WordHash().add(BlobReader::raw_hash(task.blob)).add(place.first_shape).value()});
+  }
+  std::ranges::sort(hashes, {}, &clash::HashedBodies::first);
+  return hashes;
 }
 
 }  // namespace

@@ -233,8 +233,10 @@ class RunMemory {
                               changes};
     if (const Status status = write_test(database_, written, before, context); !status)
       return status;
-    if (const Status status = write_test_objects(database_, row.id, model_, memory.is_unchanged());
-        !status)
+    const bool are_known =
+        memory.is_unchanged() ||
+        (before != nullptr && is_same_known(before->snapshot.names, test.snapshot->names));
+    if (const Status status = write_test_objects(database_, row.id, model_, are_known); !status)
       return status;
     if (const Status status =
             write_run_result(database_, run_.number,

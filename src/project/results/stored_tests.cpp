@@ -47,20 +47,6 @@ Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test,
   }
 }
 
-Result<Snapshot> decode_snapshot(const Bytes& bytes, const std::string& what) {
-  Result<BlobReader> in = BlobReader::open(bytes, what);
-  if (!in) return in.error();
-  Snapshot snapshot = read_snapshot(*in);
-  if (const Status status = in->finish(); !status) return status.error();
-  return snapshot;
-}
-
-Result<Bytes> encode_snapshot(const Snapshot& snapshot) {
-  BlobWriter out;
-  write(out, snapshot);
-  return out.finish();
-}
-
 /// Returns the numbers of the parts, of so many, that have a result which a run took out or put in.
 std::vector<std::size_t> touched_parts(const TestToWrite& test, std::size_t parts) {
   std::vector<bool> is_touched(parts, false);
@@ -97,7 +83,7 @@ Result<std::vector<std::size_t>> changed_parts(const TestToWrite& test, const St
 
 /// A result as bytes: what is no part, and the parts that are to be written.
 struct EncodedResult {
-  Bytes snapshot, kept, head;
+  Bytes kept, head;
   std::vector<Bytes> parts;
 };
 
@@ -106,19 +92,17 @@ Result<EncodedResult> encode(const TestToWrite& test, std::span<const PartRange>
                              std::span<const std::size_t> changed,
                              const parallel::Context& context) {
   Result<std::vector<Bytes>> encoded =
-      parallel::transform(context, {.name = "encode results", .n = changed.size() + 3},
+      parallel::transform(context, {.name = "encode results", .n = changed.size() + 2},
                           [&](std::size_t i) -> Result<Bytes> {
                             // The largest ones come first.
-                            if (i == 0) return encode_snapshot(test.snapshot);
-                            if (i == 1) return encode_kept(test.results.report.kept);
-                            if (i == 2) return encode_head(test.results.report);
-                            return encode_part(test.results, parts[changed[i - 3]]);
+                            if (i == 0) return encode_kept(test.results.report.kept);
+                            if (i == 1) return encode_head(test.results.report);
+                            return encode_part(test.results, parts[changed[i - 2]]);
                           });
   if (!encoded) return encoded.error();
-  const auto first_part = encoded->begin() + 3;
+  const auto first_part = encoded->begin() + 2;
   return EncodedResult{std::move((*encoded)[0]),
                        std::move((*encoded)[1]),
-                       std::move((*encoded)[2]),
                        {std::move_iterator(first_part), std::move_iterator(encoded->end())}};
 }
 
@@ -157,13 +141,26 @@ Status write_result(Database& database, const TestToWrite& test, const StoredTes
   const Result<std::vector<Hash128>> hashes =
       write_parts(database, test.id, parts.size(), *changed, *encoded, before);
   if (!hashes) return hashes.error();
-  Result<Statement> update = database.prepare(
-      "UPDATE report SET snapshot = ?2, head = ?3, kept = ?4, seal = ?5 WHERE test = ?1");
+  Result<Statement> update =
+      database.prepare("UPDATE report SET head = ?2, kept = ?3, seal = ?4 WHERE test = ?1");
   if (!update) return update.error();
-  update->bind(1, test.id).bind(2, std::span<const std::byte>(encoded->snapshot));
-  update->bind(3, std::span<const std::byte>(encoded->head));
-  update->bind(4, std::span<const std::byte>(encoded->kept));
-  return update->bind(5, seal_of(encoded->head, encoded->kept, *hashes)).run();
+  update->bind(1, test.id).bind(2, std::span<const std::byte>(encoded->head));
+  update->bind(3, std::span<const std::byte>(encoded->kept));
+  return update->bind(4, seal_of(encoded->head, encoded->kept, *hashes)).run();
+}
+
+/// Writes what a result was computed from, but for what is stored.
+Status write_source(Database& database, const TestToWrite& test, const StoredTest* before,
+                    const parallel::Context& context) {
+  const bool is_stored =
+      test.is_unchanged && before != nullptr && before->snapshot.names == test.snapshot.names &&
+      before->snapshot.source == test.snapshot.source && before->snapshot == test.snapshot;
+  if (is_stored) return {};
+  const std::optional<clash::KeptForChanges>& kept = test.results.report.kept;
+  const std::span<const Hash128> parts =
+      before == nullptr ? std::span<const Hash128>() : before->snapshot_parts;
+  return write_snapshot(database, test.id, test.snapshot,
+                        kept ? kept->elements : std::span<const std::uint64_t>(), parts, context);
 }
 
 Result<std::vector<std::string>> names_of(Database& database, std::string_view sql) {
@@ -200,24 +197,17 @@ Result<std::optional<TestRow>> find_test(Database& database, const std::string& 
   return std::optional(TestRow{select->integer(0), select->integer(1)});
 }
 
-Status write_snapshot(Database& database, std::int64_t test, const Snapshot& snapshot) {
-  const Result<Bytes> bytes = encode_snapshot(snapshot);
-  if (!bytes) return bytes.error();
-  Result<Statement> update = database.prepare("UPDATE report SET snapshot = ?2 WHERE test = ?1");
-  if (!update) return update.error();
-  return update->bind(1, test).bind(2, std::span<const std::byte>(*bytes)).run();
-}
-
-Result<std::optional<StoredSnapshot>> read_snapshot(Database& database, const std::string& test) {
+Result<std::optional<StoredSnapshot>> find_snapshot(Database& database, const std::string& test) {
   Result<Statement> select = database.prepare(
       "SELECT id, snapshot FROM test LEFT JOIN report ON report.test = id WHERE name = ?1");
   if (!select) return select.error();
   const Result<bool> there = select->bind(1, std::string_view(test)).step();
   if (!there) return there.error();
   if (!*there) return std::optional<StoredSnapshot>();
-  Result<Snapshot> snapshot = decode_snapshot(copy_of(select->bytes(1)), called(database, test));
+  Result<StoredSnapshot> snapshot = read_snapshot(
+      database, select->integer(0), copy_of(select->bytes(1)), called(database, test), {});
   if (!snapshot) return snapshot.error();
-  return std::optional(StoredSnapshot{select->integer(0), std::move(*snapshot)});
+  return std::optional(std::move(*snapshot));
 }
 
 Result<std::optional<StoredTest>> read_test(Database& database, const std::string& name,
@@ -229,24 +219,25 @@ Result<std::optional<StoredTest>> read_test(Database& database, const std::strin
   const Result<bool> there = select->bind(1, std::string_view(name)).step();
   if (!there) return there.error();
   if (!*there) return std::optional<StoredTest>();
-  StoredTest test{select->integer(0), select->integer(1), name, {}, {}};
+  StoredTest test{select->integer(0), select->integer(1), name, {}, {}, {}};
   const Bytes snapshot = copy_of(select->bytes(2)), head = copy_of(select->bytes(3)),
               kept = copy_of(select->bytes(4));
   const std::optional<Hash128> seal = select->hash(5);
   select->reset();
   if (!seal) return database.damaged(result_of(name) + " has no seal");
   const std::string what = called(database, name);
-  Result<Snapshot> then = decode_snapshot(snapshot, what);
+  Result<StoredSnapshot> then = read_snapshot(database, test.id, snapshot, what, context);
   if (!then) return then.error();
-  test.snapshot = std::move(*then);
+  test.snapshot = std::move(then->snapshot);
+  test.snapshot_parts = std::move(then->parts);
   Result<std::vector<Bytes>> parts = read_parts(database, test.id, name);
   if (!parts) return parts.error();
   Result<RememberedReport> results = decode_report({head, kept, std::move(*parts), *seal},
                                                    test.snapshot.identities.size(), what, context);
   if (!results) return results.error();
   test.results = std::move(*results);
-  Result<std::optional<clash::KeptForChanges>> for_changes =
-      decode_kept(kept, test.results.report, test.snapshot.identities.size(), what);
+  Result<std::optional<clash::KeptForChanges>> for_changes = decode_kept(
+      kept, test.results.report, test.snapshot.identities.size(), std::move(then->elements), what);
   if (!for_changes) return for_changes.error();
   test.results.report.kept = std::move(*for_changes);
   return std::optional(std::move(test));
@@ -260,9 +251,9 @@ Status write_test(Database& database, const TestToWrite& test, const StoredTest*
   update->bind(1, test.id).bind(2, std::string_view(test.settings)).bind(3, test.run);
   update->bind(4, static_cast<std::int64_t>(test.snapshot.identities.size()));
   if (const Status status = update->run(); !status) return status;
-  if (!test.is_unchanged) return write_result(database, test, before, context);
-  if (before != nullptr && before->snapshot == test.snapshot) return {};
-  return write_snapshot(database, test.id, test.snapshot);
+  if (!test.is_unchanged)
+    if (const Status status = write_result(database, test, before, context); !status) return status;
+  return write_source(database, test, before, context);
 }
 
 Result<std::optional<model::Model>> read_test_objects(Database& database, const StoredTest& test) {
@@ -281,12 +272,12 @@ Result<std::optional<model::Model>> read_test_objects(Database& database, const 
 }
 
 Status write_test_objects(Database& database, std::int64_t test, const model::Model& model,
-                          bool is_unchanged) {
+                          bool are_known) {
   Result<Statement> select = database.prepare("SELECT names FROM test_objects WHERE test = ?1");
   if (!select) return select.error();
   const Result<bool> there = select->bind(1, test).step();
   if (!there) return there.error();
-  if (*there && is_unchanged) return {};
+  if (*there && are_known) return {};
   BlobWriter values = names_of(model);
   if (*there && BlobReader::raw_hash(select->bytes(0)) == values.raw_hash()) return {};
   select->reset();

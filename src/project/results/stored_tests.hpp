@@ -8,6 +8,7 @@
 
 #include "project/database/database.hpp"
 #include "project/snapshot/snapshot.hpp"
+#include "project/snapshot/stored_snapshot.hpp"
 #include "project/stored_report/report_codec.hpp"
 #include "strake/clash/incremental.hpp"
 #include "strake/core/result.hpp"
@@ -22,6 +23,7 @@ struct StoredTest {
   std::int64_t run = 0;  ///< the last one
   std::string name;
   Snapshot snapshot;
+  std::vector<Hash128> snapshot_parts;  ///< StoredSnapshot::parts
   RememberedReport results;
 };
 
@@ -37,15 +39,9 @@ struct TestRow {
 /// Returns nothing where the test was never run.
 [[nodiscard]] Result<std::optional<TestRow>> find_test(Database& database, const std::string& name);
 
-/// What the last result of a test was computed from, with the id of the test.
-struct StoredSnapshot {
-  std::int64_t id = 0;
-  Snapshot snapshot;
-};
-[[nodiscard]] Result<std::optional<StoredSnapshot>> read_snapshot(Database& database,
+/// Returns what the last result of a test was computed from; nothing where it was never run.
+[[nodiscard]] Result<std::optional<StoredSnapshot>> find_snapshot(Database& database,
                                                                   const std::string& test);
-[[nodiscard]] Status write_snapshot(Database& database, std::int64_t test,
-                                    const Snapshot& snapshot);
 
 /// Reads a test; nothing where it was never run. Errors: input for a damaged project, cancelled.
 [[nodiscard]] Result<std::optional<StoredTest>> read_test(Database& database,
@@ -58,9 +54,9 @@ struct StoredSnapshot {
                                                                     const StoredTest& test);
 
 /// Writes the objects of the model that a test ran over, where other ones are stored. With
-/// `is_unchanged` these are known to be the same if there are any.
+/// `are_known` those that are stored, if any are, are known to be the same.
 [[nodiscard]] Status write_test_objects(Database& database, std::int64_t test,
-                                        const model::Model& model, bool is_unchanged);
+                                        const model::Model& model, bool are_known);
 
 /// What is to be written of a test.
 struct TestToWrite {

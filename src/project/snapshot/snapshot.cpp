@@ -88,6 +88,8 @@ std::vector<std::uint32_t> unchanged_in_place(const Snapshot& then, const Snapsh
 void rename_objects(Snapshot& snapshot, const NewIdentities& renamed) {
   for (std::uint64_t& identity : snapshot.identities)
     if (const auto at = renamed.find(identity); at != renamed.end()) identity = at->second;
+  snapshot.names = snapshot.source = {};
+  snapshot.ranges.clear();
 }
 
 Result<std::vector<std::uint64_t>> identities(const model::Model& model,

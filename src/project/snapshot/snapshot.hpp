@@ -20,13 +20,30 @@ struct Snapshot {
   Hash128 whole;                          ///< of what concerns no single object: rules, view
   std::vector<std::uint64_t> identities;  ///< of each object: file label and durable id
   std::vector<Hash128> signatures;        ///< of each object: all that the computation sees of it
-  friend bool operator==(const Snapshot&, const Snapshot&) = default;
+  /// Of labels, ids and names of all objects (SignedModel::names); zeros: not known.
+  Hash128 names = {};
+  /// Of all that the above was made from. Two snapshots of one source are equal, so that the second
+  /// need not be made; zeros: not known.
+  Hash128 source = {};
+  std::vector<Hash128> ranges = {};  ///< clash::Signatures::ranges
+
+  /// Whether both are of the same objects, seen alike; what they were made from may differ.
+  friend bool operator==(const Snapshot& a, const Snapshot& b) {
+    return &a == &b ||
+           (a.whole == b.whole && a.identities == b.identities && a.signatures == b.signatures);
+  }
 };
+
+/// Whether two hashes are known, and equal.
+[[nodiscard]] inline bool is_same_known(const Hash128& a, const Hash128& b) {
+  return a == b && a != Hash128();
+}
 
 /// What identities of objects become where files have other labels.
 using NewIdentities = std::unordered_map<std::uint64_t, std::uint64_t>;
 
-/// Gives the objects of a snapshot the identities that they have under the labels of today.
+/// Gives the objects of a snapshot the identities that they have under the labels of today. Names,
+/// source and ranges are not known then.
 void rename_objects(Snapshot& snapshot, const NewIdentities& renamed);
 
 /// Returns an entry for each object (clash::element_hash).

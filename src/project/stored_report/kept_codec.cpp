@@ -98,7 +98,7 @@ Result<std::vector<std::byte>> encode_kept(const std::optional<KeptForChanges>& 
   out.number(kept->box_pairs);
   out.number(kept->framed ? 1 : 0);
   out.hash(kept->hash_sum);
-  out.column(std::span<const std::uint64_t>(kept->elements));
+  out.column(std::span<const std::uint64_t>());  // version 2 had the elements here
   write_rules(out, kept->exempted);
   write_rules(out, kept->concerned);
   write_rules(out, kept->allowed_regions);
@@ -123,6 +123,7 @@ Result<std::vector<std::byte>> encode_kept(const std::optional<KeptForChanges>& 
 
 Result<std::optional<KeptForChanges>> decode_kept(std::span<const std::byte> bytes,
                                                   const clash::Report& report, std::size_t objects,
+                                                  std::vector<std::uint64_t> elements,
                                                   const std::string& what) {
   if (bytes.empty()) return std::optional<KeptForChanges>();
   Result<BlobReader> in = BlobReader::open(bytes, what + ", what it keeps for changes");
@@ -132,6 +133,7 @@ Result<std::optional<KeptForChanges>> decode_kept(std::span<const std::byte> byt
   kept.framed = in->number() != 0;
   kept.hash_sum = in->hash();
   kept.elements = in->column<std::uint64_t>();
+  if (kept.elements.empty()) kept.elements = std::move(elements);
   read_rules(*in, kept.exempted);
   read_rules(*in, kept.concerned);
   read_rules(*in, kept.allowed_regions)

@@ -174,15 +174,18 @@ Status rename_files(Database& database, const model::Model& before,
   if (!tests) return tests.error();
   const NewIdentities identities = new_identities(before, labels);
   for (const std::string& test : *tests) {
-    Result<std::optional<StoredSnapshot>> stored = read_snapshot(database, test);
+    Result<std::optional<StoredSnapshot>> stored = find_snapshot(database, test);
     if (!stored) return stored.error();
     if (!*stored) continue;
     rename_objects((**stored).snapshot, identities);
-    const Result<bool> apart = keeps_files_apart(database, (**stored).id, labels, identities);
+    const std::int64_t id = (**stored).test;
+    const Result<bool> apart = keeps_files_apart(database, id, labels, identities);
     if (!apart) return apart.error();
     // What was kept knows the objects by their former names: the next run does not follow it.
     if (!*apart) (**stored).snapshot.whole = {};
-    if (const Status status = write_snapshot(database, (**stored).id, (**stored).snapshot); !status)
+    if (const Status status = write_snapshot(database, id, (**stored).snapshot, (**stored).elements,
+                                             (**stored).parts, {});
+        !status)
       return status;
   }
   if (const Status status = rename_named(database, labels, "test_objects", "test"); !status)

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -66,20 +70,24 @@ struct Mutation {
   std::function<void(RuledCubes&)> apply;
 };
 
-TEST(ClashSignatures, EveryInputOfAnObjectShowsInItsSignature) {
-  const std::vector<Mutation> mutations{
-      {"incomplete", [](RuledCubes& t) { t.cubes.model.objects[0].incomplete = true; }},
-      {"place", [](RuledCubes& t) { t.cubes.model.bodies[0].placement.translation.y = 1; }},
-      {"place off the grid",
-       [](RuledCubes& t) { t.cubes.model.bodies[0].placement.translation.y = 1e-4; }},
-      {"turn", [](RuledCubes& t) { t.cubes.model.bodies[0].placement.linear.row[0].x = 0.5; }},
-      {"category",
-       [](RuledCubes& t) { t.cubes.model.bodies[0].category = model::Category::obstruction; }},
-      {"precision", [](RuledCubes& t) { t.cubes.model.bodies[0].precision_um = 1; }},
-      {"shape",
-       [](RuledCubes& t) {
-         std::get<geometry::TriangleMesh>(t.cubes.model.shapes[0]).vertices[0].x -= 1;
-       }},
+/// What the scene has of the first object.
+std::vector<Mutation> changes_of_bodies() {
+  return {{"incomplete", [](RuledCubes& t) { t.cubes.model.objects[0].incomplete = true; }},
+          {"place", [](RuledCubes& t) { t.cubes.model.bodies[0].placement.translation.y = 1; }},
+          {"place off the grid",
+           [](RuledCubes& t) { t.cubes.model.bodies[0].placement.translation.y = 1e-4; }},
+          {"turn", [](RuledCubes& t) { t.cubes.model.bodies[0].placement.linear.row[0].x = 0.5; }},
+          {"category",
+           [](RuledCubes& t) { t.cubes.model.bodies[0].category = model::Category::obstruction; }},
+          {"precision", [](RuledCubes& t) { t.cubes.model.bodies[0].precision_um = 1; }},
+          {"shape", [](RuledCubes& t) {
+             std::get<geometry::TriangleMesh>(t.cubes.model.shapes[0]).vertices[0].x -= 1;
+           }}};
+}
+
+/// What sets and rules say of the first object.
+std::vector<Mutation> changes_of_rules() {
+  return {
       {"set A", [](RuledCubes& t) { t.sets.in_a[0] = false; }},
       {"set B", [](RuledCubes& t) { t.sets.in_b[0] = false; }},
       {"group", [](RuledCubes& t) { t.sets.group[0] = 1; }},
@@ -99,6 +107,11 @@ TEST(ClashSignatures, EveryInputOfAnObjectShowsInItsSignature) {
        [](RuledCubes& t) { std::get<Between>(t.policy.exemptions[2].test).a[0] = false; }},
       {"level", [](RuledCubes& t) { t.policy.levels->object[0] = Level::soft; }},
       {"allowed", [](RuledCubes& t) { t.policy.allowed[0].a[0] = true; }}};
+}
+
+TEST(ClashSignatures, EveryInputOfAnObjectShowsInItsSignature) {
+  std::vector<Mutation> mutations = changes_of_bodies();
+  std::ranges::copy(changes_of_rules(), std::back_inserter(mutations));
   const Signatures before = RuledCubes().signatures();
   for (const Mutation& mutation : mutations) {
     RuledCubes test;
@@ -114,7 +127,8 @@ TEST(ClashSignatures, HashesThatSomebodyHasOfShapesTakeThePlaceOfTheirPoints) {
   const RuledCubes cubes;
   const model::Scene scene = cubes.scene();
   const auto signed_by = [&](const std::vector<Hash128>& hashes) {
-    return clash::signatures(scene, cubes.sets, cubes.options, cubes.policy, {}, hashes);
+    return clash::signatures(scene, cubes.sets, cubes.options, cubes.policy, {},
+                             {.shapes = hashes});
   };
   std::vector<Hash128> hashes(scene.model->shapes.size());
   EXPECT_EQ(signed_by(hashes).value().objects, cubes.signatures().objects);
@@ -132,37 +146,161 @@ TEST(ClashSignatures, HashesThatSomebodyHasOfShapesTakeThePlaceOfTheirPoints) {
   EXPECT_EQ(signed_by(hashes).error().code, ErrorCode::usage);
 }
 
+std::vector<Mutation> changes_of_settings() {
+  return {{"clearance", [](RuledCubes& t) { t.options.tolerances.clearance_mm = 5; }},
+          {"gap", [](RuledCubes& t) { t.options.tolerances.touch_gap_mm = 2; }},
+          {"cap", [](RuledCubes& t) { t.options.tolerances.thickness_cap = ThicknessCap::off; }},
+          {"contact distance", [](RuledCubes& t) { t.options.contact_distance_mm = 0.1; }},
+          {"volumes", [](RuledCubes& t) { t.options.engine.volumes = Volumes::on; }},
+          {"curves", [](RuledCubes& t) { t.options.engine.curves = Curves::on; }},
+          {"contacts", [](RuledCubes& t) { t.options.engine.contacts = Contacts::count; }},
+          {"regions", [](RuledCubes& t) { t.options.engine.most_regions = 3; }},
+          {"relations", [](RuledCubes& t) { t.options.reporting.relations = {Relation::cross}; }},
+          {"least volume", [](RuledCubes& t) { t.options.reporting.min_volume_mm3 = 3; }},
+          {"name of a set", [](RuledCubes& t) { t.sets.name_a = "x"; }},
+          {"groups", [](RuledCubes& t) { t.sets.group.clear(); }},
+          {"tolerances", [](RuledCubes& t) { t.policy.tolerances[0].clearance_mm = 7; }},
+          {"discipline", [](RuledCubes& t) { t.policy.matrix->disciplines[0] = "x"; }},
+          {"cell", [](RuledCubes& t) { t.policy.matrix->cells[3] = Matrix::kNotChecked; }},
+          {"exemption", [](RuledCubes& t) { t.policy.exemptions[0].rule = "x"; }},
+          {"levels", [](RuledCubes& t) { t.policy.levels->left_out[0][0] = "x"; }},
+          {"allowance", [](RuledCubes& t) { t.policy.allowed[0].rule = "x"; }},
+          {"depth", [](RuledCubes& t) { t.policy.allowed[0].max_depth_mm = 2; }},
+          {"volume", [](RuledCubes& t) { t.policy.allowed[0].max_volume_mm3 = 2; }},
+          {"relation", [](RuledCubes& t) { t.policy.allowed[0].relations = {Relation::cross}; }},
+          {"region", [](RuledCubes& t) { t.policy.allowed[0].region_mm = geometry::Box3d{}; }},
+          {"cavity", [](RuledCubes& t) { t.policy.allowed[0].cavity = {{{}, {1, 0, 0}}}; }},
+          {"list", [](RuledCubes& t) { t.policy.list_exempted = true; }}};
+}
+
 TEST(ClashSignatures, EverySettingShowsInTheRules) {
-  const std::vector<Mutation> mutations{
-      {"clearance", [](RuledCubes& t) { t.options.tolerances.clearance_mm = 5; }},
-      {"gap", [](RuledCubes& t) { t.options.tolerances.touch_gap_mm = 2; }},
-      {"cap", [](RuledCubes& t) { t.options.tolerances.thickness_cap = ThicknessCap::off; }},
-      {"contact distance", [](RuledCubes& t) { t.options.contact_distance_mm = 0.1; }},
-      {"volumes", [](RuledCubes& t) { t.options.engine.volumes = Volumes::on; }},
-      {"curves", [](RuledCubes& t) { t.options.engine.curves = Curves::on; }},
-      {"contacts", [](RuledCubes& t) { t.options.engine.contacts = Contacts::count; }},
-      {"regions", [](RuledCubes& t) { t.options.engine.most_regions = 3; }},
-      {"relations", [](RuledCubes& t) { t.options.reporting.relations = {Relation::cross}; }},
-      {"least volume", [](RuledCubes& t) { t.options.reporting.min_volume_mm3 = 3; }},
-      {"name of a set", [](RuledCubes& t) { t.sets.name_a = "x"; }},
-      {"groups", [](RuledCubes& t) { t.sets.group.clear(); }},
-      {"tolerances", [](RuledCubes& t) { t.policy.tolerances[0].clearance_mm = 7; }},
-      {"discipline", [](RuledCubes& t) { t.policy.matrix->disciplines[0] = "x"; }},
-      {"cell", [](RuledCubes& t) { t.policy.matrix->cells[3] = Matrix::kNotChecked; }},
-      {"exemption", [](RuledCubes& t) { t.policy.exemptions[0].rule = "x"; }},
-      {"levels", [](RuledCubes& t) { t.policy.levels->left_out[0][0] = "x"; }},
-      {"allowance", [](RuledCubes& t) { t.policy.allowed[0].rule = "x"; }},
-      {"depth", [](RuledCubes& t) { t.policy.allowed[0].max_depth_mm = 2; }},
-      {"volume", [](RuledCubes& t) { t.policy.allowed[0].max_volume_mm3 = 2; }},
-      {"relation", [](RuledCubes& t) { t.policy.allowed[0].relations = {Relation::cross}; }},
-      {"region", [](RuledCubes& t) { t.policy.allowed[0].region_mm = geometry::Box3d{}; }},
-      {"cavity", [](RuledCubes& t) { t.policy.allowed[0].cavity = {{{}, {1, 0, 0}}}; }},
-      {"list", [](RuledCubes& t) { t.policy.list_exempted = true; }}};
   const Signatures before = RuledCubes().signatures();
-  for (const Mutation& mutation : mutations) {
+  for (const Mutation& mutation : changes_of_settings()) {
     RuledCubes test;
     mutation.apply(test);
     EXPECT_NE(test.signatures().rules, before.rules) << mutation.what;
+  }
+}
+
+TEST(ClashSignatures, EverythingButTheSceneShowsInTheHashOfInputs) {
+  const auto hash = [](const RuledCubes& t) {
+    return hash_of_inputs(t.scene(), t.sets, t.options, t.policy);
+  };
+  const Hash128 before = hash(RuledCubes());
+  EXPECT_EQ(hash(RuledCubes()), before);
+  std::vector<Mutation> mutations = changes_of_rules();
+  std::ranges::copy(changes_of_settings(), std::back_inserter(mutations));
+  mutations.push_back({"names of groups", [](RuledCubes& t) { t.sets.group_names[0] = {9, 9}; }});
+  mutations.push_back({"names of labels", [](RuledCubes& t) {
+                         std::get<SameLabel>(t.policy.exemptions[0].test).names = {{1, 2}};
+                       }});
+  mutations.push_back({"names of links", [](RuledCubes& t) {
+                         std::get<Linked>(t.policy.exemptions[1].test).names = {{1, 2}};
+                       }});
+  for (const Mutation& mutation : mutations) {
+    RuledCubes test;
+    mutation.apply(test);
+    EXPECT_NE(hash(test), before) << mutation.what;
+  }
+}
+
+TEST(ClashSignatures, TheHashOfInputsHasEveryObjectOfMany) {
+  ClashModel model;
+  for (int i = 0; i < 130; ++i) model.box(std::to_string(i), {1.0 * i, 0, 0}, {i + 0.5, 1, 1});
+  const model::Scene scene = make_scene(model.model, {}, {}).value();
+  Sets sets = one_set(scene);
+  const Hash128 before = hash_of_inputs(scene, sets, {}, {});
+  for (std::size_t o = 0; o < sets.in_a.size(); ++o) {
+    sets.in_a[o] = false;
+    EXPECT_NE(hash_of_inputs(scene, sets, {}, {}), before) << o;
+    sets.in_a[o] = true;
+  }
+}
+
+/// What a project knows of a model, with a hash for so many bodies each.
+class Known {
+ public:
+  explicit Known(const model::Model& model, std::size_t bodies_of_each = 2) {
+    for (const model::Shape& shape : model.shapes) {
+      WordHash hash;
+      if (const auto* const mesh = std::get_if<geometry::TriangleMesh>(&shape))
+        for (const geometry::Vec3d& v : mesh->vertices) hash.add(v.x).add(v.y).add(v.z);
+      shapes_.push_back(hash.value());
+    }
+    for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+      const model::Body& body = model.bodies[b];
+      if (b % bodies_of_each == 0) bodies_.push_back({static_cast<std::uint32_t>(b), {}});
+      WordHash hash;
+      hash.add(bodies_.back().hash).add(model::index(body.shape));
+      hash.add(double{body.precision_um}).add(static_cast<std::uint8_t>(body.category));
+      for (int k = 0; k < 3; ++k) {
+        const geometry::Vec3d& row = body.placement.linear.row[static_cast<std::size_t>(k)];
+        hash.add(row.x).add(row.y).add(row.z).add(body.placement.translation[k]);
+      }
+      bodies_.back().hash = hash.value();
+    }
+    WordHash hash;
+    for (const model::Object& object : model.objects)
+      hash.add(std::string_view(object.id)).add(object.incomplete);
+    objects_ = hash.value();
+  }
+  [[nodiscard]] KnownModel all() const { return {shapes_, bodies_, objects_}; }
+
+ private:
+  std::vector<Hash128> shapes_;
+  std::vector<HashedBodies> bodies_;
+  Hash128 objects_;
+};
+
+TEST(ClashSignatures, ThoseThatFollowEarlierOnesAreThoseMadeAnew) {
+  const auto sign = [](const RuledCubes& t, const EarlierSignatures& earlier) {
+    const Known known(t.cubes.model);
+    return clash::signatures(t.scene(), t.sets, t.options, t.policy, {}, known.all(), earlier)
+        .value();
+  };
+  const Signatures before = sign(RuledCubes(), {});
+  ASSERT_EQ(before.ranges.size(), 1U);
+  std::vector<Mutation> mutations = changes_of_bodies();
+  std::ranges::copy(changes_of_rules(), std::back_inserter(mutations));
+  std::ranges::copy(changes_of_settings(), std::back_inserter(mutations));
+  for (const Mutation& mutation : mutations) {
+    RuledCubes test;
+    mutation.apply(test);
+    const Signatures anew = sign(test, {});
+    const Signatures followed = sign(test, {before.objects, before.ranges});
+    EXPECT_EQ(followed.rules, anew.rules) << mutation.what;
+    EXPECT_EQ(followed.objects, anew.objects) << mutation.what;
+    EXPECT_NE(followed.ranges, before.ranges) << mutation.what;
+  }
+}
+
+TEST(ClashSignatures, OnlyRangesThatChangedAreSignedAgain) {
+  ClashModel cubes;
+  for (int i = 0; i < 9000; ++i)
+    cubes.box(std::to_string(100'000 + i), {2.0 * i, 0, 0}, {2.0 * i + 1, 1, 1});
+  const auto sign = [&](const EarlierSignatures& earlier, bool knows_names) {
+    const model::Scene scene = make_scene(cubes.model, {}, {}).value();
+    const Known known(cubes.model, 1000);
+    KnownModel all = known.all();
+    if (!knows_names) all.objects = {};
+    return clash::signatures(scene, one_set(scene), {}, {}, {}, all, earlier).value();
+  };
+  const Signatures before = sign({}, true);
+  ASSERT_EQ(before.ranges.size(), 3U);
+  // What an earlier run says is taken where nothing changed, whatever it is.
+  const std::vector<Hash128> marked(before.objects.size(), Hash128{7, 7});
+  EXPECT_EQ(sign({marked, before.ranges}, true).objects, marked);
+  EXPECT_EQ(sign({marked, before.ranges}, false).objects, before.objects);
+  EXPECT_TRUE(sign({}, false).ranges.empty());
+  cubes.model.bodies[5000].placement.translation.y += 1;
+  const Signatures now = sign({marked, before.ranges}, true);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(now.ranges[k] != before.ranges[k], k == 1) << k;
+  for (std::size_t o = 0; o < marked.size(); ++o) {
+    const bool is_again = o >= 4096 && o < 8192;
+    EXPECT_EQ(now.objects[o] == marked[o], !is_again) << o;
+    if (is_again) {
+      EXPECT_EQ(now.objects[o] != before.objects[o], o == 5000) << o;
+    }
   }
 }
 

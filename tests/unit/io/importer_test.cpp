@@ -183,6 +183,21 @@ TEST_F(FakeImporters, FailWithTheReasonThatTheyGive) {
   EXPECT_EQ(kept(), 0U) << "what failed is not kept";
 }
 
+TEST_F(FakeImporters, ThatOfAllSuffixesSaysWhatWasTriedBeforeIt) {
+  play(R"(echo '{"error": "nothing reads .odd", "mend": "install one"}' >> "$report"; exit 1)");
+  const fs::path any = bin_ / "strake-import";
+  fs::copy_file(bin_ / "strake-import-toy", any);
+  const fs::path odd = folder_.write("model.odd", "odd");
+  const auto read_odd = read({odd});
+  ASSERT_FALSE(read_odd);
+  EXPECT_EQ(read_odd.error().text(),
+            odd.string() +
+                ": nothing reads .odd (install one; Strake itself does not read such files, "
+                "strake-import-odd is in none of the folders that are searched, and " +
+                any.string() + " was asked)");
+  EXPECT_EQ(error(), toy_.string() + ": nothing reads .odd (install one)");
+}
+
 TEST_F(FakeImporters, ACrashNamesTheFileAndTheSignal) {
   play("echo at element 77; kill -SEGV $$");
   EXPECT_NE(error().find("signal 11 (segmentation fault); it printed last: at element 77"),

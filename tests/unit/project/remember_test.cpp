@@ -13,6 +13,7 @@
 
 #include "project/database/history_tables.hpp"
 #include "project/database/result_tables.hpp"
+#include "project/database/snapshot_tables.hpp"
 #include "project/database/view_tables.hpp"
 #include "project/results/clash_queries.hpp"
 #include "project/update/rename_files.hpp"
@@ -42,6 +43,7 @@ class Remembered : public ::testing::Test {
     ASSERT_TRUE(database_->execute(kResultTables));
     ASSERT_TRUE(database_->execute(kViewTables));
     ASSERT_TRUE(database_->execute(kHistoryTables));
+    ASSERT_TRUE(database_->execute(kSnapshotTables));
   }
 
   /// Tests the model in full and remembers the run.

@@ -46,7 +46,9 @@ void expect_round_trip(const RememberedReport& all) {
   for (std::size_t i = 0; i < all.report.pairs.size(); ++i)
     ASSERT_EQ(read->report.pairs[i].first_region, all.report.pairs[i].first_region);
   const std::vector<std::byte> kept = encode_kept(all.report.kept).value();
-  const auto again = decode_kept(kept, read->report, objects, "it");
+  const std::vector<std::uint64_t> elements =
+      all.report.kept ? all.report.kept->elements : std::vector<std::uint64_t>();
+  const auto again = decode_kept(kept, read->report, objects, elements, "it");
   ASSERT_TRUE(again) << again.error().text();
   EXPECT_EQ(encode_kept(*again).value(), kept);
 }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "project/database/database.hpp"
+#include "project/snapshot/snapshot.hpp"
+#include "strake/core/hash.hpp"
+#include "strake/core/result.hpp"
+#include "strake/parallel/context.hpp"
+
+/// What the last result of a test was computed from, in the database: a head in the table `report`,
+/// and parts of so many objects each in `snapshot_part`, of which a small change rewrites few.
+namespace strake::project {
+
+/// A snapshot as it was read.
+struct StoredSnapshot {
+  std::int64_t test = 0;  ///< the id of the test
+  Snapshot snapshot;
+  /// clash::KeptForChanges::elements; none where the result was not kept for changes, or where
+  /// version 2 wrote it, which had them with what it kept.
+  std::vector<std::uint64_t> elements;
+  std::vector<Hash128> parts;  ///< hashes of its parts; none where version 2 wrote it
+};
+
+/// Reads the snapshot of a test, of which `head` is what its row in `report` has; `what` is what
+/// errors call it. Errors: input for a damaged project; memory; cancelled.
+[[nodiscard]] Result<StoredSnapshot> read_snapshot(Database& database, std::int64_t test,
+                                                   std::span<const std::byte> head,
+                                                   const std::string& what,
+                                                   const parallel::Context& context);
+
+/// Writes the snapshot of a test, with as many elements as objects or none, where parts with the
+/// hashes `stored` are in the database: the others, and the head. Errors: those of the database;
+/// memory; cancelled.
+[[nodiscard]] Status write_snapshot(Database& database, std::int64_t test, const Snapshot& snapshot,
+                                    std::span<const std::uint64_t> elements,
+                                    std::span<const Hash128> stored,
+                                    const parallel::Context& context);
+
+}  // namespace strake::project
