@@ -112,7 +112,11 @@ Result<std::vector<SheetOutput>> files_of_output(const std::string& output,
                                                  std::span<const std::string> names) {
   const std::vector<sheets::SheetWriter> writers = publish::sheet_writers();
   const Result<sheets::SheetWriter> writer = find_writer(std::span(writers), output);
-  if (!writer) return writer.error();
+  if (!writer) {
+    Error error = writer.error();
+    error.where = "-o";
+    return error;
+  }
   const std::size_t place = output.find(kSheetInName);
   if (place == std::string::npos) {
     if (names.size() > 1 && !writer->takes_several)
