@@ -22,12 +22,15 @@ BASELINE = "a baseline that benchmarks compare with: run_program()"
 OF_PROJECT = "Project.clash(arguments=...) and run_program()"
 DECISIONS = "Project.set_status(); with a file of decisions run_program()"
 DIAGNOSTICS = "Model.diagnostics"
+BY_TILES = "strake.cluster.clash() and strake.cluster.draw()"
+CONVENTIONS = "run_program(), or Sheet for a sheet that says so"
 RUNNING: dict[str, Counterpart] = {
     "--distribution": SAME_RESULT,
     "--help": "help()",
     "--json": "results are objects",
     "--output": "save()",
     "--quiet": "nothing is printed",
+    **dict.fromkeys(("--scheduler", "--tile-folder", "--worker-memory", "--worker-threads"), BY_TILES),
     "--stats": "run_program()",
     "--threads": (strake.clash, "threads"),
     "--wait": OF_PROJECT,
@@ -50,6 +53,7 @@ DRAW: dict[str, Counterpart] = {
             *("view", "visible_only", "weld"),
         )
     },
+    **dict.fromkeys(("--break-lines", "--single-line", "--style", "--thin"), CONVENTIONS),
     "--bucketing": SAME_RESULT,
     "--culling": SAME_RESULT,
     "--full": "run_program()",
@@ -76,6 +80,7 @@ CLASH: dict[str, Counterpart] = {
         "--" + name.replace("_", "-"): (strake.Clashes.save, name)
         for name in ("bcf_author", "bcf_contacts", "bcf_date", "bcf_most", "bcf_version", "columns", "csv", "page_geometry")
     },
+    "--bcf-history": OF_PROJECT,
     "--broad-phase": SAME_RESULT,
     "--by": OF_PROJECT,
     "--class": (strake.clash, "classes"),
