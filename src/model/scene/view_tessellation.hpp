@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Decisions 0027 and 0109 say why every view tessellates round primitives along their contours.
+// Decision 0027 says why every view tessellates round primitives along their contours, and
+// decision 0109 how an eye sees them.
 
 #include <cstdint>
 #include <functional>
