@@ -43,6 +43,9 @@ inline constexpr std::size_t kViewLayers = 11;
 /// Returns the layer of a line that is visible or hidden.
 [[nodiscard]] ViewLayer layer_of(const Line& line);
 
+/// The layer of break lines, which is that of narrow continuous lines.
+inline constexpr ViewLayer kBreakLineLayer = ViewLayer::polyline;
+
 /// What a layer is called, and by what name people know it.
 struct LayerName {
   std::string_view name, description;

@@ -138,6 +138,19 @@ std::string centre_lines_of(const ViewLines& view, const model::Model& model,
   return out;
 }
 
+/// Returns the entities of the break lines of a view.
+std::string break_lines_of(const ViewLines& view, const model::Model& model,
+                           const LayerStyle& layer, Handle first) {
+  std::string out;
+  for (const BreakLine& line : view.ink.break_lines) {
+    Chain points;
+    for (const PaperPoint& point : line.points) points.push_back(view.plane.place(point));
+    append_polyline(out, {Space::model, first++, layer.name, 1}, points, !layer.dash_mm.empty());
+    out += object_data(model.object(line.object), model);
+  }
+  return out;
+}
+
 /// The lines of a view by layers, those of an object side by side.
 struct SortedLines {
   struct OfObject {
@@ -150,10 +163,10 @@ struct SortedLines {
 
 SortedLines sorted_lines(const Ink& ink) {
   std::array<std::vector<const Line*>, kViewLayers> of_layer;
-  for (const Line& line : ink.lines)
+  for (const Line& line : ink.in_model_space())
     of_layer.at(static_cast<std::size_t>(layer_of(line))).push_back(&line);
   SortedLines sorted;
-  sorted.lines.reserve(ink.lines.size());
+  sorted.lines.reserve(ink.in_model_space().size());
   for (std::size_t layer = 0; layer < kViewLayers; ++layer)
     for_each_object(
         std::span<const Line* const>(of_layer.at(layer)), [&](std::span<const Line* const> lines) {
@@ -237,10 +250,14 @@ Status write_view_lines(const ViewLines& view, const model::Model& model,
         phase.add(sorted.objects[shares[share + 1] - 1].end - sorted.objects[shares[share]].begin);
       },
       context);
-  if (status)
-    sink(centre_lines_of(view, model, layers[static_cast<std::size_t>(ViewLayer::centre)],
-                         first + sorted.lines.size()));
-  return status;
+  if (!status) return status;
+  const auto layer = [&](ViewLayer l) -> const LayerStyle& {
+    return layers[static_cast<std::size_t>(l)];
+  };
+  const Handle next = first + sorted.lines.size();
+  sink(centre_lines_of(view, model, layer(ViewLayer::centre), next));
+  sink(break_lines_of(view, model, layer(kBreakLineLayer), next + view.ink.centre_lines.size()));
+  return {};
 }
 
 }  // namespace strake::drawing::dxf

@@ -21,7 +21,7 @@ PdfPen pen_of(const Layer& layer, const Pens& pens) {
     pen.dash_mm = pen_dashes(kHiddenDashes, pens.thin);
     pen.color =
         polyline ? model::Color{0x66, 0x88, 0xAA, 255} : model::Color{0x44, 0x44, 0x44, 255};
-  } else if (layer.kind == hlr::EdgeKind::contour) {
+  } else if (layer.kind == hlr::EdgeKind::contour || layer.kind == hlr::EdgeKind::single_line) {
     pen.width_mm = pens.outline;
   } else if (layer.kind == hlr::EdgeKind::section) {
     pen.width_mm = pens.section;
@@ -70,7 +70,8 @@ Result<Diagnostics> write_pdf(const NeutralDrawing& drawing, const Ink& ink,
   const Status status =
       add_pdf_view(document, std::nullopt, drawing.curves, ink, model,
                    {[&](const Layer& layer, LineState) { return pen_of(layer, ink.pens); },
-                    {ink.pens.thin, pen_dashes(kCentreDashes, ink.pens.thin), {0, 0, 0, 255}}},
+                    {ink.pens.thin, pen_dashes(kCentreDashes, ink.pens.thin), {0, 0, 0, 255}},
+                    {ink.pens.thin, {}, {0, 0, 0, 255}}},
                    context);
   if (!status) return status.error();
   if (drawing.frame) {

@@ -225,6 +225,15 @@ void add_centre_lines(PdfDocument& document, std::optional<PdfLayerId> parent, c
   document.add(out + "Q\n" + document.close(layer));
 }
 
+void add_break_lines(PdfDocument& document, std::optional<PdfLayerId> parent, const Ink& ink,
+                     const PdfPen& pen) {
+  if (ink.break_lines.empty()) return;
+  const PdfLayerId layer = document.add_layer("Break lines", parent);
+  std::string out = document.open(layer) + "q\n" + pdf_pen(pen);
+  for (const BreakLine& line : ink.break_lines) append_pdf_chain(out, line.points);
+  document.add(out + "S\nQ\n" + document.close(layer));
+}
+
 std::string with_commas(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
 }  // namespace
@@ -261,7 +270,9 @@ Status add_pdf_view(PdfDocument& document, std::optional<PdfLayerId> parent,
         phase.add(streams[i].lines.size());
       },
       context);
-  if (status) add_centre_lines(document, parent, ink, pens.centre_lines);
+  if (!status) return status;
+  add_break_lines(document, parent, ink, pens.break_lines);
+  add_centre_lines(document, parent, ink, pens.centre_lines);
   return status;
 }
 
@@ -283,6 +294,7 @@ std::string pdf_facts(const NeutralDrawing& drawing, const Ink& ink, const model
   fact("hash", drawing.hash.text());
   fact("objects", std::to_string(drawing.account.objects()));
   fact("objectsDrawn", std::to_string(drawing.account.of(hlr::Fate::drawn)));
+  if (ink.thinned) fact("linesThinned", std::to_string(ink.thinned->lines));
   fact("hiddenLeftOut", std::to_string(ink.left_out));
   for (const model::ObjectId id : drawing.far_left_out) fact("farObject", model.object(id).id);
   return out + "</rdf:li>\n";

@@ -32,7 +32,7 @@ struct PdfPen {
 struct PdfPens {
   /// The pen of a layer; of a hidden one, for the lines that are hidden in this way.
   parallel::FunctionRef<PdfPen(const Layer&, LineState)> of;
-  PdfPen centre_lines;
+  PdfPen centre_lines, break_lines;
 };
 
 /// Adds the lines of a view to the page: a layer for each kind of line, below `parent` if there is

@@ -119,6 +119,14 @@ void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink
   for (const Layer& layer : kLayers) write_layer(out, curves, ink, model, layer, prefix, dashes);
 }
 
+void write_break_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix) {
+  if (ink.break_lines.empty()) return;
+  begin_layer(out, "Break lines", fmt::format("{}break-lines", prefix), "break");
+  out << "<path d=\"";
+  for (const BreakLine& line : ink.break_lines) append_svg_chain(out.text(), line.points);
+  out << "\"/>\n</g>\n";
+}
+
 void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix,
                         std::span<const double> dash_mm) {
   if (ink.centre_lines.empty()) return;
@@ -157,9 +165,15 @@ void write_style(BufferedWriter& out, const Ink& ink, bool sections) {
         pens.section, pens.thin);
   if (!ink.centre_lines.empty())
     out << fmt::format(".centre path {{ stroke-width: {}; stroke-linecap: butt; }}\n", pens.thin);
-  const bool smooth = std::ranges::any_of(
-      ink.lines, [](const Line& line) { return line.kind == hlr::EdgeKind::smooth; });
-  if (smooth) out << fmt::format(".visible.smooth path {{ stroke-width: {}; }}\n", pens.thin);
+  if (!ink.break_lines.empty())
+    out << fmt::format(".break path {{ stroke-width: {}; }}\n", pens.thin);
+  const auto has = [&](hlr::EdgeKind kind) {
+    return std::ranges::any_of(ink.lines, [&](const Line& line) { return line.kind == kind; });
+  };
+  if (has(hlr::EdgeKind::single_line))
+    out << fmt::format(".visible.single_line path {{ stroke-width: {}; }}\n", pens.outline);
+  if (has(hlr::EdgeKind::smooth))
+    out << fmt::format(".visible.smooth path {{ stroke-width: {}; }}\n", pens.thin);
   out << "</style>\n";
 }
 
@@ -192,6 +206,7 @@ void write_head(BufferedWriter& out, const NeutralDrawing& drawing, const Ink& i
   }
   if (drawing.uncut) out << fmt::format(" objects-uncut=\"{}\"", drawing.counters.uncut_objects);
   if (!drawing.flush_seams) out << fmt::format(" edges-with-seams=\"{}\"", drawing.counters.seams);
+  if (ink.thinned) out << fmt::format(" lines-thinned=\"{}\"", ink.thinned->lines);
   out << fmt::format(" hidden-left-out=\"{}\"", ink.left_out) << "/>\n";
   write_far_objects(out, drawing, model);
   out << "</drawing>\n</metadata>\n";
@@ -235,6 +250,7 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
   const std::vector<double> dashes = pen_dashes(kHiddenDashes, ink.pens.thin);
   write_layers(out, drawing.curves, ink, model, "", {dashes, dashes});
+  write_break_lines(out, ink, "");
   write_centre_lines(out, ink, "", pen_dashes(kCentreDashes, ink.pens.thin));
   write_frame(out, drawing);
   out << "</g>\n";

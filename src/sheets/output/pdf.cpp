@@ -70,7 +70,9 @@ class PageWriter {
     };
     const Status status =
         drawing::add_pdf_view(document_, layer, view.drawing.curves, view.ink, model_,
-                              {pen, pen_of(style_of(sheet_->styles, LineClass::centre))}, context_);
+                              {pen, pen_of(style_of(sheet_->styles, LineClass::centre)),
+                               pen_of(style_of(sheet_->styles, LineClass::break_line))},
+                              context_);
     if (!status) return status;
     write_layer(view.frame, "Frame", layer);
     write_layer(view.grid, "Grid", layer);
