@@ -30,8 +30,8 @@ struct ThinOptions {
 /// not thin each other; so no object vanishes, and equal objects get equal ink. Of the inner lines
 /// those stay that are a spacing apart, counted across them.
 ///
-/// Cost: an object's lines are found in grid cells, and each asks a bounded number of lines near
-/// it; objects in parallel. The result does not depend on the team. Errors: cancelled.
+/// Cost: an object's lines are found in grid cells, and each asks a bounded number of lines of a
+/// cell; objects in parallel. The result does not depend on the team. Errors: cancelled.
 [[nodiscard]] Status thin_lines(Ink& ink, const NeutralDrawing& drawing, const ThinOptions& options,
                                 const parallel::Context& context);
 

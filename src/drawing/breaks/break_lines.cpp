@@ -27,9 +27,11 @@ constexpr double kZigzagMm = 3, kZigzagHeightMm = 2;
 /// What is narrower on paper than this is a line, and a break line across it a dot.
 constexpr double kNarrowestMm = 0.2;
 
-/// The end of a visible line where a side of the limits cuts it.
+/// The end of a line where a side of the limits cuts it. A line that lies on another has ends, too:
+/// where objects are flush, one of them has the line of both.
 struct CutEnd {
   std::uint8_t side = 0;  ///< axis, and 3 more for the upper side
+  bool visible = false;   ///< otherwise a duplicate
   model::ObjectId object{};
   PaperPoint at;
 };
@@ -61,12 +63,13 @@ class LimitSides {
 /// Returns the cut ends of a line beside one that is clipped, its neighbour on the same edge.
 void add_cut_end(const Line& line, const Line& next, const LimitSides& sides,
                  std::vector<CutEnd>& out) {
-  if (line.state != LineState::visible || next.state != LineState::clipped ||
+  const bool visible = line.state == LineState::visible;
+  if ((!visible && line.state != LineState::duplicate) || next.state != LineState::clipped ||
       line.object != next.object || line.edge != next.edge)
     return;
   const auto add = [&](const geometry::Vec3d& end, const PaperPoint& at,
                        const geometry::Vec3d& beyond) {
-    if (const auto side = sides.of(end, beyond)) out.push_back({*side, line.object, at});
+    if (const auto side = sides.of(end, beyond)) out.push_back({*side, visible, line.object, at});
   };
   if (line.b_mm == next.a_mm) return add(line.b_mm, line.b_paper, next.b_mm);
   if (line.a_mm == next.b_mm) return add(line.a_mm, line.a_paper, next.a_mm);
@@ -138,11 +141,13 @@ class BreakFinder {
       std::size_t end = i + 1;
       while (end < ends.size() && ends[end].object == ends[i].object) ++end;
       const auto own = ends.subspan(i, end - i);
+      i = end;
+      // All of an object that is hidden may lie on lines of others.
+      if (std::ranges::none_of(own, &CutEnd::visible)) continue;
       if (along)
         add_span(own, *along, spans);
       else
         add_askew(own, out);
-      i = end;
     }
     add_along(spans, out);
   }

@@ -90,12 +90,15 @@ class LaidLines {
   }
 
   /// Calls visit(number) for the intervals, counted as they were added, that may lie beside a line,
-  /// each once, until it returns false. Each query has another number.
+  /// each once and of no cell more than the last `most`, until it returns false. Each query has
+  /// another number.
   template <class Visit>
-  void near(const PlaneSegment& line, std::uint32_t query, Visit&& visit) {
+  void near(const PlaneSegment& line, std::uint32_t query, std::size_t most, Visit&& visit) {
     bool goes_on = true;
     cells_.along(line, line.reach + reach_, [&](std::size_t cell) {
-      for (std::uint32_t e = first_[cell]; e != kNone && goes_on; e = entries_[e].next) {
+      std::size_t seen = 0;
+      for (std::uint32_t e = first_[cell]; e != kNone && goes_on && seen < most;
+           e = entries_[e].next, ++seen) {
         const std::uint32_t number = entries_[e].stretch;
         if (last_query_[number] == query) continue;
         last_query_[number] = query;
@@ -106,7 +109,7 @@ class LaidLines {
 
   /// Appends the intervals of a line that run along those that are laid down.
   void find(const PlaneSegment& line, std::uint32_t query, std::vector<ParamInterval>& covers) {
-    near(line, query, [&](std::uint32_t number) {
+    near(line, query, std::numeric_limits<std::size_t>::max(), [&](std::uint32_t number) {
       if (const auto interval = covered(line, segments_[number], rule_))
         covers.push_back(*interval);
       return true;

@@ -25,7 +25,9 @@ namespace strake::drawing {
       line.kind == hlr::EdgeKind::hatch || line.kind == hlr::EdgeKind::smooth)
     return pens.thin;
   if (line.kind == hlr::EdgeKind::section) return pens.section;
-  return line.kind == hlr::EdgeKind::contour || line.kind == hlr::EdgeKind::single_line ? pens.outline : pens.edge;
+  return line.kind == hlr::EdgeKind::contour || line.kind == hlr::EdgeKind::single_line
+             ? pens.outline
+             : pens.edge;
 }
 
 /// The places of lines on paper, without rounding, which would make equal objects unequal where

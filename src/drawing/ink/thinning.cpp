@@ -23,9 +23,9 @@ namespace strake::drawing {
 
 namespace {
 
-/// A line asks for so many others near it at most. In a patch as dense as that it has long found
-/// lines on both sides.
-constexpr std::size_t kMostAsked = 1024;
+/// A line asks for so many others of a cell at most, which are any of them. In a patch as dense as
+/// that, lines on both sides are among these but for a few lines at its rim.
+constexpr std::size_t kMostOfCell = 256;
 
 /// Returns whether a line may be left out: hatches have a spacing of their own, and the outline of
 /// a cut is what a section is for.
@@ -94,7 +94,7 @@ struct SeenLine {
 class ObjectThinner {
  public:
   ObjectThinner(std::vector<SeenLine>& lines, const LayingRule& rule)
-      : lines_(lines), rule_(rule), cells_(flats_of(lines), 8 * reach_of(lines)) {}
+      : lines_(lines), rule_(rule), cells_(flats_of(lines), 2 * spacing_of(lines)) {}
 
   /// Appends the intervals that stay, by number; lines that stay wholly have none.
   void run(const std::stop_token& stop, LineIntervals& out) {
@@ -120,25 +120,26 @@ class ObjectThinner {
     for (const SeenLine& line : lines) flats.push_back(line.flat);
     return flats;
   }
-  static double reach_of(std::span<const SeenLine> lines) { return 2 * lines.front().flat.reach; }
+  static double spacing_of(std::span<const SeenLine> lines) { return 2 * lines.front().flat.reach; }
 
   /// Finds the inner intervals of all lines; false where there are none, or `stop` is requested.
   bool find_inner(const std::stop_token& stop) {
     LaidLines all(cells_, rule_.overlap);
-    for (const SeenLine& line : lines_) all.add(line.flat);
+    const std::vector<std::uint32_t> mixed = mixed_up(static_cast<std::uint32_t>(lines_.size()));
+    for (const std::uint32_t i : mixed) all.add(lines_[i].flat);
     bool any = false;
     BothSides sides;
     for (std::uint32_t i = 0; i < lines_.size(); ++i) {
       if (i % 1024 == 0 && stop.stop_requested()) return false;
       if (lines_[i].stays) continue;
       sides.clear();
-      std::size_t asked = 0;
-      all.near(lines_[i].flat, i, [&](std::uint32_t k) {
+      all.near(lines_[i].flat, i, kMostOfCell, [&](std::uint32_t number) {
+        const std::uint32_t k = mixed[number];
         if (k == i) return true;
         const PlaneSegment &line = lines_[i].flat, &other = lines_[k].flat;
         if (const auto beside = covered(line, other, rule_.overlap))
           sides.add(side_at(line, other, (beside->from + beside->to) / 2), *beside);
-        return ++asked < kMostAsked && !sides.whole();
+        return !sides.whole();
       });
       if (sides.left.empty() || sides.right.empty()) continue;
       unite(sides.left);
@@ -147,6 +148,20 @@ class ObjectThinner {
       any = any || !lines_[i].inner.empty();
     }
     return any;
+  }
+
+  /// Returns the numbers up to a count in an order that has nothing to do with places: always the
+  /// same.
+  static std::vector<std::uint32_t> mixed_up(std::uint32_t count) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> keys;
+    keys.reserve(count);
+    for (std::uint32_t i = 0; i < count; ++i)
+      keys.emplace_back(static_cast<std::uint32_t>((i + 1) * 0x9E3779B97F4A7C15ULL >> 32U), i);
+    if (count > kMostOfCell) std::ranges::sort(keys);
+    std::vector<std::uint32_t> order;
+    order.reserve(count);
+    for (const auto& [key, i] : keys) order.push_back(i);
+    return order;
   }
 
   /// Returns inner intervals joined over short gaps: a line that is cut into crumbs would be dots.

@@ -101,7 +101,9 @@ std::optional<Candidate> candidate_of(const Scene& scene, std::uint32_t b, doubl
   const auto piece = piece_of(*primitive);
   if (!piece) return std::nullopt;
   const double scale = geometry::largest_scale(body.placement.linear);
-  if (!(2 * scale * std::max(piece->first_radius, piece->last_radius) <= most_mm))
+  // A placement is exact but for rounding, and so is what a pipe of just that diameter measures.
+  constexpr double kRounding = 1 + 1e-6;
+  if (!(2 * scale * std::max(piece->first_radius, piece->last_radius) <= most_mm * kRounding))
     return std::nullopt;
   return Candidate{b,
                    {PipeEnd{body.placement * piece->axis.front(), piece->first_radius * scale},
