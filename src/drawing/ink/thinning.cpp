@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/drawing/thinning.hpp"
 
+// Decision 0103 says why only what has lines on both sides is thinned.
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "strake/model/single_lines.hpp"
 
+// Decision 0103 says why pipes become wires before hidden lines are found.
+
 #include <fmt/core.h>
 
 #include <algorithm>
