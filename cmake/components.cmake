@@ -136,6 +136,7 @@ strake_component(drawing
     drawing/drawing.hpp
     drawing/hatching.hpp
     drawing/ink.hpp
+    drawing/object_styles.hpp
     drawing/thinning.hpp
     drawing/view.hpp
     drawing/write.hpp

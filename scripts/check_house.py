@@ -27,7 +27,7 @@ MAY_USE = {
     'workbook': ['core', 'parallel', 'geometry', 'model', 'clash', 'drawing', 'report'],
     'pictures': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'hlr', 'drawing', 'report'],
     'bcf': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing', 'report', 'pictures'],
-    'page': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing', 'report'],
+    'page': ['core', 'parallel', 'geometry', 'model', 'clash', 'hlr', 'drawing', 'sheets', 'report'],
     'publish': ['core', 'parallel', 'geometry', 'model', 'io', 'clash', 'hlr', 'drawing', 'sheets', 'report', 'workbook',
                 'pictures', 'bcf', 'page'],
 }

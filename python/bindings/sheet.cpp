@@ -60,7 +60,7 @@ nb::list save(const SheetRun& run, const std::filesystem::path& path) {
   const auto writer = value_or_raise(find_writer(sheets::sheet_writers(), path.string()));
   AtomicFile file = value_or_raise(AtomicFile::create(path));
   const Diagnostics noticed =
-      value_or_raise(writer.write(std::span(&run.sheet, 1), run.model->model(),
+      value_or_raise(writer.write({std::span(&run.sheet, 1), run.model->model()},
                                   [&](std::string_view text) { file.write(text); }, {}));
   check(file.commit());
   return listed(noticed);

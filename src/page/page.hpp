@@ -10,6 +10,7 @@
 
 #include "drawing/drawing_writers.hpp"
 #include "page/results/page_facts.hpp"
+#include "sheets/output/sheet_writers.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
@@ -65,6 +66,10 @@ struct PageContents {
 /// Returns a drawing as a page has it.
 [[nodiscard]] PageDrawing page_drawing(const drawing::NeutralDrawing& drawing,
                                        const drawing::Ink& ink, const model::Model& model);
+
+/// Writes the page of sheets, with what is drawn of the model if the contents have it.
+[[nodiscard]] Status write_sheet_page(const sheets::SheetContents& contents, drawing::Sink sink,
+                                      const parallel::Context& context);
 
 /// Writes the page of a drawing, with what is drawn of the model if the contents have it.
 [[nodiscard]] Status write_drawing_page(const drawing::DrawingContents& contents,

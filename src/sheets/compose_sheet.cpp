@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Composing a sheet from its description, and the public SheetFile.
+// Composing a sheet from its description.
 #include "sheets/compose_sheet.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,7 +14,6 @@
 
 #include "drawing/layout/expected_extent.hpp"
 #include "drawing/layout/view_plane.hpp"
-#include "settings/text_file.hpp"
 #include "sheets/annotation/dimensions.hpp"
 #include "sheets/annotation/tags.hpp"
 #include "sheets/annotation/title_block.hpp"
@@ -31,7 +31,6 @@
 #include "strake/drawing/hatching.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/model/selection.hpp"
-#include "strake/sheets/sheet_file.hpp"
 
 namespace strake::sheets {
 
@@ -64,6 +63,7 @@ class Composer {
         pipe_scenes_(scene) {}
 
   Result<Sheet> run() {
+    sheet_.name = what_.name;
     sheet_.width_mm = what_.width_mm;
     sheet_.height_mm = what_.height_mm;
     check_uncut();
@@ -121,6 +121,7 @@ class Composer {
         for (const settings::Chooser& chooser : hatch.select) ask(chooser);
       for (const settings::Chooser& chooser : view.uncut) ask(chooser);
     }
+    for (const ObjectStyleSpec& style : what_.object_styles) ask(*style.select);
     for (const TagSpec& tag : what_.tags) ask(*tag.select);
     for (const PartsListSpec& list : what_.parts_lists) ask(*list.select);
     Result<Picks> picked = model::pick(selections, scene_, context_);
@@ -310,19 +311,29 @@ class Composer {
       if (!pens || own.edge < pens->edge) pens = own;
     }
     sheet_.styles = styles_of(what_.styles, pens.value_or(drawing::Pens{}));
+    const std::shared_ptr<const drawing::ObjectStyles> styles = object_styles();
     for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
       const HiddenLines hidden = what_.views[v].hidden;
       auto chosen = drawing::choose_ink(sheet_.views[v].drawing,
                                         {.hidden = hidden != HiddenLines::off,
                                          .clean_up = hidden != HiddenLines::all,
                                          .split_hidden = what_.split_hidden,
-                                         .pens = pens_of(sheet_.styles)},
+                                         .pens = pens_of(sheet_.styles),
+                                         .styles = styles},
                                         context_);
       if (!chosen) return chosen.error();
       sheet_.views[v].ink = std::move(*chosen);
       if (const Status status = conventions(v); !status) return status;
     }
     return {};
+  }
+
+  /// Returns the styles of the objects; null: they all look alike.
+  [[nodiscard]] std::shared_ptr<const drawing::ObjectStyles> object_styles() {
+    if (what_.object_styles.empty()) return nullptr;
+    drawing::ObjectStyles styles(scene_.model->objects.size());
+    for (const ObjectStyleSpec& spec : what_.object_styles) styles.add(spec.style, next_picks(1));
+    return std::make_shared<const drawing::ObjectStyles>(std::move(styles));
   }
 
   Status conventions(std::size_t v) {
@@ -435,7 +446,7 @@ class Composer {
       for (std::size_t w = 0; w < sheet_.views.size(); ++w) {
         const ViewSpec& other = what_.views[w];
         if (w != v && !other.section_mark.empty())
-          cut[w] = mark_section(other, in, letters, marks) || cut[w];
+          cut[w] = mark_section(other, in, letters, sheet_.views[v].grid, marks) || cut[w];
       }
       for (std::size_t w = 0; w < sheet_.views.size(); ++w) {
         const ViewSpec& other = what_.views[w];
@@ -563,29 +574,6 @@ class Composer {
 Result<Sheet> compose(const SheetSpec& what, const model::Scene& scene,
                       const ComposeOptions& options, const parallel::Context& context) {
   return Composer(what, scene, options, context).run();
-}
-
-Result<SheetFile> SheetFile::parse(std::string_view text, std::string_view file,
-                                   ReadTemplate read_template) {
-  Result<SheetSpec> found = parse_sheet_spec(text, file, read_template);
-  if (!found) return found.error();
-  return SheetFile(std::make_shared<const SheetSpec>(std::move(*found)));
-}
-
-Result<SheetFile> SheetFile::read(const std::filesystem::path& file) {
-  const Result<std::string> text =
-      settings::read_text_file(file, "sheet file", "; models come before --sheet");
-  if (!text) return text.error();
-  return parse(*text, file.filename().string(), [&](std::string_view name) {
-    return settings::read_text_file(file.parent_path() / name, "template", "");
-  });
-}
-
-const std::string& SheetFile::template_name() const { return what_->template_name; }
-
-Result<Sheet> SheetFile::compose(const model::Scene& scene, const ComposeOptions& options,
-                                 const parallel::Context& context) const {
-  return sheets::compose(*what_, scene, options, context);
 }
 
 }  // namespace strake::sheets

@@ -219,6 +219,19 @@ void add_lines(CLI::App& command, DrawOptions& options) {
       ->type_name("on|off|LENGTH[+dxf]")
       ->group("Lines");
   command
+      .add_option(
+          "--style", options.styles,
+          fmt::format("How the lines of some objects are drawn in {}: name of their layer, colour, "
+                      "width of visible edges and type of line, each as you like: "
+                      "'name=PIPING,color=#c00000,pen=0.35mm,line=dashed: @discipline = PIPING'; "
+                      "may be repeated, the first that picks an object counts",
+                      suffixes_by_ink(true)))
+      ->type_name("STYLE")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Lines");
+  command
       .add_flag("--visible-only", options.visible_only,
                 fmt::format("Leave hidden lines out of everything, of {} too: less time and memory",
                             suffixes_by_ink(false)))
@@ -292,9 +305,11 @@ void add_stored(CLI::App& command, DrawOptions& options) {
 void add_sheet(CLI::App& command, DrawOptions& options) {
   CLI::Option* const sheet =
       command
-          .add_option("--sheet", options.sheets,
-                      "Several views with frame and title block, as a sheet file (TOML) says; may "
-                      "be repeated where one file holds several sheets, as .pdf does")
+          .add_option(
+              "--sheet", options.sheets,
+              "Several views with frame and title block, as a sheet file (TOML) says; may "
+              "be repeated; several sheets are pages of a .pdf, layouts of a .dxf, or a file "
+              "each, -o 'NAME-{sheet}.svg'")
           ->type_name("FILE")
           ->expected(1)
           ->allow_extra_args(false)
@@ -328,7 +343,8 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
                                   "--title",
                                   "--project",
                                   "--save",
-                                  "--stored"})
+                                  "--stored",
+                                  "--style"})
     sheet->excludes(other);
 }
 

@@ -21,6 +21,7 @@ std::string option_of_model(const DrawOptions& given) {
   if (given.input.strict) return "--strict";
   if (given.input.georeference) return "--georeference";
   if (!given.centre_lines.empty()) return "--centre-lines";
+  if (!given.styles.empty()) return "--style";
   return first_option_of_lines(given);
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "cli/run/object_selection.hpp"
+#include "cli/verbs/draw/styles/style_option.hpp"
 #include "core/output_format.hpp"
 #include "core/units.hpp"
 #include "drawing/drawing_writers.hpp"
@@ -240,6 +241,7 @@ Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool 
   const auto hatches = parse_hatches(given.hatches);
   if (!hatches) return hatches.error();
   if (const auto conventions = conventions_of(given); !conventions) return conventions.error();
+  if (const auto styles = parse_styles(given.styles); !styles) return styles.error();
   std::optional<model::SingleLineOptions> single_line;
   if (const Status status =
           parse_option(given.single_line, "--single-line", model::parse_single_line, single_line);

@@ -35,7 +35,7 @@ struct DrawOptions {
   std::string stage, solver, global, culling, bucketing, hidden, hidden_layers, centre_lines,
       break_lines, thin, single_line, intersections, own_polylines, smooth, flush_seams,
       sharp_angle, contact_distance;
-  std::vector<std::string> select, outputs, sections, uncut, hatches;
+  std::vector<std::string> select, outputs, sections, uncut, hatches, styles;
   bool visible_only = false;
   ProjectOptions project;
   std::string save, stored;  ///< names of stored views

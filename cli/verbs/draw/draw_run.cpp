@@ -15,6 +15,7 @@
 #include "cli/verbs/draw/brute_force_cost.hpp"
 #include "cli/verbs/draw/draw_summary.hpp"
 #include "cli/verbs/draw/far_objects.hpp"
+#include "cli/verbs/draw/styles/style_option.hpp"
 #include "core/number.hpp"
 #include "core/output_format.hpp"
 #include "drawing/drawing_writers.hpp"
@@ -149,8 +150,15 @@ Status write_drawing(Session& session, const DrawOptions& given,
   if (std::any_of(writers.begin(), writers.end(),
                   std::mem_fn(&drawing::DrawingWriter::needs_ink))) {
     const auto timer = session.step("ink");
-    Result<drawing::Ink> chosen =
-        drawing::choose_ink(drawing, ink_options(given), session.context());
+    drawing::InkOptions options = ink_options(given);
+    if (scene != nullptr) {
+      const auto rules = parse_styles(given.styles);
+      if (!rules) return rules.error();
+      auto styles = styles_of(session, *scene, *rules);
+      if (!styles) return styles.error();
+      options.styles = std::move(*styles);
+    }
+    Result<drawing::Ink> chosen = drawing::choose_ink(drawing, options, session.context());
     if (!chosen) return chosen.error();
     ink = std::move(*chosen);
     const auto conventions = conventions_of(given);

@@ -20,6 +20,7 @@ struct Setting {
 };
 
 using Text = Setting<std::string>;
+using List = Setting<std::vector<std::string>>;
 
 /// Those that decide which lines there are.
 constexpr std::array kTextsOfLines{
@@ -55,6 +56,10 @@ constexpr std::array kTextsOfSheet{
     Text{"title", [](DrawOptions& o) -> std::string& { return o.title; }},
 };
 
+constexpr std::array kListsOfSheet{
+    List{"style", [](DrawOptions& o) -> std::vector<std::string>& { return o.styles; }},
+};
+
 /// Those that say how lines are found; the lines are the same.
 constexpr std::array kTextsOfWork{
     Text{"solver", [](DrawOptions& o) -> std::string& { return o.solver; }},
@@ -63,7 +68,6 @@ constexpr std::array kTextsOfWork{
     Text{"bucketing", [](DrawOptions& o) -> std::string& { return o.bucketing; }},
 };
 
-using List = Setting<std::vector<std::string>>;
 constexpr std::array kLists{
     List{"select", [](DrawOptions& o) -> std::vector<std::string>& { return o.select; }},
     List{"section", [](DrawOptions& o) -> std::vector<std::string>& { return o.sections; }},
@@ -125,6 +129,7 @@ std::string settings_text(const DrawOptions& given) {
   put(kLists);
   put(kFlags);
   put(kTextsOfSheet);
+  put(kListsOfSheet);
   return settings.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -135,7 +140,8 @@ Result<DrawOptions> parse_settings(std::string_view text, const std::string& whe
   DrawOptions options;
   for (const auto& [name, value] : settings.items())
     if (!take(kTextsOfLines, name, value, options) && !take(kLists, name, value, options) &&
-        !take(kFlags, name, value, options) && !take(kTextsOfSheet, name, value, options))
+        !take(kFlags, name, value, options) && !take(kTextsOfSheet, name, value, options) &&
+        !take(kListsOfSheet, name, value, options))
       return Error{ErrorCode::input,
                    "its option '" + name + "' is none that this version knows, or has no value",
                    where, "save the view again"};
@@ -164,6 +170,8 @@ void put_on_sheet_of(const DrawOptions& given, DrawOptions& view) {
   DrawOptions options = given;  // NOLINT(misc-const-correctness): texts are moved out of it
   for (const Text& setting : kTextsOfSheet)
     if (std::string& text = setting.of(options); !text.empty()) setting.of(view) = std::move(text);
+  for (const List& setting : kListsOfSheet)
+    if (auto& list = setting.of(options); !list.empty()) setting.of(view) = std::move(list);
 }
 
 }  // namespace strake::cli

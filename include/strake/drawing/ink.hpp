@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
+#include "strake/drawing/object_styles.hpp"
 #include "strake/parallel/context.hpp"
 
 namespace strake::drawing {
@@ -30,6 +32,7 @@ struct InkOptions {
   /// their own.
   bool split_hidden = false;
   std::optional<Pens> pens = std::nullopt;  ///< none: chosen by the density of the drawing
+  std::shared_ptr<const ObjectStyles> styles = nullptr;  ///< null: all objects look alike
 };
 
 /// A centre line on paper: straight from point to point.
@@ -47,7 +50,8 @@ struct BreakLine {
 
 /// What thin_lines() left out.
 struct ThinnedLines {
-  double spacing_mm = 0;  ///< on paper, from the middle of a line to that of the next
+  /// On paper, from the middle of a line to that of the next; of objects without a style.
+  double spacing_mm = 0;
   std::uint64_t lines = 0, objects = 0;  ///< lines left out in part or wholly, and whose they are
 };
 
@@ -59,7 +63,8 @@ struct Ink {
   std::vector<CentreLine> centre_lines;  ///< those of find_centre_lines(), where they are wanted
   std::vector<BreakLine> break_lines;    ///< those of find_break_lines(), where they are wanted
   bool split_hidden = false;  ///< as InkOptions has it; the states of the lines tell which is which
-  std::optional<ThinnedLines> thinned;  ///< where thin_lines() was asked
+  std::shared_ptr<const ObjectStyles> styles = nullptr;  ///< null: all objects look alike
+  std::optional<ThinnedLines> thinned;                   ///< where thin_lines() was asked
   /// The lines in model space, of which true size thins none; empty: `lines`, as on paper.
   std::vector<Line> true_size_lines;
 

@@ -14,7 +14,7 @@ namespace strake::drawing {
 
 struct ThinOptions {
   /// Lines are thinned that stand nearer on paper, from the middle of one to that of the next, mm;
-  /// 0: two wide pens, which leaves a pen of white between two lines.
+  /// 0: two wide pens of the style of the object, which leaves a pen of white between two lines.
   double spacing_mm = 0;
   /// Model space of DXF lacks the lines, too. It is at true size, where none is too near.
   bool in_model_space = false;

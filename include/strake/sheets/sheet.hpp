@@ -103,6 +103,7 @@ struct Text {
   Align align = Align::start;
   std::string text;
   bool clears = false;  ///< clears the paper behind it: lines end there
+  double turn_deg = 0;  ///< about `at`, against the clock: more than -90, at most 90
 };
 
 /// Lines and texts that are drawn beside the lines of the model.
@@ -124,6 +125,7 @@ struct PlacedView {
 };
 
 struct Sheet {
+  std::string name;   ///< among the sheets of its file; empty where it is the only one
   std::string title;  ///< title of the file that is written
   double width_mm = 420, height_mm = 297;
   LineStyles styles;

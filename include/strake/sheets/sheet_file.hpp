@@ -2,10 +2,12 @@
 // Files that describe a sheet: reading one, and composing the sheet of a model.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "strake/core/result.hpp"
 #include "strake/hlr/hlr.hpp"
@@ -28,11 +30,12 @@ struct ComposeOptions {
   bool sag_for_paper = true;
 };
 
-/// A file that describes a sheet, parsed but not yet applied to a model. Immutable; cheap to copy.
+/// A file that describes a sheet or several, parsed but not yet applied to a model. Immutable;
+/// cheap to copy.
 ///
 ///     const auto file = sheets::SheetFile::read("deck.toml");
-///     const auto sheet = file->compose(*scene, {}, context);
-///     sheets::write_svg(*sheet, model, sink);
+///     const auto sheets = file->compose_all(*scene, {}, context);
+///     sheets::write_pdf(*sheets, model, sink, context);
 class SheetFile {
  public:
   /// Parses a description. `file` is its name in errors and diagnostics.
@@ -44,19 +47,27 @@ class SheetFile {
   /// Reads and parses a file. Templates are looked for beside it.
   [[nodiscard]] static Result<SheetFile> read(const std::filesystem::path& file);
 
-  /// Returns the template's name as the file has it, relative to itself; empty where there is none.
-  [[nodiscard]] const std::string& template_name() const;
+  /// Returns the names of its [[sheet]] tables in their order; one empty name where it describes
+  /// a sheet without them.
+  [[nodiscard]] std::vector<std::string> names() const;
+  /// Returns the names of the templates as the file has them, relative to itself, each once.
+  [[nodiscard]] std::vector<std::string> template_names() const;
 
   /// Draws the views one after another and puts them on paper. The result does not depend on the
   /// team.
   ///
-  /// Errors: cancelled, memory; input where the views have no room on the sheet at any scale.
+  /// Errors: cancelled, memory; input where the views have no room on the sheet at any scale;
+  /// usage where the file describes several sheets.
   [[nodiscard]] Result<Sheet> compose(const model::Scene& scene, const ComposeOptions& options,
                                       const parallel::Context& context) const;
+  /// Composes all sheets of the file, one after another. Errors: those of compose().
+  [[nodiscard]] Result<std::vector<Sheet>> compose_all(const model::Scene& scene,
+                                                       const ComposeOptions& options,
+                                                       const parallel::Context& context) const;
 
  private:
-  explicit SheetFile(std::shared_ptr<const SheetSpec> what) : what_(std::move(what)) {}
-  std::shared_ptr<const SheetSpec> what_;
+  explicit SheetFile(std::shared_ptr<const std::vector<SheetSpec>> what) : what_(std::move(what)) {}
+  std::shared_ptr<const std::vector<SheetSpec>> what_;
 };
 
 }  // namespace strake::sheets

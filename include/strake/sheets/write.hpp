@@ -26,11 +26,13 @@ void write_svg(const Sheet& sheet, const model::Model& model, drawing::Sink sink
                                             const model::Model& model, drawing::Sink sink,
                                             const parallel::Context& context);
 
-/// Writes a sheet as DXF (drawing::write_dxf): views at true size in model space, one beside the
-/// other as on the sheet; the sheet as a layout of its size, with a viewport for each view and all
-/// marks, each class on its layer. Returns that a template was left out ("template-left-out"),
-/// where there is one. Errors: cancelled, out of memory.
-[[nodiscard]] Result<Diagnostics> write_dxf(const Sheet& sheet, const model::Model& model,
-                                            drawing::Sink sink, const parallel::Context& context);
+/// Writes sheets of one model as DXF (drawing::write_dxf): views at true size in model space, one
+/// beside the other as on the sheet, and the sheets side by side; each sheet as a layout of its
+/// size, with a viewport for each view and all marks, each class on its layer. Returns what of
+/// templates is not drawn ("template-part-left-out"). Errors: usage where there is no sheet;
+/// cancelled, out of memory.
+[[nodiscard]] Result<Diagnostics> write_dxf(std::span<const Sheet> sheets,
+                                            const model::Model& model, drawing::Sink sink,
+                                            const parallel::Context& context);
 
 }  // namespace strake::sheets

@@ -2,6 +2,10 @@
 #include "drawing/dxf/document.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
 
 #include "drawing/dxf/handles.hpp"
 #include "drawing/dxf/tables.hpp"
@@ -49,11 +53,12 @@ void append_header(Groups& groups, const Document& document) {
   variable("$PEXTMIN");
   groups.point_in_space(10, 0, 0);
   variable("$PEXTMAX");
-  groups.point_in_space(10, document.width_mm, document.height_mm);
+  const PaperLayout& paper = document.papers.front();
+  groups.point_in_space(10, paper.width_mm, paper.height_mm);
   variable("$PLIMMIN");
   groups.point(10, 0, 0);
   variable("$PLIMMAX");
-  groups.point(10, document.width_mm, document.height_mm);
+  groups.point(10, paper.width_mm, paper.height_mm);
   // Dashes are as long on paper as the layers say, whatever the scale of a viewport is.
   variable("$PSLTSCALE");
   groups.whole(70, 1);
@@ -85,22 +90,34 @@ void append_classes(Groups& groups) {
   groups.text(0, "ENDSEC");
 }
 
-void append_block(Groups& groups, std::string_view name, Handle record, Handle begin, Handle end,
+/// Appends the block of a space, with the entities that stand in it.
+void append_block(std::string& out, std::string_view name, const PaperLayout& block,
                   bool on_paper) {
+  Groups groups(out);
   const auto entity = [&](std::string_view type, Handle handle) {
-    groups.text(0, type).handle(5, handle).handle(330, record).text(100, "AcDbEntity");
+    groups.text(0, type).handle(5, handle).handle(330, block.record).text(100, "AcDbEntity");
     if (on_paper) groups.whole(67, 1);
     groups.text(8, "0");
   };
-  entity("BLOCK", begin);
+  entity("BLOCK", block.begin);
   groups.text(100, "AcDbBlockBegin")
       .text(2, name)
       .whole(70, 0)
       .point_in_space(10, 0, 0)
       .text(3, name)
       .text(1, "");
-  entity("ENDBLK", end);
+  out += block.entities;
+  entity("ENDBLK", block.end);
   groups.text(100, "AcDbBlockEnd");
+}
+
+/// Model space as if it were a layout of paper.
+PaperLayout model_block() {
+  return {.name = "Model",
+          .record = kModelSpace,
+          .begin = kModelBlock,
+          .end = kModelBlockEnd,
+          .layout = kModelLayout};
 }
 
 Groups& begin_dictionary(Groups& groups, Handle handle, Handle owner) {
@@ -111,19 +128,19 @@ Groups& begin_dictionary(Groups& groups, Handle handle, Handle owner) {
       .whole(281, 1);
 }
 
-/// One of the two layouts.
+/// Model space or a layout of paper.
 struct Layout {
-  std::string_view name;
-  Handle handle, block;
-  int number;
+  const PaperLayout& paper;
+  std::int64_t number;
   Extent extent;
 };
 
-void append_layout(Groups& groups, const Layout& layout, const Document& document) {
+void append_layout(Groups& groups, const Layout& layout) {
   constexpr int kModelKind = 1024, kLineWeights = 128, kPlotStyles = 32, kPaperLast = 512;
   const bool is_model = layout.number == 0;
+  const PaperLayout& paper = layout.paper;
   groups.text(0, "LAYOUT")
-      .handle(5, layout.handle)
+      .handle(5, paper.layout)
       .handle(330, kLayouts)
       .text(100, "AcDbPlotSettings")
       .text(1, "")
@@ -131,7 +148,7 @@ void append_layout(Groups& groups, const Layout& layout, const Document& documen
       .text(4, "")
       .text(6, "");
   for (const int margin : {40, 41, 42, 43}) groups.whole(margin, 0);
-  groups.number(44, document.width_mm).number(45, document.height_mm);
+  groups.number(44, paper.width_mm).number(45, paper.height_mm);
   for (const int offset : {46, 47, 48, 49, 140, 141}) groups.whole(offset, 0);
   groups.whole(142, 1)
       .whole(143, 1)
@@ -148,11 +165,11 @@ void append_layout(Groups& groups, const Layout& layout, const Document& documen
       .whole(148, 0)
       .whole(149, 0);
   groups.text(100, "AcDbLayout")
-      .text(1, layout.name)
+      .text(1, paper.name)
       .whole(70, 1)
       .whole(71, layout.number)
       .point(10, 0, 0)
-      .point(11, document.width_mm, document.height_mm)
+      .point(11, paper.width_mm, paper.height_mm)
       .point_in_space(12, 0, 0)
       .point_in_space(14, layout.extent.left, layout.extent.bottom)
       .point_in_space(15, layout.extent.right, layout.extent.top)
@@ -161,8 +178,8 @@ void append_layout(Groups& groups, const Layout& layout, const Document& documen
       .point_in_space(16, 1, 0)
       .point_in_space(17, 0, 1)
       .whole(76, 0)
-      .handle(330, layout.block);
-  if (!is_model) groups.handle(331, kFirstEntity);
+      .handle(330, paper.record);
+  if (!is_model) groups.handle(331, paper.paper);
 }
 
 void append_objects(Groups& groups, const Document& document) {
@@ -179,7 +196,7 @@ void append_objects(Groups& groups, const Document& document) {
   begin_dictionary(groups, kGroups, kRoot);
   begin_dictionary(groups, kLayouts, kRoot);
   entry("Model", kModelLayout);
-  entry("Sheet", kPaperLayout);
+  for (const PaperLayout& paper : document.papers) entry(paper.name, paper.layout);
   begin_dictionary(groups, kLineStyles, kRoot);
   entry("Standard", kLineStyle);
   groups.text(0, "ACDBDICTIONARYWDFLT")
@@ -208,11 +225,17 @@ void append_objects(Groups& groups, const Document& document) {
       .whole(52, 90)
       .whole(71, 2);
   for (const double side : {0.5, -0.5}) groups.number(49, side).whole(62, 256).text(6, "BYLAYER");
-  Extent paper;
-  paper.include({0, 0});
-  paper.include({document.width_mm, document.height_mm});
-  append_layout(groups, {"Model", kModelLayout, kModelSpace, 0, document.model}, document);
-  append_layout(groups, {"Sheet", kPaperLayout, kPaperSpace, 1, paper}, document);
+  PaperLayout model = model_block();
+  model.width_mm = document.papers.front().width_mm;
+  model.height_mm = document.papers.front().height_mm;
+  append_layout(groups, {model, 0, document.model});
+  std::int64_t number = 0;
+  for (const PaperLayout& paper : document.papers) {
+    Extent extent;
+    extent.include({0, 0});
+    extent.include({paper.width_mm, paper.height_mm});
+    append_layout(groups, {paper, ++number, extent});
+  }
   groups.text(0, "ENDSEC");
 }
 
@@ -225,6 +248,10 @@ void Extent::include(const PaperPoint& point) {
   top = std::max(top, point.y);
 }
 
+std::string name_of_paper_block(std::size_t number) {
+  return "*Paper_Space" + (number == 0 ? std::string() : std::to_string(number - 1));
+}
+
 void append_front(std::string& out, const Document& document) {
   Groups groups(out);
   append_header(groups, document);
@@ -233,8 +260,9 @@ void append_front(std::string& out, const Document& document) {
   append_tables(out, document);
   groups.text(0, "ENDSEC");
   begin_section(groups, "BLOCKS");
-  append_block(groups, "*Model_Space", kModelSpace, kModelBlock, kModelBlockEnd, false);
-  append_block(groups, "*Paper_Space", kPaperSpace, kPaperBlock, kPaperBlockEnd, true);
+  append_block(out, "*Model_Space", model_block(), false);
+  for (std::size_t p = 0; p < document.papers.size(); ++p)
+    append_block(out, name_of_paper_block(p), document.papers[p], true);
   groups.text(0, "ENDSEC");
   begin_section(groups, "ENTITIES");
 }

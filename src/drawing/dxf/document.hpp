@@ -2,7 +2,9 @@
 // A DXF file round its entities: header, tables and blocks before them, layouts behind.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drawing/dxf/groups.hpp"
@@ -22,13 +24,27 @@ struct Extent {
   void include(const PaperPoint& point);
 };
 
+/// A layout of paper, with the handles of what it takes.
+struct PaperLayout {
+  std::string name;  ///< that no other layout has, whatever the case of its letters
+  double width_mm = 420, height_mm = 297;
+  Handle record = kPaperSpace, begin = kPaperBlock, end = kPaperBlockEnd, layout = kPaperLayout;
+  Handle paper = kFirstEntity;  ///< the viewport that is the paper itself
+  /// Its entities, where it is not the first layout, whose entities stand with those of model
+  /// space.
+  std::string_view entities = {};
+};
+
+/// Returns the name of the block of the layout of that number, counted from 0.
+[[nodiscard]] std::string name_of_paper_block(std::size_t number);
+
 /// What a file says of itself before its first entity.
 struct Document {
   std::vector<LayerStyle> layers;
-  double width_mm = 420, height_mm = 297;  ///< of the sheet
-  bool opens_on_paper = false;             ///< shows the sheet first, not model space
-  Extent model;                            ///< of all that lies in model space
-  Handle next = kFirstEntity;              ///< greater than every handle of an entity
+  std::vector<PaperLayout> papers;  ///< one at least
+  bool opens_on_paper = false;      ///< shows the first sheet first, not model space
+  Extent model;                     ///< of all that lies in model space
+  Handle next = kFirstEntity;       ///< greater than every handle of an entity
 };
 
 /// Appends what stands before the entities, and the beginning of their section.

@@ -2,23 +2,35 @@
 #include "drawing/dxf/entities.hpp"
 
 #include "drawing/dxf/handles.hpp"
+#include "drawing/dxf/layer_style.hpp"
 
 namespace strake::drawing::dxf {
 
 namespace {
+
+void append_pen(Groups& groups, const EntityPen& pen) {
+  groups.whole(62, color_number(pen.color));
+  if (pen.width_mm > 0) groups.whole(370, line_weight(pen.width_mm));
+  // True black would not be seen on black: number 7 shows white there.
+  const std::int64_t color = std::int64_t{pen.color.red} * 0x10000 +
+                             std::int64_t{pen.color.green} * 0x100 + pen.color.blue;
+  if (color != 0) groups.whole(420, color);
+}
 
 Groups begin(std::string& out, std::string_view type, const EntityHead& head,
              std::string_view subclass) {
   Groups groups(out);
   groups.text(0, type).handle(5, head.handle);
   const bool on_paper = head.space == Space::paper;
-  groups.handle(330, on_paper ? kPaperSpace : kModelSpace).text(100, "AcDbEntity");
+  const Handle paper = head.paper != 0 ? head.paper : kPaperSpace;
+  groups.handle(330, on_paper ? paper : kModelSpace).text(100, "AcDbEntity");
   if (on_paper) groups.whole(67, 1);
   groups.text(8, head.layer);
   if (head.dash_stretch == 0)
     groups.text(6, "Continuous");
   else if (head.dash_stretch != 1)
     groups.number(48, head.dash_stretch);
+  if (head.pen) append_pen(groups, *head.pen);
   return groups.text(100, subclass);
 }
 
@@ -67,13 +79,13 @@ void append_ellipse(std::string& out, const EntityHead& head, const PaperPoint& 
       .number(42, to_rad);
 }
 
-void append_text(std::string& out, const EntityHead& head, const PaperPoint& at, double height,
-                 TextAlign align, std::string_view text) {
+void append_text(std::string& out, const EntityHead& head, const TextPlace& place,
+                 std::string_view text) {
+  const auto& [at, height, align, turn_deg] = place;
   Groups groups = begin(out, "TEXT", head, "AcDbText");
-  groups.point_in_space(10, at.x, at.y)
-      .number(40, height)
-      .text(1, shown_text(text))
-      .text(7, kTextStyle);
+  groups.point_in_space(10, at.x, at.y).number(40, height).text(1, shown_text(text));
+  if (turn_deg != 0) groups.number(50, turn_deg);
+  groups.text(7, kTextStyle);
   if (align != TextAlign::start)
     groups.whole(72, align == TextAlign::middle ? 1 : 2).point_in_space(11, at.x, at.y);
   groups.text(100, "AcDbText");
@@ -97,15 +109,15 @@ void append_filled(std::string& out, const EntityHead& head, std::span<const Pap
   groups.whole(97, 0).whole(75, 0).whole(76, 1).whole(98, 0);
 }
 
-void append_cover(std::string& out, const EntityHead& head, const PaperPoint& low,
-                  const PaperPoint& high) {
+void append_cover(std::string& out, const EntityHead& head, const CoverCorners& corners) {
+  const auto& [low, right, up] = corners;
   // An image of one dot, as large as the area and clipped by its own rim.
   constexpr int kShownClippedWithAll = 7;
   begin(out, "WIPEOUT", head, "AcDbWipeout")
       .whole(90, 0)
       .point_in_space(10, low.x, low.y)
-      .point_in_space(11, high.x - low.x, 0)
-      .point_in_space(12, 0, high.y - low.y)
+      .point_in_space(11, right.x - low.x, right.y - low.y)
+      .point_in_space(12, up.x - low.x, up.y - low.y)
       .point(13, 1, 1)
       .handle(340, 0)
       .whole(70, kShownClippedWithAll)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,12 +16,20 @@ namespace strake::drawing::dxf {
 /// The space that an entity lies in. Here y points up.
 enum class Space : std::uint8_t { model, paper };
 
+/// A colour and a width that are not those of the layer.
+struct EntityPen {
+  model::Color color;
+  double width_mm = 0;  ///< 0: that of the layer
+};
+
 /// What every entity says first.
 struct EntityHead {
   Space space = Space::model;
   Handle handle = 0;
   std::string_view layer;
   double dash_stretch = 1;  ///< factor of the layer's dashes; 0: continuous
+  Handle paper = 0;         ///< the block of the layout that it lies on; 0: the first
+  std::optional<EntityPen> pen = std::nullopt;  ///< none: as its layer
 };
 
 void append_line(std::string& out, const EntityHead& head, const PaperPoint& a,
@@ -45,16 +54,25 @@ void append_ellipse(std::string& out, const EntityHead& head, const PaperPoint& 
 
 enum class TextAlign : std::uint8_t { start, middle, end };
 
-/// Appends a text; `at` lies on its base line, `height` is that of a capital.
-void append_text(std::string& out, const EntityHead& head, const PaperPoint& at, double height,
-                 TextAlign align, std::string_view text);
+/// How a text stands: a point of its base line, the height of a capital, and by how much it is
+/// turned about the point, degrees against the clock.
+struct TextPlace {
+  PaperPoint at;
+  double height = 2.5;
+  TextAlign align = TextAlign::start;
+  double turn_deg = 0;
+};
+void append_text(std::string& out, const EntityHead& head, const TextPlace& place,
+                 std::string_view text);
 
 /// Appends an area of one colour; the last point is not the first.
 void append_filled(std::string& out, const EntityHead& head, std::span<const PaperPoint> points);
 
-/// Appends an area in which nothing is seen of what was drawn before.
-void append_cover(std::string& out, const EntityHead& head, const PaperPoint& low,
-                  const PaperPoint& high);
+/// Appends an area in which nothing is seen of what was drawn before: a box with these corners.
+struct CoverCorners {
+  PaperPoint lower_left, lower_right, upper_left;
+};
+void append_cover(std::string& out, const EntityHead& head, const CoverCorners& corners);
 
 /// A window of the paper into model space.
 struct Viewport {

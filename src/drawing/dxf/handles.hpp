@@ -2,6 +2,8 @@
 // The handles of what every file holds, and the names that entities refer to.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <string_view>
 
 #include "drawing/dxf/groups.hpp"
@@ -21,10 +23,15 @@ inline constexpr Handle kModelSpace = 0x20, kModelBlock = 0x21, kModelBlockEnd =
 inline constexpr Handle kRoot = 0x30, kGroups = 0x31, kLayouts = 0x32, kLineStyles = 0x33,
                         kLineStyle = 0x34, kPlotStyles = 0x35, kNormalPlotStyle = 0x36,
                         kWipeoutVariables = 0x37;
-/// Where layers and types of lines begin, which there are fewer than a hundred of, …
-inline constexpr Handle kFirstLayer = 0x100, kFirstLineType = 0x200;
-/// … and entities, the paper itself first.
-inline constexpr Handle kFirstEntity = 0x1000;
+/// Where layers begin, types of lines, of which there are no more, and entities, the paper itself
+/// first: they begin farther on where there are many layers.
+inline constexpr Handle kFirstLayer = 0x100, kFirstLineType = 0x200, kFirstEntity = 0x1000;
+[[nodiscard]] inline Handle first_line_type(std::size_t layers) {
+  return std::max<Handle>(kFirstLineType, kFirstLayer + layers);
+}
+[[nodiscard]] inline Handle first_entity(std::size_t layers) {
+  return std::max<Handle>(kFirstEntity, first_line_type(layers) + layers);
+}
 
 /// The style of all texts.
 inline constexpr std::string_view kTextStyle = "STRAKE";

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +47,15 @@ inline constexpr std::size_t kViewLayers = 11;
 
 /// The layer of break lines, which is that of narrow continuous lines.
 inline constexpr ViewLayer kBreakLineLayer = ViewLayer::polyline;
+
+/// The numbers of the layers that lines of styles lie on, by style and ViewLayer; none: no line is
+/// there.
+using StyleLayers = std::vector<std::array<std::optional<std::size_t>, kViewLayers>>;
+
+/// Adds the layers of the styles of objects that lines of the views have, which have one set of
+/// styles, to those of all objects. Their names begin with those of the styles: "PIPING_AM_0".
+[[nodiscard]] StyleLayers add_style_layers(std::span<const Ink* const> views,
+                                           std::vector<LayerStyle>& layers);
 
 /// What a layer is called, and by what name people know it.
 struct LayerName {

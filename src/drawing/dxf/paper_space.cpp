@@ -3,17 +3,20 @@
 
 #include <vector>
 
-#include "drawing/dxf/handles.hpp"
 #include "drawing/layout/view_plane.hpp"
 
 namespace strake::drawing::dxf {
 
-PaperSpace::PaperSpace(double width_mm, double height_mm, std::span<const LayerStyle> layers,
-                       std::size_t viewport_layer)
-    : height_mm_(height_mm), layers_(layers), viewport_layer_(viewport_layer), next_(kFirstEntity) {
-  const PaperPoint middle{width_mm / 2, height_mm / 2};
-  append_viewport(text_, head(viewport_layer_), {middle, width_mm, height_mm, middle, height_mm},
-                  viewports_++);
+PaperSpace::PaperSpace(const PaperSize& size, std::span<const LayerStyle> layers,
+                       std::size_t viewport_layer, Handle block, Handle first)
+    : height_mm_(size.height_mm),
+      block_(block),
+      layers_(layers),
+      viewport_layer_(viewport_layer),
+      next_(first) {
+  const PaperPoint middle{size.width_mm / 2, size.height_mm / 2};
+  append_viewport(text_, head(viewport_layer_),
+                  {middle, size.width_mm, size.height_mm, middle, size.height_mm}, viewports_++);
 }
 
 void PaperSpace::add_viewport(const PaperFrame& window, const PaperPoint& looks_at, double scale) {
@@ -41,18 +44,21 @@ void PaperSpace::add_circle(std::size_t layer, const PaperPoint& centre, double 
   append_circle(text_, head(layer), up(centre), radius_mm);
 }
 
-void PaperSpace::add_text(std::size_t layer, const PaperPoint& at, double height_mm,
-                          TextAlign align, std::string_view text) {
+void PaperSpace::add_text(std::size_t layer, const TextPlace& place, std::string_view text) {
   // An audit throws texts of nothing away.
-  if (!text.empty()) append_text(text_, head(layer), up(at), height_mm, align, text);
+  if (text.empty()) return;
+  TextPlace there = place;
+  there.at = up(place.at);
+  append_text(text_, head(layer), there, text);
 }
 
-void PaperSpace::add_cover(std::size_t layer, const PaperFrame& area) {
-  append_cover(text_, head(layer), up({area.left, area.bottom}), up({area.right, area.top}));
+void PaperSpace::add_cover(std::size_t layer, const CoverCorners& corners) {
+  append_cover(text_, head(layer),
+               {up(corners.lower_left), up(corners.lower_right), up(corners.upper_left)});
 }
 
 EntityHead PaperSpace::head(std::size_t layer) {
-  return {Space::paper, next_++, layers_[layer].name};
+  return {Space::paper, next_++, layers_[layer].name, 1, block_, pen_};
 }
 
 PaperPoint PaperSpace::up(const PaperPoint& p) const {

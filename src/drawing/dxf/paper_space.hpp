@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,19 +19,21 @@ namespace strake::drawing::dxf {
 /// on a drawing's sheet, with y downwards; layers by their numbers.
 class PaperSpace {
  public:
-  PaperSpace(double width_mm, double height_mm, std::span<const LayerStyle> layers,
-             std::size_t viewport_layer);
+  /// `block` is that of its layout; handles of entities count from `first`, the paper itself.
+  PaperSpace(const PaperSize& size, std::span<const LayerStyle> layers, std::size_t viewport_layer,
+             Handle block, Handle first);
+
+  /// Gives what is added from now on a pen of its own; none: that of its layer.
+  void use_pen(std::optional<EntityPen> pen) { pen_ = pen; }
 
   void add_viewport(const PaperFrame& window, const PaperPoint& looks_at, double scale);
   /// Points joined by straight lines; closed when the last is the first.
   void add_lines(std::size_t layer, std::span<const PaperPoint> points);
   void add_filled(std::size_t layer, std::span<const PaperPoint> points);
   void add_circle(std::size_t layer, const PaperPoint& centre, double radius_mm);
-  /// A text of a height of capitals, from a point of its base line.
-  void add_text(std::size_t layer, const PaperPoint& at, double height_mm, TextAlign align,
-                std::string_view text);
+  void add_text(std::size_t layer, const TextPlace& place, std::string_view text);
   /// Covers what was added before.
-  void add_cover(std::size_t layer, const PaperFrame& area);
+  void add_cover(std::size_t layer, const CoverCorners& corners);
 
   [[nodiscard]] const std::string& text() const { return text_; }
   /// The first handle that is free.
@@ -42,11 +45,13 @@ class PaperSpace {
   [[nodiscard]] std::vector<PaperPoint> all_up(std::span<const PaperPoint> points) const;
 
   double height_mm_;
+  Handle block_;
   std::span<const LayerStyle> layers_;
   std::size_t viewport_layer_;
   std::string text_;
   Handle next_;
   int viewports_ = 1;
+  std::optional<EntityPen> pen_;
 };
 
 }  // namespace strake::drawing::dxf

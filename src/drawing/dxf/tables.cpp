@@ -113,7 +113,7 @@ LineTypes line_types(const std::vector<LayerStyle>& layers) {
   return types;
 }
 
-void append_line_types(Groups& groups, const std::vector<LineType>& types) {
+void append_line_types(Groups& groups, const std::vector<LineType>& types, Handle first) {
   begin_table(groups, "LTYPE", kLineTypeTable, types.size() + 3);
   const auto begin = [&](Handle handle, std::string_view name, std::string_view description,
                          std::size_t dashes, double length) {
@@ -127,11 +127,10 @@ void append_line_types(Groups& groups, const std::vector<LineType>& types) {
   begin(kByBlock, "ByBlock", "", 0, 0);
   begin(kByLayer, "ByLayer", "", 0, 0);
   begin(kContinuous, "Continuous", "Solid line", 0, 0);
-  Handle handle = kFirstLineType;
   for (const LineType& type : types) {
     double length = 0;
     for (const double dash : type.dash_mm) length += dash;
-    begin(handle++, type.name, type.dash_mm.size() == 2 ? "__ __ __" : "____ _ ____ _",
+    begin(first++, type.name, type.dash_mm.size() == 2 ? "__ __ __" : "____ _ ____ _",
           type.dash_mm.size(), length);
     bool ink = true;
     for (const double dash : type.dash_mm) {
@@ -213,20 +212,18 @@ void append_dimension_styles(Groups& groups) {
   end_table(groups);
 }
 
-void append_block_records(Groups& groups) {
-  struct Record {
-    std::string_view name;
-    Handle handle, layout;
-  };
-  begin_table(groups, "BLOCK_RECORD", kBlockTable, 2);
-  for (const Record& record : {Record{"*Model_Space", kModelSpace, kModelLayout},
-                               Record{"*Paper_Space", kPaperSpace, kPaperLayout}})
-    begin_record(groups, "BLOCK_RECORD", record.handle, kBlockTable, "AcDbBlockTableRecord",
-                 record.name)
-        .handle(340, record.layout)
+void append_block_records(Groups& groups, const std::vector<PaperLayout>& papers) {
+  begin_table(groups, "BLOCK_RECORD", kBlockTable, papers.size() + 1);
+  const auto record = [&](std::string_view name, Handle handle, Handle layout) {
+    begin_record(groups, "BLOCK_RECORD", handle, kBlockTable, "AcDbBlockTableRecord", name)
+        .handle(340, layout)
         .whole(70, 0)
         .whole(280, 1)
         .whole(281, 0);
+  };
+  record("*Model_Space", kModelSpace, kModelLayout);
+  for (std::size_t p = 0; p < papers.size(); ++p)
+    record(name_of_paper_block(p), papers[p].record, papers[p].layout);
   end_table(groups);
 }
 
@@ -241,14 +238,14 @@ void append_tables(std::string& out, const Document& document) {
   Groups groups(out);
   const LineTypes types = line_types(document.layers);
   append_viewports(groups, document.model);
-  append_line_types(groups, types.all);
+  append_line_types(groups, types.all, first_line_type(document.layers.size()));
   append_layers(groups, document.layers, types);
   append_styles(groups);
   append_empty_table(groups, "VIEW", kViewTable);
   append_empty_table(groups, "UCS", kUcsTable);
   append_applications(groups);
   append_dimension_styles(groups);
-  append_block_records(groups);
+  append_block_records(groups, document.papers);
 }
 
 }  // namespace strake::drawing::dxf

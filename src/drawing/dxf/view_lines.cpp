@@ -13,6 +13,7 @@
 #include "drawing/dxf/handles.hpp"
 #include "drawing/ink/dash_fit.hpp"
 #include "drawing/strokes/dash_runs.hpp"
+#include "drawing/strokes/layer_pens.hpp"
 #include "drawing/strokes/layers.hpp"
 #include "drawing/strokes/strokes.hpp"
 #include "geometry/numeric/trig.hpp"
@@ -138,15 +139,24 @@ std::string centre_lines_of(const ViewLines& view, const model::Model& model,
   return out;
 }
 
-/// Returns the entities of the break lines of a view.
+/// Returns the entities of the break lines of a view. Those of a style are continuous even where
+/// the other lines of their layer are not.
 std::string break_lines_of(const ViewLines& view, const model::Model& model,
-                           const LayerStyle& layer, Handle first) {
+                           std::span<const LayerStyle> layers, Handle first) {
+  constexpr auto kLayer = static_cast<std::size_t>(kBreakLineLayer);
   std::string out;
-  for (const BreakLine& line : view.ink.break_lines) {
-    Chain points;
-    for (const PaperPoint& point : line.points) points.push_back(view.plane.place(point));
-    append_polyline(out, {Space::model, first++, layer.name, 1}, points, !layer.dash_mm.empty());
-    out += object_data(model.object(line.object), model);
+  for (const BreakLinesOfStyle& part : break_lines_by_style(view.ink)) {
+    const bool plain = part.style == ObjectStyles::kPlain;
+    const LayerStyle& layer =
+        layers[plain ? kLayer : view.style_layers[part.style - 1].at(kLayer).value_or(kLayer)];
+    const bool dashed = plain && !layer.dash_mm.empty();
+    const double stretch = plain || layer.dash_mm.empty() ? 1 : 0;
+    for (const BreakLine* const line : part.lines) {
+      Chain points;
+      for (const PaperPoint& point : line->points) points.push_back(view.plane.place(point));
+      append_polyline(out, {Space::model, first++, layer.name, stretch}, points, dashed);
+      out += object_data(model.object(line->object), model);
+    }
   }
   return out;
 }
@@ -154,26 +164,39 @@ std::string break_lines_of(const ViewLines& view, const model::Model& model,
 /// The lines of a view by layers, those of an object side by side.
 struct SortedLines {
   struct OfObject {
-    ViewLayer layer = ViewLayer::edge;
+    std::size_t layer = 0;  ///< its number
+    bool dashes_fit = false;
     std::size_t begin = 0, end = 0;
   };
   std::vector<const Line*> lines;
   std::vector<OfObject> objects;
 };
 
-SortedLines sorted_lines(const Ink& ink) {
+bool is_hidden_layer(std::size_t layer) {
+  return layer == static_cast<std::size_t>(ViewLayer::hidden_by_other) ||
+         layer == static_cast<std::size_t>(ViewLayer::hidden_by_self);
+}
+
+SortedLines sorted_lines(const Ink& ink, const StyleLayers& style_layers) {
   std::array<std::vector<const Line*>, kViewLayers> of_layer;
   for (const Line& line : ink.in_model_space())
     of_layer.at(static_cast<std::size_t>(layer_of(line))).push_back(&line);
   SortedLines sorted;
   sorted.lines.reserve(ink.in_model_space().size());
   for (std::size_t layer = 0; layer < kViewLayers; ++layer)
-    for_each_object(
-        std::span<const Line* const>(of_layer.at(layer)), [&](std::span<const Line* const> lines) {
-          const std::size_t begin = sorted.lines.size();
-          sorted.lines.insert(sorted.lines.end(), lines.begin(), lines.end());
-          sorted.objects.push_back({static_cast<ViewLayer>(layer), begin, sorted.lines.size()});
-        });
+    for (const LinesOfStyle& part : by_style(of_layer.at(layer), ink)) {
+      const bool plain = part.style == ObjectStyles::kPlain;
+      const std::size_t number =
+          plain ? layer : style_layers[part.style - 1].at(layer).value_or(layer);
+      // Dashes of hidden lines fit each line, and so do those that a style asks for.
+      const bool fit = !plain || is_hidden_layer(layer);
+      for_each_object(std::span<const Line* const>(part.lines),
+                      [&](std::span<const Line* const> lines) {
+                        const std::size_t begin = sorted.lines.size();
+                        sorted.lines.insert(sorted.lines.end(), lines.begin(), lines.end());
+                        sorted.objects.push_back({number, fit, begin, sorted.lines.size()});
+                      });
+    }
   return sorted;
 }
 
@@ -188,11 +211,9 @@ std::vector<std::size_t> shares_of(const std::vector<SortedLines::OfObject>& obj
   return begins;
 }
 
-/// Returns the dashes that are fitted to each line of a layer, in mm of model space: those of
-/// hidden lines.
-std::vector<double> fitted_dashes(ViewLayer layer, const LayerStyle& style, double scale) {
+/// Returns the dashes of a layer in mm of model space.
+std::vector<double> dashes_in_model(const LayerStyle& style, double scale) {
   std::vector<double> dashes;
-  if (layer != ViewLayer::hidden_by_other && layer != ViewLayer::hidden_by_self) return dashes;
   for (const double dash : style.dash_mm) dashes.push_back(dash * scale);
   return dashes;
 }
@@ -202,7 +223,7 @@ std::vector<double> fitted_dashes(ViewLayer layer, const LayerStyle& style, doub
 Status write_view_lines(const ViewLines& view, const model::Model& model,
                         std::span<const LayerStyle> layers, Handle first, Sink sink,
                         const parallel::Context& context) {
-  const SortedLines sorted = sorted_lines(view.ink);
+  const SortedLines sorted = sorted_lines(view.ink, view.style_layers);
   const PaperCurves curves = view.plane.curves(view.curves);
   const auto append_object = [&](const SortedLines::OfObject& of_object, std::string& out) {
     std::vector<Line> placed;
@@ -216,8 +237,9 @@ Status write_view_lines(const ViewLines& view, const model::Model& model,
     }
     for (const Line& line : placed) lines.push_back(&line);
     const std::string data = object_data(model.object(placed.front().object), model);
-    const LayerStyle& layer = layers[static_cast<std::size_t>(of_object.layer)];
-    const std::vector<double> dash = fitted_dashes(of_object.layer, layer, view.plane.scale());
+    const LayerStyle& layer = layers[of_object.layer];
+    const std::vector<double> dash =
+        of_object.dashes_fit ? dashes_in_model(layer, view.plane.scale()) : std::vector<double>{};
     Handle handle = first + of_object.begin;
     const auto append_stroke = [&](const Stroke& stroke) {
       for (const StrokeRun& run : stroke.runs) {
@@ -251,12 +273,9 @@ Status write_view_lines(const ViewLines& view, const model::Model& model,
       },
       context);
   if (!status) return status;
-  const auto layer = [&](ViewLayer l) -> const LayerStyle& {
-    return layers[static_cast<std::size_t>(l)];
-  };
   const Handle next = first + sorted.lines.size();
-  sink(centre_lines_of(view, model, layer(ViewLayer::centre), next));
-  sink(break_lines_of(view, model, layer(kBreakLineLayer), next + view.ink.centre_lines.size()));
+  sink(centre_lines_of(view, model, layers[static_cast<std::size_t>(ViewLayer::centre)], next));
+  sink(break_lines_of(view, model, layers, next + view.ink.centre_lines.size()));
   return {};
 }
 

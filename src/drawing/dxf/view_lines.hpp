@@ -21,6 +21,7 @@ struct ViewLines {
   const PaperCurves& curves;
   const Ink& ink;
   const ModelPlane& plane;
+  const StyleLayers& style_layers;
 };
 
 /// Returns as many handles as the entities of a view need at most: one for a line.

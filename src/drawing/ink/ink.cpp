@@ -90,14 +90,14 @@ bool may_be_dashed(const Line& line) {
          line.kind != hlr::EdgeKind::smooth;
 }
 
-std::vector<PlaneSegment> flatten(const std::vector<Line>& lines, const OnPaper& on_paper,
-                                  const Pens& pens, double touch) {
+std::vector<PlaneSegment> flatten(const Ink& ink, const OnPaper& on_paper, double touch) {
+  const std::vector<Line>& lines = ink.lines;
   std::vector<PlaneSegment> flat(lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const Line& line = lines[i];
     PlaneSegment& f = flat[i];
     f = on_paper(line);
-    f.reach = (width_of(line, pens) + touch) / 2;
+    f.reach = (width_of(line, ink) + touch) / 2;
     if (is_hidden(line.state))
       f.rank = Rank::hidden;
     else if (f.length() > 0)
@@ -161,7 +161,7 @@ Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
                           .hidden_covers = false,
                           .shortest = kDashGap * thin + touch};
   const OnPaper on_paper(ink.lines, axes, scale);
-  const std::vector<PlaneSegment> flat = flatten(ink.lines, on_paper, ink.pens, touch);
+  const std::vector<PlaneSegment> flat = flatten(ink, on_paper, touch);
   const auto overlaps = cut_overlaps(flat, along, context);
   if (!overlaps) return overlaps.error();
   const auto kept =
@@ -205,6 +205,7 @@ Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
   Ink ink;
   ink.pens = options.pens ? *options.pens : choose_pens(drawing);
   ink.split_hidden = options.split_hidden;
+  ink.styles = options.styles;
   for (const Line& line : drawing.lines)
     if (line.state == LineState::visible || (options.hidden && may_be_dashed(line)))
       ink.lines.push_back(line);

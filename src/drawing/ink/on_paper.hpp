@@ -9,6 +9,7 @@
 #include "drawing/layout/view_plane.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/ink.hpp"
+#include "strake/drawing/object_styles.hpp"
 #include "strake/geometry/grid.hpp"
 
 namespace strake::drawing {
@@ -20,7 +21,8 @@ namespace strake::drawing {
   return 4.5 * geometry::kMmPerGrid / scale;
 }
 
-[[nodiscard]] inline double width_of(const Line& line, const Pens& pens) {
+/// Returns the width of a line as it is of objects without a style.
+[[nodiscard]] inline double usual_width(const Line& line, const Pens& pens) {
   if (line.state != LineState::visible || line.kind == hlr::EdgeKind::polyline ||
       line.kind == hlr::EdgeKind::hatch || line.kind == hlr::EdgeKind::smooth)
     return pens.thin;
@@ -28,6 +30,12 @@ namespace strake::drawing {
   return line.kind == hlr::EdgeKind::contour || line.kind == hlr::EdgeKind::single_line
              ? pens.outline
              : pens.edge;
+}
+
+[[nodiscard]] inline double width_of(const Line& line, const Ink& ink) {
+  const double width = usual_width(line, ink.pens);
+  if (ink.styles == nullptr) return width;
+  return width * ink.styles->widening(ink.styles->number_of(line), ink.pens.edge);
 }
 
 /// The places of lines on paper, without rounding, which would make equal objects unequal where

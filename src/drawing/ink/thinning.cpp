@@ -229,28 +229,43 @@ class ObjectThinner {
   std::vector<ParamInterval> covers_;
 };
 
-/// Returns the intervals that stay of the lines that are thinned.
+/// How near the lines of an object may be.
+struct ThinRule {
+  LayingRule laying;
+  double reach = 0;
+
+  ThinRule(double spacing_mm, double touch)
+      : laying{.overlap = {.least = 1e-3 + touch, .greatest_sine = 0.2, .shortest = spacing_mm},
+               .whole_below = 2 * spacing_mm,
+               .touch = touch},
+        // Lines a spacing apart are not too near, whatever the grid made of their corners.
+        reach(std::max(spacing_mm - touch, spacing_mm / 2) / 2) {}
+};
+
+/// Returns the intervals that stay of the lines that are thinned; `rule_of` says the rule of an
+/// object.
+template <class RuleOf>
 Result<LineIntervals> thinned_intervals(const std::vector<Line>& lines, const OnPaper& on_paper,
-                                        const LayingRule& rule, double reach,
-                                        const parallel::Context& context) {
+                                        const RuleOf& rule_of, const parallel::Context& context) {
   return parallel::collect_with<LineInterval>(
       context, {.name = "dense lines", .n = lines.size(), .grain = 1024},
       [] { return std::vector<SeenLine>{}; },
       [&](std::vector<SeenLine>& own, std::size_t first, LineIntervals& out) {
         if (first > 0 && lines[first - 1].object == lines[first].object) return;
         own.clear();
+        const ThinRule rule = rule_of(lines[first].object);
         for (std::size_t i = first; i < lines.size() && lines[i].object == lines[first].object;
              ++i) {
           if (lines[i].state != LineState::visible || lines[i].kind == hlr::EdgeKind::hatch)
             continue;
           PlaneSegment flat = on_paper(lines[i]);
-          flat.reach = reach;
+          flat.reach = rule.reach;
           flat.rank = Rank::visible;
-          if (flat.length() > rule.touch)
+          if (flat.length() > rule.laying.touch)
             own.push_back({flat, static_cast<std::uint32_t>(i), !may_be_thinned(lines[i]), {}});
         }
         // One that lies between two others is the least that can be thinned.
-        if (own.size() > 2) ObjectThinner(own, rule).run(context.stop, out);
+        if (own.size() > 2) ObjectThinner(own, rule.laying).run(context.stop, out);
       });
 }
 
@@ -308,14 +323,15 @@ Status thin_lines(Ink& ink, const NeutralDrawing& drawing, const ThinOptions& op
   const auto axes = paper_axes(drawing.view);
   if (axes && !ink.lines.empty()) {
     const double touch = corner_rounding_mm(drawing.sheet.scale);
-    // Lines a spacing apart are not too near, whatever the grid made of their corners.
-    const double reach = std::max(thinned.spacing_mm - touch, thinned.spacing_mm / 2) / 2;
-    const LayingRule rule{
-        .overlap = {.least = 1e-3 + touch, .greatest_sine = 0.2, .shortest = thinned.spacing_mm},
-        .whole_below = 2 * thinned.spacing_mm,
-        .touch = touch};
+    // Two pens are those of the object's style.
+    const auto rule_of = [&](model::ObjectId object) {
+      const bool styled = options.spacing_mm <= 0 && ink.styles != nullptr;
+      const double wider =
+          styled ? ink.styles->widening(ink.styles->number_of(object), ink.pens.edge) : 1;
+      return ThinRule(thinned.spacing_mm * wider, touch);
+    };
     const OnPaper on_paper(ink.lines, *axes, drawing.sheet.scale);
-    const auto kept = thinned_intervals(ink.lines, on_paper, rule, reach, context);
+    const auto kept = thinned_intervals(ink.lines, on_paper, rule_of, context);
     if (!kept) return kept.error();
     std::vector<Line> left = with_intervals(ink.lines, *kept, *axes, thinned);
     if (thinned.lines > 0) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // PDF of a drawing: one page with the layers of its view.
+#include <array>
 #include <string>
 
 #include "drawing/ink/dash_fit.hpp"
@@ -12,26 +13,6 @@
 namespace strake::drawing {
 
 namespace {
-
-/// The pens of write_svg().
-PdfPen pen_of(const Layer& layer, const Pens& pens) {
-  const bool polyline = layer.kind == hlr::EdgeKind::polyline;
-  PdfPen pen{pens.thin, {}, {0, 0, 0, 255}};
-  if (layer.hidden) {
-    pen.dash_mm = pen_dashes(kHiddenDashes, pens.thin);
-    pen.color =
-        polyline ? model::Color{0x66, 0x88, 0xAA, 255} : model::Color{0x44, 0x44, 0x44, 255};
-  } else if (layer.kind == hlr::EdgeKind::contour || layer.kind == hlr::EdgeKind::single_line) {
-    pen.width_mm = pens.outline;
-  } else if (layer.kind == hlr::EdgeKind::section) {
-    pen.width_mm = pens.section;
-  } else if (polyline) {
-    pen.color = {0x22, 0x44, 0x66, 255};
-  } else if (layer.kind != hlr::EdgeKind::hatch && layer.kind != hlr::EdgeKind::smooth) {
-    pen.width_mm = pens.edge;
-  }
-  return pen;
-}
 
 /// Adds a layer with lines of the thin pen and operators after them.
 void add_framing(PdfDocument& document, std::string_view label, const Pens& pens,
@@ -67,11 +48,17 @@ Result<Diagnostics> write_pdf(const NeutralDrawing& drawing, const Ink& ink,
                               const parallel::Context& context) {
   PdfDocument document(sink, title_of(drawing), pdf_facts(drawing, ink, model));
   document.begin_page({drawing.sheet.width_mm, drawing.sheet.height_mm}, title_of(drawing));
+  const std::array<const Ink*, 1> views{&ink};
+  const PdfStyleLayers styles = add_style_layers(document, views);
+  const auto pen_of_layer = [&](const Layer& layer, LineState /*state*/) {
+    return usual_pen(layer, ink.pens);
+  };
   const Status status =
       add_pdf_view(document, std::nullopt, drawing.curves, ink, model,
-                   {[&](const Layer& layer, LineState) { return pen_of(layer, ink.pens); },
+                   {pen_of_layer,
                     {ink.pens.thin, pen_dashes(kCentreDashes, ink.pens.thin), {0, 0, 0, 255}},
-                    {ink.pens.thin, {}, {0, 0, 0, 255}}},
+                    {ink.pens.thin, {}, {0, 0, 0, 255}},
+                    styles},
                    context);
   if (!status) return status.error();
   if (drawing.frame) {

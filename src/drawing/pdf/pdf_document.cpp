@@ -9,6 +9,7 @@
 
 #include "drawing/pdf/pdf_font.hpp"
 #include "drawing/pdf/pdf_syntax.hpp"
+#include "geometry/numeric/trig.hpp"
 
 namespace strake::drawing {
 
@@ -118,9 +119,21 @@ void PdfDocument::append_text(std::string& out, std::string_view text, const Pdf
   if (text.empty()) return;
   std::string letters;
   const double width = append_text_at_origin(letters, text) * place.size_mm;
-  const std::string size = number_text(place.size_mm, 3);
-  out += "BT\n" + pdf_color(place.color) + "rg\n" + size + " 0 0 -" + size + " ";
-  append_pdf_point(out, {place.at.x - place.anchor * width, place.at.y});
+  out += "BT\n" + pdf_color(place.color) + "rg\n";
+  const double before = place.anchor * width;
+  if (place.turn_deg == 0) {
+    const std::string size = number_text(place.size_mm, 3);
+    out += size + " 0 0 -" + size + " ";
+    append_pdf_point(out, {place.at.x - before, place.at.y});
+  } else {
+    const auto turn = geometry::sin_cos(place.turn_deg * geometry::kPi / 180);
+    const double x = place.size_mm * turn.cos, y = place.size_mm * turn.sin;
+    for (const double part : {x, -y, -y, -x}) {
+      append_pdf_number(out, part, 6);
+      out += ' ';
+    }
+    append_pdf_point(out, {place.at.x - before * turn.cos, place.at.y + before * turn.sin});
+  }
   out += "Tm\n" + letters + "ET\n";
 }
 

@@ -26,6 +26,7 @@ struct PdfTextPlace {
   double size_mm = 5;  ///< size of the font
   double anchor = 0;   ///< part of its width that lies before `at`: 0, 0.5 or 1
   model::Color color{0, 0, 0, 255};
+  double turn_deg = 0;  ///< about `at`, against the clock
 };
 
 /// Writes a document page by page. Contents are operators in millimetres of the sheet, x to the

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -172,38 +174,71 @@ class LayerMaker {
       const std::vector<const Line*> lines = lines_of(layer, ink_);
       if (lines.empty()) continue;
       const PdfLayerId id = document_.add_layer(layer.label, parent_);
-      if (!layer.hidden) {
-        layers_.push_back({document_.open(id) + "q\n" + pdf_pen(pens.of(layer, LineState::visible)),
-                           "Q\n" + document_.close(id),
-                           lines,
-                           LineState::visible,
-                           {}});
-        continue;
-      }
-      for (std::size_t c = 0; c < kCauses.size(); ++c)
-        add_hidden(id, pens.of(layer, kCauses.at(c).state), lines, c);
+      for (const LinesOfStyle& part : by_style(lines, ink_))
+        if (layer.hidden)
+          for (std::size_t c = 0; c < kCauses.size(); ++c) add_hidden({layer, id, part}, pens, c);
+        else
+          add_visible({layer, id, part}, pens);
     }
     return std::move(layers_);
   }
 
  private:
+  /// Lines of one style in a layer.
+  struct StyledPart {
+    const Layer& layer;
+    PdfLayerId id;
+    const LinesOfStyle& of;
+  };
+
+  [[nodiscard]] LinePen pen_of(const StyledPart& part, const PdfPens& pens, LineState state) const {
+    LinePen pen = pens.of(part.layer, state);
+    if (part.of.style == ObjectStyles::kPlain) return pen;
+    return styled_pen(std::move(pen), part.layer, *ink_.styles, part.of.style, ink_.pens.edge);
+  }
+
+  void add(const StyledPart& part, const PdfPens& pens, std::optional<PdfLayerId> cause,
+           LayerContents contents, const LinePen& pen) {
+    const std::optional<PdfLayerId> style = part.of.style == ObjectStyles::kPlain
+                                                ? std::nullopt
+                                                : pens.style_layers.at(part.of.style - 1);
+    contents.begin = document_.open(part.id);
+    contents.end = "Q\n";
+    for (const std::optional<PdfLayerId>& other : {cause, style}) {
+      if (!other) continue;
+      contents.begin += PdfDocument::open_alone(*other);
+      contents.end += "EMC\n";
+    }
+    contents.begin += "q\n" + pdf_pen(pen);
+    contents.end += document_.close(part.id);
+    layers_.push_back(std::move(contents));
+  }
+
+  void add_visible(const StyledPart& part, const PdfPens& pens) {
+    const LinePen pen = pen_of(part, pens, LineState::visible);
+    // Dashes that a style asks for fit each line.
+    const bool fits = part.of.style != ObjectStyles::kPlain;
+    add(part, pens, std::nullopt,
+        {{}, {}, part.of.lines, LineState::visible, fits ? pen.dash_mm : std::vector<double>{}},
+        pen);
+  }
+
   /// Adds the lines of a layer that are hidden by one cause: they lie in its layer too.
-  void add_hidden(PdfLayerId id, const PdfPen& pen, const std::vector<const Line*>& lines,
-                  std::size_t cause) {
+  void add_hidden(const StyledPart& part, const PdfPens& pens, std::size_t cause) {
     const LineState state = kCauses.at(cause).state;
+    const LinePen pen = pen_of(part, pens, state);
     const bool dashed_as_one = !ink_.split_hidden && !pen.dash_mm.empty();
     const auto of_state = [&](const Line* line) { return line->state == state; };
     std::vector<const Line*> chosen;
-    for_each_object(lines, [&](std::span<const Line* const> object) {
-      if (dashed_as_one && std::ranges::any_of(object, of_state))
-        chosen.insert(chosen.end(), object.begin(), object.end());
-      else
-        std::ranges::copy_if(object, std::back_inserter(chosen), of_state);
-    });
+    for_each_object(std::span<const Line* const>(part.of.lines),
+                    [&](std::span<const Line* const> object) {
+                      if (dashed_as_one && std::ranges::any_of(object, of_state))
+                        chosen.insert(chosen.end(), object.begin(), object.end());
+                      else
+                        std::ranges::copy_if(object, std::back_inserter(chosen), of_state);
+                    });
     if (chosen.empty()) return;
-    const PdfLayerId by = *causes_.at(cause);
-    layers_.push_back({document_.open(id) + PdfDocument::open_alone(by) + "q\n" + pdf_pen(pen),
-                       "Q\nEMC\n" + document_.close(id), std::move(chosen), state, pen.dash_mm});
+    add(part, pens, causes_.at(cause), {{}, {}, std::move(chosen), state, pen.dash_mm}, pen);
   }
 
   PdfDocument& document_;
@@ -214,7 +249,7 @@ class LayerMaker {
 };
 
 void add_centre_lines(PdfDocument& document, std::optional<PdfLayerId> parent, const Ink& ink,
-                      const PdfPen& pen) {
+                      const LinePen& pen) {
   if (ink.centre_lines.empty()) return;
   const PdfLayerId layer = document.add_layer("Centre lines", parent);
   DashedPaths paths(pen.dash_mm);
@@ -226,19 +261,50 @@ void add_centre_lines(PdfDocument& document, std::optional<PdfLayerId> parent, c
 }
 
 void add_break_lines(PdfDocument& document, std::optional<PdfLayerId> parent, const Ink& ink,
-                     const PdfPen& pen) {
+                     const PdfPens& pens) {
   if (ink.break_lines.empty()) return;
   const PdfLayerId layer = document.add_layer("Break lines", parent);
-  std::string out = document.open(layer) + "q\n" + pdf_pen(pen);
-  for (const BreakLine& line : ink.break_lines) append_pdf_chain(out, line.points);
-  document.add(out + "S\nQ\n" + document.close(layer));
+  std::string out = document.open(layer);
+  for (const BreakLinesOfStyle& part : break_lines_by_style(ink)) {
+    const bool plain = part.style == ObjectStyles::kPlain;
+    const std::optional<PdfLayerId> style =
+        plain ? std::nullopt : pens.style_layers.at(part.style - 1);
+    if (style) out += PdfDocument::open_alone(*style);
+    out += "q\n" + pdf_pen(plain ? pens.break_lines
+                                 : styled_break_pen(pens.break_lines, *ink.styles, part.style,
+                                                    ink.pens.edge));
+    for (const BreakLine* const line : part.lines) append_pdf_chain(out, line->points);
+    out += style ? "S\nQ\nEMC\n" : "S\nQ\n";
+  }
+  document.add(out + document.close(layer));
 }
 
 std::string with_commas(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
 }  // namespace
 
-std::string pdf_pen(const PdfPen& pen) {
+PdfStyleLayers add_style_layers(PdfDocument& document, std::span<const Ink* const> views) {
+  PdfStyleLayers layers;
+  std::map<std::string, PdfLayerId> of_name;
+  for (const Ink* const ink : views) {
+    if (ink->styles == nullptr) continue;
+    const std::vector<ObjectStyle>& styles = ink->styles->all();
+    std::vector<bool> used(styles.size() + 1);
+    for (const Line& line : ink->lines) used[ink->styles->number_of(line)] = true;
+    for (const BreakLine& line : ink->break_lines) used[ink->styles->number_of(line.object)] = true;
+    layers.resize(std::max(layers.size(), styles.size()));
+    for (std::size_t s = 0; s < styles.size(); ++s) {
+      if (!used[s + 1] || styles[s].name.empty() || layers[s]) continue;
+      auto known = of_name.find(styles[s].name);
+      if (known == of_name.end())
+        known = of_name.emplace(styles[s].name, document.add_layer(styles[s].name)).first;
+      layers[s] = known->second;
+    }
+  }
+  return layers;
+}
+
+std::string pdf_pen(const LinePen& pen) {
   std::string out = pdf_color(pen.color) + "RG\n";
   append_pdf_number(out, pen.width_mm, 4);
   out += " w\n";
@@ -271,7 +337,7 @@ Status add_pdf_view(PdfDocument& document, std::optional<PdfLayerId> parent,
       },
       context);
   if (!status) return status;
-  add_break_lines(document, parent, ink, pens.break_lines);
+  add_break_lines(document, parent, ink, pens);
   add_centre_lines(document, parent, ink, pens.centre_lines);
   return status;
 }

@@ -3,36 +3,37 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "drawing/pdf/pdf_document.hpp"
+#include "drawing/strokes/layer_pens.hpp"
 #include "drawing/strokes/layers.hpp"
 #include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/ink.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
-#include "strake/parallel/detail/function_ref.hpp"
 
 namespace strake::drawing {
 
-/// How lines are drawn, mm of paper.
-struct PdfPen {
-  double width_mm = 0.25;
-  std::vector<double>
-      dash_mm;  ///< lengths of ink and gap by turns, flat at their ends; empty: none
-  model::Color color{0, 0, 0, 255};
-};
-
 /// Returns the operators that choose a pen.
-[[nodiscard]] std::string pdf_pen(const PdfPen& pen);
+[[nodiscard]] std::string pdf_pen(const LinePen& pen);
+
+/// The layers of the styles of objects that have names, by style; lines of them lie in the layer of
+/// their kind and in that of their style.
+using PdfStyleLayers = std::vector<std::optional<PdfLayerId>>;
+
+/// Adds a layer for each name of a style that lines of the views have.
+[[nodiscard]] PdfStyleLayers add_style_layers(PdfDocument& document,
+                                              std::span<const Ink* const> views);
 
 /// The pens of a view.
 struct PdfPens {
-  /// The pen of a layer; of a hidden one, for the lines that are hidden in this way.
-  parallel::FunctionRef<PdfPen(const Layer&, LineState)> of;
-  PdfPen centre_lines, break_lines;
+  PenOfLayer of;
+  LinePen centre_lines, break_lines;
+  const PdfStyleLayers& style_layers;
 };
 
 /// Adds the lines of a view to the page: a layer for each kind of line, below `parent` if there is

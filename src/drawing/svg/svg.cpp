@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <span>
@@ -19,6 +20,7 @@
 #include "drawing/strokes/strokes.hpp"
 #include "drawing/svg/svg_layers.hpp"
 #include "drawing/svg/svg_path.hpp"
+#include "drawing/svg/svg_styles.hpp"
 #include "strake/drawing/write.hpp"
 
 namespace strake::drawing {
@@ -66,42 +68,89 @@ void write_objects(BufferedWriter& out, const PaperCurves& curves, const model::
   });
 }
 
+/// `style` names that of the objects in the layer, where there is one.
 void begin_layer(BufferedWriter& out, std::string_view label, std::string_view id,
-                 std::string_view classes) {
+                 std::string_view classes, std::string_view style = {}) {
   out << "<g inkscape:groupmode=\"layer\" inkscape:label=\"" << label << "\" id=\"" << id
-      << "\" class=\"" << classes << "\">\n";
+      << "\" class=\"" << classes << "\"";
+  if (!style.empty()) out << " data-style=\"" << style << "\"";
+  out << ">\n";
 }
 
-void write_layer(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
-                 const model::Model& model, const Layer& layer, std::string_view prefix,
-                 const HiddenDashes& dashes) {
-  const std::vector<const Line*> lines = lines_of(layer, ink);
-  if (lines.empty()) return;
-  const std::string_view state = layer.hidden ? "hidden" : "visible";
-  const std::string_view kind = kind_name(layer.kind);
-  const std::string id = fmt::format("{}{}-{}", prefix, state, kind);
-  begin_layer(out, layer.label, id, fmt::format("{} {}", state, kind));
-  if (layer.hidden && ink.split_hidden) {
-    const auto part = [&](LineState by, std::string_view name, std::string_view words,
-                          std::span<const double> dash_mm) {
-      std::vector<const Line*> some;
-      std::ranges::copy_if(lines, std::back_inserter(some),
-                           [&](const Line* line) { return line->state == by; });
-      if (some.empty()) return;
-      begin_layer(out, fmt::format("{}, {}", layer.label, words), fmt::format("{}-{}", id, name),
-                  name);
-      write_objects(out, curves, model, some, dash_mm);
-      out << "</g>\n";
-    };
-    part(LineState::hidden_by_other, "by-other", "by others", dashes.by_other);
-    part(LineState::hidden_by_self, "by-self", "by the object itself", dashes.by_self);
-  } else {
-    write_objects(
-        out, curves, model, lines,
-        layer.hidden ? std::span<const double>(dashes.by_self) : std::span<const double>());
-  }
-  out << "</g>\n";
+/// Begins the layer of a style within another.
+void begin_style(BufferedWriter& out, const ObjectStyles& styles, std::size_t number,
+                 std::string_view outer_label, std::string_view outer_id) {
+  const std::string label = xml_escaped(style_label(styles, number));
+  begin_layer(out, fmt::format("{}, {}", outer_label, label),
+              fmt::format("{}-style-{}", outer_id, number), fmt::format("style-{}", number), label);
 }
+
+/// Writes the layers of a view.
+class LayerWriter {
+ public:
+  LayerWriter(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
+              const model::Model& model, PenOfLayer pen_of)
+      : out_(out), curves_(curves), ink_(ink), model_(model), pen_of_(pen_of) {}
+
+  void write(const Layer& layer, std::string_view prefix) {
+    const std::vector<const Line*> lines = lines_of(layer, ink_);
+    if (lines.empty()) return;
+    const std::string_view state = layer.hidden ? "hidden" : "visible";
+    const std::string_view kind = kind_name(layer.kind);
+    const std::string id = fmt::format("{}{}-{}", prefix, state, kind);
+    begin_layer(out_, layer.label, id, fmt::format("{} {}", state, kind));
+    if (layer.hidden && ink_.split_hidden) {
+      write_state(layer, lines, LineState::hidden_by_other, {"by-other", "by others", id});
+      write_state(layer, lines, LineState::hidden_by_self, {"by-self", "by the object itself", id});
+    } else {
+      write_styles(layer, lines, layer.hidden ? LineState::hidden_by_self : LineState::visible,
+                   {{}, std::string(layer.label), id});
+    }
+    out_ << "</g>\n";
+  }
+
+ private:
+  struct Names {
+    std::string_view name;
+    std::string label, id;
+  };
+
+  void write_state(const Layer& layer, const std::vector<const Line*>& lines, LineState by,
+                   const Names& names) {
+    std::vector<const Line*> some;
+    std::ranges::copy_if(lines, std::back_inserter(some),
+                         [&](const Line* line) { return line->state == by; });
+    if (some.empty()) return;
+    const std::string label = fmt::format("{}, {}", layer.label, names.label);
+    const std::string id = fmt::format("{}-{}", names.id, names.name);
+    begin_layer(out_, label, id, names.name);
+    write_styles(layer, some, by, {{}, label, id});
+    out_ << "</g>\n";
+  }
+
+  void write_styles(const Layer& layer, const std::vector<const Line*>& lines, LineState state,
+                    const Names& names) {
+    for (const LinesOfStyle& part : by_style(lines, ink_)) {
+      const LinePen pen = pen_of_(layer, state);
+      if (part.style == ObjectStyles::kPlain) {
+        write_objects(
+            out_, curves_, model_, part.lines,
+            layer.hidden ? std::span<const double>(pen.dash_mm) : std::span<const double>());
+        continue;
+      }
+      const LinePen styled = styled_pen(pen, layer, *ink_.styles, part.style, ink_.pens.edge);
+      begin_style(out_, *ink_.styles, part.style, names.label, names.id);
+      write_objects(out_, curves_, model_, part.lines, styled.dash_mm);
+      out_ << "</g>\n";
+    }
+  }
+
+  BufferedWriter& out_;
+  const PaperCurves& curves_;
+  const Ink& ink_;
+  const model::Model& model_;
+  PenOfLayer pen_of_;
+};
 
 }  // namespace
 
@@ -115,16 +164,23 @@ void write_far_objects(BufferedWriter& out, const NeutralDrawing& drawing,
 }
 
 void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
-                  const model::Model& model, std::string_view prefix, const HiddenDashes& dashes) {
-  for (const Layer& layer : kLayers) write_layer(out, curves, ink, model, layer, prefix, dashes);
+                  const model::Model& model, std::string_view prefix, PenOfLayer pen_of) {
+  LayerWriter writer(out, curves, ink, model, pen_of);
+  for (const Layer& layer : kLayers) writer.write(layer, prefix);
 }
 
 void write_break_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix) {
   if (ink.break_lines.empty()) return;
-  begin_layer(out, "Break lines", fmt::format("{}break-lines", prefix), "break");
-  out << "<path d=\"";
-  for (const BreakLine& line : ink.break_lines) append_svg_chain(out.text(), line.points);
-  out << "\"/>\n</g>\n";
+  const std::string id = fmt::format("{}break-lines", prefix);
+  begin_layer(out, "Break lines", id, "break");
+  for (const BreakLinesOfStyle& part : break_lines_by_style(ink)) {
+    const bool plain = part.style == ObjectStyles::kPlain;
+    if (!plain) begin_style(out, *ink.styles, part.style, "Break lines", id);
+    out << "<path d=\"";
+    for (const BreakLine* const line : part.lines) append_svg_chain(out.text(), line->points);
+    out << (plain ? "\"/>\n" : "\"/>\n</g>\n");
+  }
+  out << "</g>\n";
 }
 
 void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix,
@@ -140,7 +196,7 @@ void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view pr
 
 namespace {
 
-void write_style(BufferedWriter& out, const Ink& ink, bool sections) {
+void write_style(BufferedWriter& out, const Ink& ink, bool sections, PenOfLayer pen_of) {
   const Pens& pens = ink.pens;
   const std::vector<double> dashes = pen_dashes(kHiddenDashes, pens.thin);
   // A dash of 12 line widths and a gap of 3; long dash, gap, dot for centre lines (ISO 128-20).
@@ -174,7 +230,8 @@ void write_style(BufferedWriter& out, const Ink& ink, bool sections) {
     out << fmt::format(".visible.single_line path {{ stroke-width: {}; }}\n", pens.outline);
   if (has(hlr::EdgeKind::smooth))
     out << fmt::format(".visible.smooth path {{ stroke-width: {}; }}\n", pens.thin);
-  out << "</style>\n";
+  const std::array<const Ink*, 1> views{&ink};
+  out << svg_style_rules(views, "", pen_of, {pens.thin, {}, {0, 0, 0, 255}}) << "</style>\n";
 }
 
 std::string vector_text(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
@@ -243,13 +300,15 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
                Sink sink) {
   BufferedWriter out(sink);
   write_head(out, drawing, ink, model);
-  write_style(out, ink, !drawing.view.sections.empty());
+  const auto pen_of = [&](const Layer& layer, LineState /*state*/) {
+    return usual_pen(layer, ink.pens);
+  };
+  write_style(out, ink, !drawing.view.sections.empty(), pen_of);
   out << fmt::format("<rect class=\"sheet\" width=\"{}\" height=\"{}\"/>\n",
                      shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
-  const std::vector<double> dashes = pen_dashes(kHiddenDashes, ink.pens.thin);
-  write_layers(out, drawing.curves, ink, model, "", {dashes, dashes});
+  write_layers(out, drawing.curves, ink, model, "", pen_of);
   write_break_lines(out, ink, "");
   write_centre_lines(out, ink, "", pen_dashes(kCentreDashes, ink.pens.thin));
   write_frame(out, drawing);

@@ -4,27 +4,23 @@
 
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "drawing/buffered_writer.hpp"
+#include "drawing/strokes/layer_pens.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/ink.hpp"
 #include "strake/model/model.hpp"
 
 namespace strake::drawing {
 
-/// The lengths of ink and gap by turns of hidden lines, mm; empty: continuous. Lines that others
-/// hide have their own where the ink keeps the two apart.
-struct HiddenDashes {
-  std::vector<double> by_self, by_other;
-};
-
 /// Writes the lines of a view: a group per layer, of class "visible sharp" and the like, and in it
 /// a group per object with one path, or for dashed lines one for each pattern that fits them
-/// (dash_runs). Where hidden lines are kept apart, the layer has a layer for each state within it.
-/// `prefix` stands before the ids of the layers.
+/// (dash_runs). Where hidden lines are kept apart, the layer has a layer for each state within it,
+/// and lines of objects with a style lie in a layer of class "style-1" and the like within these.
+/// Of the pens the dashes of hidden lines and of styles count here, the rest is in
+/// svg_style_rules() and in what the caller writes. `prefix` stands before the ids of the layers.
 void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
-                  const model::Model& model, std::string_view prefix, const HiddenDashes& dashes);
+                  const model::Model& model, std::string_view prefix, PenOfLayer pen_of);
 
 /// Writes the layer of break lines, of class "break", where there are any.
 void write_break_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix);

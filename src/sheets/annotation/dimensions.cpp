@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/number.hpp"
+#include "geometry/numeric/trig.hpp"
 #include "sheets/annotation/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 
@@ -102,44 +103,48 @@ void draw_arrow(const PaperPoint& tip, const PaperPoint& from, Marks& marks) {
                          true});
 }
 
-/// Returns the text of a dimension: above its line where that is level, else in its middle; behind
-/// an arrow where it has no room there. `beyond` is how far the line goes on behind its arrows.
+/// Returns the direction in which the text along a line is read: from below, and along an upright
+/// line from the right.
+PaperPoint reading_way(const PaperPoint& way) {
+  constexpr double kLevel = 1e-9;
+  if (std::fabs(way.y) < kLevel) return {1, 0};
+  if (std::fabs(way.x) < kLevel) return {0, -1};
+  return way.x > 0 ? way : PaperPoint{-way.x, -way.y};
+}
+
+/// Returns the text of a dimension, which stands on its line (ISO 129-1), or on the line beyond an
+/// arrow where it is wider than what it measures. `beyond` is how far the line goes on behind its
+/// arrows.
 Text text_of_dimension(const DimensionLine& line, const std::string& value, double beyond) {
-  const bool level = std::fabs(line.way.y) < 1e-9;
+  const PaperPoint way = reading_way(line.way), up{way.y, -way.x};
   PaperPoint at{(line.a.x + line.b.x) / 2, (line.a.y + line.b.y) / 2};
   Align align = Align::middle;
-  if (level && text_width(value) * kValueMm > line.length) {
-    at = along(line.b.x > line.a.x ? line.b : line.a, {1, 0}, std::max(beyond, kStandOffMm));
+  if (text_width(value) * kValueMm > line.length) {
+    const bool forward = way.x * line.way.x + way.y * line.way.y > 0;
+    at = along(forward ? line.b : line.a, way, std::max(beyond, kStandOffMm));
     align = Align::start;
-  } else if (!level && beyond > 0) {
-    at = along(line.b, line.way, beyond + kValueMm);
   }
-  at.y += level ? -kStandOffMm : kValueMm / 2;
-  return {LineClass::dimension, rounded(at), kValueMm, align, value, true};
+  // A millionth of a degree is less than a micrometre of any text.
+  const double turn =
+      std::round(geometry::arc_tan2(-way.y, way.x) * 180 / geometry::kPi * 1e6) / 1e6;
+  return {LineClass::dimension,
+          rounded(along(at, up, kStandOffMm)),
+          kValueMm,
+          align,
+          value,
+          true,
+          turn + 0.0};
 }
 
 void draw_line(const DimensionLine& line, const std::string& value, Marks& marks) {
   const PaperPoint back{-line.way.x, -line.way.y};
-  const bool level = std::fabs(line.way.y) < 1e-9;
-  const double height = level ? 0 : 2 * kValueMm;
-  const bool narrow = line.length < 2 * kArrowLengthMm + 1 + height;
+  const bool narrow = line.length < 2 * kArrowLengthMm + 1;
   const double beyond = narrow ? 2 * kArrowLengthMm : 0;
   const PaperPoint a = along(line.a, back, beyond), b = along(line.b, line.way, beyond);
-  const auto stroke = [&](const PaperPoint& from, const PaperPoint& to) {
-    marks.paths.push_back({LineClass::dimension, {rounded(from), rounded(to)}, false});
-  };
-  Text text = text_of_dimension(line, value, beyond);
-  // The text clears the lines of the view and its grid; this one is cut here.
-  const auto gap = !level ? clipped({a, b}, widened(box_of(text), 0.5)) : std::nullopt;
-  if (gap) {
-    stroke(a, gap->a);
-    stroke(gap->b, b);
-  } else {
-    stroke(a, b);
-  }
+  marks.paths.push_back({LineClass::dimension, {rounded(a), rounded(b)}, false});
   draw_arrow(line.a, narrow ? back : line.way, marks);
   draw_arrow(line.b, narrow ? line.way : back, marks);
-  marks.texts.push_back(std::move(text));
+  marks.texts.push_back(text_of_dimension(line, value, beyond));
 }
 
 /// Draws the extension line from an end to the line of the dimension and a little beyond.

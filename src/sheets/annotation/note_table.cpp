@@ -9,6 +9,7 @@
 
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/annotation/tags.hpp"
+#include "sheets/spec/natural_order.hpp"
 #include "sheets/spec/template.hpp"
 #include "sheets/spec/text_metrics.hpp"
 
@@ -113,7 +114,10 @@ NoteTable parts_list(const PartsListSpec& spec, const std::vector<bool>& picked,
   }
   for (const std::string& heading : spec.headings) table.headings.push_back(on_one_line(heading));
   table.headings.emplace_back("QTY");
-  std::map<std::vector<std::string>, std::size_t> count;
+  const auto before = [](const std::vector<std::string>& a, const std::vector<std::string>& b) {
+    return std::ranges::lexicographical_compare(a, b, natural_less);
+  };
+  std::map<std::vector<std::string>, std::size_t, decltype(before)> count(before);
   for (std::size_t o = 0; o < picked.size(); ++o) {
     if (!picked[o]) continue;
     std::vector<std::string> texts;

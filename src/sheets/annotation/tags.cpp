@@ -109,7 +109,8 @@ OccupancyGrid occupied_paper(const Sheet& sheet) {
       for (const Path& path : marks->paths)
         for (std::size_t i = 1; i < path.points.size(); ++i)
           occupied.add_line(path.points[i - 1], path.points[i]);
-      for (const Text& text : marks->texts) occupied.block(box_of(text));
+      for (const Text& text : marks->texts)
+        for (const PaperBox& box : boxes_of(text)) occupied.block(box);
       for (const Circle& c : marks->circles)
         occupied.block({c.center.x - c.radius_mm, c.center.y - c.radius_mm,
                         c.center.x + c.radius_mm, c.center.y + c.radius_mm});

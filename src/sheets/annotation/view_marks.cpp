@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,10 +26,19 @@ using geometry::Vec3d;
 /// How long the arrows of a cutting plane are and their heads, mm.
 constexpr double kArrowMm = 9, kHeadMm = 3;
 
-/// Draws an end of a cutting plane: its wide part, its arrow and its letter. `out` points away from
-/// the view along the plane, `look` in the direction of viewing.
-void end_of_plane(const PaperPoint& end, const PaperPoint& out, const PaperPoint& look,
-                  const std::string& letter, double letters_mm, Marks& marks) {
+/// The ends of a cutting plane: which way the plane runs out of the view and in which direction the
+/// section is seen, and its letter.
+struct PlaneEnds {
+  PaperPoint look;
+  const std::string& letter;
+  double letters_mm;
+};
+
+/// Returns an end of a cutting plane: its wide part, its arrow and its letter. `out` points away
+/// from the view along the plane.
+Marks end_of_plane(const PlaneEnds& ends, const PaperPoint& end, const PaperPoint& out) {
+  const auto& [look, letter, letters_mm] = ends;
+  Marks marks;
   marks.paths.push_back(
       {LineClass::section, {rounded(end), rounded(along(end, out, -kWideEndMm))}, false});
   // The arrow stands on the end and points at it.
@@ -39,6 +51,7 @@ void end_of_plane(const PaperPoint& end, const PaperPoint& out, const PaperPoint
   const PaperPoint middle = along(tail, look, -0.8 * letters_mm);
   marks.texts.push_back({LineClass::title, rounded({middle.x, middle.y + letters_mm / 2}),
                          letters_mm, Align::middle, letter, true});
+  return marks;
 }
 
 /// The box in which a cutting plane is drawn, and that of its thin part: on sides with labels it
@@ -65,7 +78,8 @@ PlaneReach plane_reach(const MarkedView& in) {
 /// arrows of cutting planes, with a little paper round them.
 std::vector<PaperBox> taken_boxes(const Marks& marks) {
   std::vector<PaperBox> boxes;
-  for (const Text& text : marks.texts) boxes.push_back(box_of(text));
+  for (const Text& text : marks.texts)
+    for (const PaperBox& box : boxes_of(text)) boxes.push_back(box);
   for (const Circle& c : marks.circles)
     boxes.push_back(widened({c.center.x, c.center.y, c.center.x, c.center.y}, c.radius_mm));
   for (const Path& path : marks.paths) {
@@ -81,11 +95,35 @@ std::vector<PaperBox> taken_boxes(const Marks& marks) {
 
 }  // namespace
 
-bool mark_section(const ViewSpec& cut, const MarkedView& in, double letters_mm, Marks& marks) {
+namespace {
+
+/// Draws an end of a cutting plane, so far out that it covers nothing of what is taken.
+void draw_end(const PlaneEnds& ends, const PaperPoint& end, const PaperPoint& out,
+              std::span<const PaperBox> taken, Marks& marks) {
+  constexpr int kFarthestMm = 40;
+  const auto is_free = [&](const Marks& here) {
+    return std::ranges::none_of(taken_boxes(here), [&](const PaperBox& box) {
+      return std::ranges::any_of(taken, [&](const PaperBox& t) { return t.overlaps(box); });
+    });
+  };
+  Marks drawn = end_of_plane(ends, end, out);
+  for (int away = 1; !is_free(drawn) && away <= kFarthestMm; ++away)
+    drawn = end_of_plane(ends, along(end, out, away), out);
+  // Where there is no free paper it stands where it belongs.
+  if (!is_free(drawn)) drawn = end_of_plane(ends, end, out);
+  std::ranges::move(drawn.paths, std::back_inserter(marks.paths));
+  std::ranges::move(drawn.texts, std::back_inserter(marks.texts));
+}
+
+}  // namespace
+
+bool mark_section(const ViewSpec& cut, const MarkedView& in, double letters_mm, const Marks& grid,
+                  Marks& marks) {
   const ViewPaper paper(in);
   if (!paper.good()) return false;
   bool any = false;
   const PlaneReach reach = plane_reach(in);
+  const std::vector<PaperBox> labels = taken_boxes(grid);
   for (const hlr::Section& section : cut.view.sections) {
     const Vec3d normal = section.normal.as<double>();
     const double length = std::sqrt(dot(normal, normal));
@@ -102,8 +140,9 @@ bool mark_section(const ViewSpec& cut, const MarkedView& in, double letters_mm, 
     if (!line || !thin) continue;
     any = true;
     marks.paths.push_back({LineClass::cutting_plane, {rounded(thin->a), rounded(thin->b)}, false});
-    end_of_plane(line->a, {-way.x, -way.y}, look, cut.section_mark, letters_mm, marks);
-    end_of_plane(line->b, way, look, cut.section_mark, letters_mm, marks);
+    const PlaneEnds ends{look, cut.section_mark, letters_mm};
+    draw_end(ends, line->a, {-way.x, -way.y}, labels, marks);
+    draw_end(ends, line->b, way, labels, marks);
   }
   return any;
 }

@@ -12,10 +12,11 @@ namespace strake::sheets {
 
 /// Appends the cutting plane of `cut` to a view that sees it edge-on (ISO 128-3): a long dashed
 /// dotted line, interrupted where there are labels beside the lines of the view, with wide ends
-/// beyond them, arrows in the direction of viewing, and its letter beside them. Several planes give
-/// a line each; those that miss the view none. Returns whether there was one.
+/// beyond them, arrows in the direction of viewing, and its letter beside them. The ends stand
+/// farther out where they would cover labels of the grid. Several planes give a line each; those
+/// that miss the view none. Returns whether there was one.
 [[nodiscard]] bool mark_section(const ViewSpec& cut, const MarkedView& in, double letters_mm,
-                                Marks& marks);
+                                const Marks& grid, Marks& marks);
 
 /// Appends the outline of a box of the model, mm, with a name at its upper left corner or so far
 /// above it that it covers no label of the grid and no mark; a view in perspective gets none.

@@ -14,9 +14,8 @@ namespace {
 
 /// What the letter at the end of a cutting plane needs beyond that end.
 constexpr double kLetterMarginMm = 4;
-/// The paper beyond the line of a dimension: for its text above a level line, and for half of the
-/// text in a gap of an upright one.
-constexpr double kAboveLineMm = 5, kBesideLineMm = 8;
+/// The paper beyond the line of a dimension, for the text that stands on it.
+constexpr double kAboveLineMm = 5;
 
 /// Returns whether a view shows where others are cut: it sees a plane of one with a mark edge-on.
 bool shows_cutting_planes(const SheetSpec& what, const ViewSpec& view) {
@@ -41,9 +40,8 @@ ViewMargins dimension_margins(const SheetSpec& what, const ViewSpec& view) {
   ViewMargins margins;
   for (const DimensionSpec& dimension : what.dimensions) {
     if (dimension.view != view.name || dimension.along == DimensionSpec::Along::aligned) continue;
-    const bool upright = dimension.along == DimensionSpec::Along::vertical;
     double& side = side_of(dimension, margins);
-    side = std::max(side, dimension.offset_mm + (upright ? kBesideLineMm : kAboveLineMm));
+    side = std::max(side, dimension.offset_mm + kAboveLineMm);
   }
   return margins;
 }

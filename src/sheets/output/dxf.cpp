@@ -3,13 +3,21 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "core/text_encoding.hpp"
+#include "drawing/dxf/groups.hpp"
 #include "drawing/dxf/layer_style.hpp"
 #include "drawing/dxf/paper_space.hpp"
 #include "drawing/dxf/sheet_file.hpp"
+#include "sheets/output/artwork/dxf_artwork.hpp"
 #include "sheets/output/line_styles.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/sheets/write.hpp"
@@ -150,17 +158,11 @@ static_assert([] {
   return true;
 }());
 
-drawing::dxf::TextAlign dxf_align_of(Align align) {
-  return align == Align::start    ? drawing::dxf::TextAlign::start
-         : align == Align::middle ? drawing::dxf::TextAlign::middle
-                                  : drawing::dxf::TextAlign::end;
-}
-
 void add_dxf_marks(PaperSpace& paper, const Marks& marks) {
   for (const Text& text : marks.texts) {
     if (!text.clears) continue;
-    const PaperBox box = box_of(text);
-    paper.add_cover(dxf_layer_of(text.line), {box.left, box.top, box.right, box.bottom});
+    const std::array<PaperPoint, 4> corners = corners_of(text);
+    paper.add_cover(dxf_layer_of(text.line), {corners[0], corners[1], corners[3]});
   }
   for (const Path& path : marks.paths) {
     if (path.filled)
@@ -171,22 +173,84 @@ void add_dxf_marks(PaperSpace& paper, const Marks& marks) {
   for (const Circle& circle : marks.circles)
     paper.add_circle(dxf_layer_of(circle.line), circle.center, circle.radius_mm);
   for (const Text& text : marks.texts)
-    paper.add_text(dxf_layer_of(text.line), text.at, text.height_mm, dxf_align_of(text.align),
-                   text.text);
+    paper.add_text(dxf_layer_of(text.line),
+                   {text.at, text.height_mm, dxf_align_of(text.align), text.turn_deg}, text.text);
 }
+
+/// Gives layers of a sheet that look otherwise than those of their names before it the number of
+/// the sheet behind their names.
+void tell_apart(std::vector<drawing::dxf::LayerStyle>& layers, std::size_t sheet,
+                std::map<std::string, drawing::dxf::LayerStyle>& known) {
+  for (drawing::dxf::LayerStyle& layer : layers) {
+    const auto& first = known.emplace(layer.name, layer).first->second;
+    if (first.width_mm == layer.width_mm && first.dash_mm == layer.dash_mm &&
+        first.color == layer.color)
+      continue;
+    layer.name += "-" + std::to_string(sheet + 1);
+  }
+}
+
+/// Names layouts by their sheets.
+class LayoutNames {
+ public:
+  explicit LayoutNames(std::size_t sheets) : several_(sheets > 1) {}
+
+  /// Returns the name of the next layout; programs take upper and lower case for the same.
+  std::string next(const Sheet& sheet) {
+    ++number_;
+    if (!several_ && sheet.name.empty()) return "Sheet";
+    std::string name = fit_for_layout(sheet.name.empty() ? sheet.title : sheet.name);
+    if (name.empty() || lowered(name) == "model") name = "Sheet " + std::to_string(number_);
+    std::string unique = name;
+    for (int n = 2; !taken_.insert(lowered(unique)).second; ++n)
+      unique = name + " (" + std::to_string(n) + ")";
+    return unique;
+  }
+
+ private:
+  static std::string fit_for_layout(std::string_view name) {
+    constexpr std::size_t kMostBytes = 200;
+    std::string fit = drawing::dxf::value_text(name, kMostBytes);
+    for (char& c : fit)
+      if (std::string_view("<>/\\\":;?*|,=`").find(c) != std::string_view::npos) c = '_';
+    return fit;
+  }
+
+  bool several_;
+  std::size_t number_ = 0;
+  std::set<std::string> taken_;
+};
 
 }  // namespace
 
-Result<Diagnostics> write_dxf(const Sheet& sheet, const model::Model& model, drawing::Sink sink,
-                              const parallel::Context& context) {
-  drawing::dxf::SheetFile file{.width_mm = sheet.width_mm,
-                               .height_mm = sheet.height_mm,
-                               .opens_on_paper = true,
-                               .layers = dxf_layers_of(sheet),
-                               .viewport_layer = drawing::dxf::kViewLayers + kDxfMarkLayers.size(),
-                               .views = {}};
-  for (const PlacedView& view : sheet.views) file.views.push_back({view.drawing, view.ink});
-  const auto add_all_marks = [&](PaperSpace& paper) {
+Result<Diagnostics> write_dxf(std::span<const Sheet> sheets, const model::Model& model,
+                              drawing::Sink sink, const parallel::Context& context) {
+  if (sheets.empty()) return Error{ErrorCode::usage, "there is no sheet to write", {}, {}};
+  drawing::dxf::SheetFile file{.opens_on_paper = true, .sheets = {}};
+  std::map<std::string, drawing::dxf::LayerStyle> known;
+  LayoutNames names(sheets.size());
+  for (const Sheet& sheet : sheets) {
+    drawing::dxf::SheetLayout layout{
+        .name = names.next(sheet),
+        .width_mm = sheet.width_mm,
+        .height_mm = sheet.height_mm,
+        .layers = dxf_layers_of(sheet),
+        .viewport_layer = drawing::dxf::kViewLayers + kDxfMarkLayers.size(),
+        .style_layers = {},
+        .views = {}};
+    std::vector<const drawing::Ink*> inks;
+    for (const PlacedView& view : sheet.views) inks.push_back(&view.ink);
+    layout.style_layers = drawing::dxf::add_style_layers(inks, layout.layers);
+    tell_apart(layout.layers, file.sheets.size(), known);
+    for (const PlacedView& view : sheet.views) layout.views.push_back({view.drawing, view.ink});
+    file.sheets.push_back(std::move(layout));
+  }
+  Diagnostics noticed;
+  Status drawn;
+  const auto add_all_marks = [&](std::size_t number, PaperSpace& paper) {
+    const Sheet& sheet = sheets[number];
+    if (sheet.artwork && drawn)
+      drawn = add_dxf_artwork(paper, dxf_layer_of(LineClass::frame), sheet, noticed);
     add_dxf_marks(paper, sheet.frame);
     add_dxf_marks(paper, sheet.notes);
     for (const PlacedView& view : sheet.views)
@@ -195,10 +259,7 @@ Result<Diagnostics> write_dxf(const Sheet& sheet, const model::Model& model, dra
   };
   const Status status = write_sheet_file(file, add_all_marks, model, sink, context);
   if (!status) return status.error();
-  Diagnostics noticed;
-  if (sheet.artwork)
-    noticed.add(Severity::warning, "template-left-out",
-                "the DXF has the sheet without its template, which is SVG", "the template");
+  if (!drawn) return drawn.error();
   return noticed;
 }
 

@@ -135,6 +135,13 @@ LineStyles styles_of(const std::array<StyleSpec, kLineClasses>& specs, const dra
   return styles;
 }
 
+drawing::LinePen pen_of_layer(const LineStyles& styles, const drawing::Ink& ink,
+                              const drawing::Layer& layer, drawing::LineState state) {
+  const LineStyle& style = style_of(
+      styles, layer.hidden ? hidden_class(ink, state) : class_of(layer.kind, layer.hidden));
+  return {style.width_mm, style.dash_mm, style.color};
+}
+
 drawing::Pens pens_of(const LineStyles& styles) {
   return {.outline = style_of(styles, LineClass::outline).width_mm,
           .edge = style_of(styles, LineClass::edge).width_mm,

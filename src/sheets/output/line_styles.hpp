@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "drawing/strokes/layer_pens.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "strake/drawing/ink.hpp"
 #include "strake/sheets/sheet.hpp"
@@ -23,6 +24,10 @@ namespace strake::sheets {
 
 /// Returns the widths that the lines of views have in these styles.
 [[nodiscard]] drawing::Pens pens_of(const LineStyles& styles);
+
+/// Returns the pen of a layer of a view in these styles.
+[[nodiscard]] drawing::LinePen pen_of_layer(const LineStyles& styles, const drawing::Ink& ink,
+                                            const drawing::Layer& layer, drawing::LineState state);
 
 [[nodiscard]] inline const LineStyle& style_of(const LineStyles& styles, LineClass line) {
   return styles[static_cast<std::size_t>(line)];

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // PDF of sheets: a page for each, with the layers of its views and its marks.
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "drawing/pdf/pdf_document.hpp"
 #include "drawing/pdf/pdf_path.hpp"
@@ -17,11 +19,11 @@ namespace strake::sheets {
 
 namespace {
 
+using drawing::LinePen;
 using drawing::PdfDocument;
 using drawing::PdfLayerId;
-using drawing::PdfPen;
 
-PdfPen pen_of(const LineStyle& style) { return {style.width_mm, style.dash_mm, style.color}; }
+LinePen pen_of(const LineStyle& style) { return {style.width_mm, style.dash_mm, style.color}; }
 
 /// The part of its width by which a text lies before its place.
 double anchor_of(Align align) {
@@ -36,10 +38,14 @@ class PageWriter {
 
   Status write(const Sheet& sheet) {
     sheet_ = &sheet;
-    document_.begin_page({sheet.width_mm, sheet.height_mm}, sheet.title);
+    document_.begin_page({sheet.width_mm, sheet.height_mm},
+                         sheet.name.empty() ? sheet.title : sheet.name);
     if (const Status status = write_artwork(); !status) return status;
     write_layer(sheet.frame, "Frame", std::nullopt);
     write_layer(sheet.notes, "Notes", std::nullopt);
+    std::vector<const drawing::Ink*> inks;
+    for (const PlacedView& view : sheet.views) inks.push_back(&view.ink);
+    styles_ = drawing::add_style_layers(document_, inks);
     for (const PlacedView& view : sheet.views)
       if (const Status status = write_view(view); !status) return status;
     return {};
@@ -64,15 +70,12 @@ class PageWriter {
     document_.add_bookmark(view.title.empty() ? view.name : view.title,
                            {view.box.left, view.box.top, view.box.right, view.box.bottom});
     const auto pen = [&](const drawing::Layer& of, drawing::LineState state) {
-      const LineClass line =
-          of.hidden ? hidden_class(view.ink, state) : class_of(of.kind, of.hidden);
-      return pen_of(style_of(sheet_->styles, line));
+      return pen_of_layer(sheet_->styles, view.ink, of, state);
     };
-    const Status status =
-        drawing::add_pdf_view(document_, layer, view.drawing.curves, view.ink, model_,
-                              {pen, pen_of(style_of(sheet_->styles, LineClass::centre)),
-                               pen_of(style_of(sheet_->styles, LineClass::break_line))},
-                              context_);
+    const LinePen break_lines = pen_of(style_of(sheet_->styles, LineClass::break_line));
+    const Status status = drawing::add_pdf_view(
+        document_, layer, view.drawing.curves, view.ink, model_,
+        {pen, pen_of(style_of(sheet_->styles, LineClass::centre)), break_lines, styles_}, context_);
     if (!status) return status;
     write_layer(view.frame, "Frame", layer);
     write_layer(view.grid, "Grid", layer);
@@ -93,7 +96,7 @@ class PageWriter {
 
   void append_marks(std::string& out, const Marks& marks) {
     for (const Text& text : marks.texts)
-      if (text.clears) append_cleared(out, box_of(text));
+      if (text.clears) append_cleared(out, corners_of(text));
     for (const Path& path : marks.paths) {
       const LineStyle& style = style_of(sheet_->styles, path.line);
       out += path.filled ? "q\n" + drawing::pdf_color(style.color) + "rg\n"
@@ -109,16 +112,13 @@ class PageWriter {
     for (const Text& text : marks.texts)
       document_.append_text(out, text.text,
                             {text.at, text.height_mm * kFontSize, anchor_of(text.align),
-                             style_of(sheet_->styles, text.line).color});
+                             style_of(sheet_->styles, text.line).color, text.turn_deg});
   }
 
-  static void append_cleared(std::string& out, const PaperBox& box) {
+  static void append_cleared(std::string& out, const std::array<PaperPoint, 4>& corners) {
+    const auto& [lower_left, lower_right, upper_right, upper_left] = corners;
     out += "1 g\n";
-    drawing::append_pdf_chain(out, {{box.left, box.top},
-                                    {box.right, box.top},
-                                    {box.right, box.bottom},
-                                    {box.left, box.bottom},
-                                    {box.left, box.top}});
+    drawing::append_pdf_chain(out, {upper_left, upper_right, lower_right, lower_left, upper_left});
     out += "f\n0 g\n";
   }
 
@@ -126,6 +126,7 @@ class PageWriter {
   const model::Model& model_;
   const parallel::Context& context_;
   const Sheet* sheet_ = nullptr;
+  drawing::PdfStyleLayers styles_;
   Diagnostics diagnostics_;
 };
 

@@ -15,6 +15,7 @@
 #include "drawing/strokes/layers.hpp"
 #include "drawing/svg/svg_layers.hpp"
 #include "drawing/svg/svg_path.hpp"
+#include "drawing/svg/svg_styles.hpp"
 #include "model/attributes.hpp"
 #include "sheets/output/line_styles.hpp"
 #include "sheets/spec/text_metrics.hpp"
@@ -119,6 +120,14 @@ void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>
   for (const double height : heights)
     out << fmt::format(".strake text.{} {{ font-size: {}px; }}\n", height_class(height),
                        shortest(std::round(height * kFontSize * 1000) / 1000));
+  std::vector<const drawing::Ink*> inks;
+  for (const PlacedView& view : sheet.views) inks.push_back(&view.ink);
+  const auto pen = [&](const drawing::Layer& layer, drawing::LineState state) {
+    return pen_of_layer(sheet.styles, *inks.front(), layer, state);
+  };
+  const LineStyle& break_line = style_of(sheet.styles, LineClass::break_line);
+  out << drawing::svg_style_rules(inks, ".strake ", pen,
+                                  {break_line.width_mm, break_line.dash_mm, break_line.color});
   out << ".strake .paper { fill: #fff; stroke: none; }\n</style>\n";
 }
 
@@ -161,15 +170,22 @@ void write_metadata(BufferedWriter& out, const Sheet& sheet, const model::Model&
   out << "</sheet>\n</metadata>\n";
 }
 
+/// Returns the attribute that turns a text; SVG counts with the clock.
+std::string turn_of(const Text& text) {
+  if (text.turn_deg == 0) return {};
+  return fmt::format(" transform=\"rotate({} {} {})\"", shortest(-text.turn_deg),
+                     shortest(text.at.x), shortest(text.at.y));
+}
+
 void write_marks(BufferedWriter& out, const Marks& marks) {
   for (const Text& text : marks.texts) {
     if (!text.clears) continue;
-    const PaperBox box = box_of(text);
-    out << fmt::format("<rect class=\"paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"/>\n",
+    const PaperBox box = level_box_of(text);
+    out << fmt::format("<rect class=\"paper\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{}/>\n",
                        shortest(drawing::rounded_paper(box.left)),
                        shortest(drawing::rounded_paper(box.top)),
                        shortest(drawing::rounded_paper(box.width())),
-                       shortest(drawing::rounded_paper(box.height())));
+                       shortest(drawing::rounded_paper(box.height())), turn_of(text));
   }
   for (const Path& path : marks.paths) {
     out << "<path class=\"" << class_name(path.line) << (path.filled ? " filled" : "") << "\" d=\"";
@@ -183,9 +199,9 @@ void write_marks(BufferedWriter& out, const Marks& marks) {
   constexpr std::array<std::string_view, 3> kAnchors{"", " text-anchor=\"middle\"",
                                                      " text-anchor=\"end\""};
   for (const Text& text : marks.texts)
-    out << fmt::format("<text class=\"{} {}\" x=\"{}\" y=\"{}\"{}>", class_name(text.line),
+    out << fmt::format("<text class=\"{} {}\" x=\"{}\" y=\"{}\"{}{}>", class_name(text.line),
                        height_class(text.height_mm), shortest(text.at.x), shortest(text.at.y),
-                       kAnchors.at(static_cast<std::size_t>(text.align)))
+                       kAnchors.at(static_cast<std::size_t>(text.align)), turn_of(text))
         << xml_escaped(text.text) << "</text>\n";
 }
 
@@ -205,12 +221,10 @@ void write_view(BufferedWriter& out, const PlacedView& view, const LineStyles& s
   out << "<g class=\"view\" id=\"" << id << "\" inkscape:groupmode=\"layer\" inkscape:label=\""
       << xml_escaped(view.name) << "\" data-view=\"" << xml_escaped(view.name) << "\" data-scale=\""
       << view.drawing.sheet.scale_text << "\">\n";
-  const auto dash_mm = [&](drawing::LineState state) {
-    return style_of(styles, hidden_class(view.ink, state)).dash_mm;
-  };
-  drawing::write_layers(
-      out, view.drawing.curves, view.ink, model, id + "-",
-      {dash_mm(drawing::LineState::hidden_by_self), dash_mm(drawing::LineState::hidden_by_other)});
+  drawing::write_layers(out, view.drawing.curves, view.ink, model, id + "-",
+                        [&](const drawing::Layer& layer, drawing::LineState state) {
+                          return pen_of_layer(styles, view.ink, layer, state);
+                        });
   drawing::write_break_lines(out, view.ink, id + "-");
   drawing::write_centre_lines(out, view.ink, id + "-", style_of(styles, LineClass::centre).dash_mm);
   write_layer(out, view.frame, id + "-frame", "Frame");

@@ -3,17 +3,23 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "core/number.hpp"
+#include "core/text_encoding.hpp"
 #include "core/units.hpp"
-#include "drawing/layout/paper_size.hpp"
 #include "drawing/layout/view_plane.hpp"
 #include "drawing/layout/view_title.hpp"
 #include "settings/table_reader.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/parse/note_reader.hpp"
+#include "sheets/parse/paper_reader.hpp"
+#include "sheets/parse/style_reader.hpp"
 #include "sheets/parse/table_readers.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "sheets/spec/text_metrics.hpp"
@@ -31,8 +37,8 @@ using settings::SourcePosition;
 using settings::TableReader;
 using settings::Value;
 
-constexpr double kFarthestMm = 1e6;
-constexpr std::size_t kMostViews = 100;
+constexpr double kFarthestPositionMm = 1e6;
+constexpr std::size_t kMostViews = 100, kMostSheets = 100;
 
 struct SlotName {
   std::string_view name;
@@ -48,27 +54,76 @@ constexpr std::array<SlotName, 7> kSlots{{{"front", ViewSlot::front, "FRONT VIEW
                                           {"iso", ViewSlot::iso, "ISOMETRIC VIEW"}}};
 constexpr std::array<std::string_view, 2> kProjections{"first-angle", "third-angle"};
 
-/// Reads the tables of a file one by one. An error is kept by the parse context, and what is read
+/// Reads the tables of a sheet one by one. An error is kept by the parse context, and what is read
 /// after it is thrown away with the rest.
-class Parser {
+class SheetParser {
  public:
-  Parser(ParseContext& reading, const Value& document, ReadTemplate read_template)
+  /// `top` has the tables: the file, or a [[sheet]] of it.
+  SheetParser(ParseContext& reading, TableReader& top, NamedSets& sets, ReadTemplate read_template)
       : reading_(reading),
-        read_template_(read_template),
-        top_(reading, document, "the file"),
-        sets_(reading, top_.table("sets")),
-        views_(reading, sets_) {
+        top_(top),
+        sets_(sets),
+        views_(reading, sets_),
+        paper_(reading, read_template, found_) {
     found_.file = reading.file();
   }
 
+  /// Reads the sheet of a file that describes one.
   SheetSpec run() {
-    sheet();
-    fields();
-    (void)sets_.all();  // sets that nothing names may be wrong as well
-    if (const Value* const value = top_.table("defaults")) {
-      TableReader table(reading_, *value, "[defaults]");
-      views_.content(table, defaults_);
+    if (const Value* const value = top_.table("sheet")) {
+      TableReader table(reading_, *value, "[sheet]");
+      paper_.read(table);
     }
+    fields();
+    defaults();
+    views_and_marks();
+    return std::move(found_);
+  }
+
+  /// Reads what the sheets of a file have in common, each of which begins as a copy of this.
+  void read_common() {
+    fields();
+    defaults();
+    styles();
+  }
+
+  /// Reads a [[sheet]].
+  SheetSpec run_as(const std::string& name) {
+    found_.name = name;
+    paper_.read(top_);
+    fields();
+    defaults();
+    views_and_marks();
+    return std::move(found_);
+  }
+
+  /// Begins with what another has read.
+  void begin_with(const SheetParser& common) {
+    found_ = common.found_;
+    defaults_ = common.defaults_;
+  }
+
+ private:
+  void defaults() {
+    const Value* const value = top_.table("defaults");
+    if (value == nullptr) return;
+    TableReader table(reading_, *value, "[defaults]");
+    views_.content(table, defaults_);
+  }
+
+  void styles() {
+    MarkReader marks(reading_, sets_, found_);
+    if (const Value* const value = top_.table("styles")) marks.styles(*value);
+    // What a sheet says itself comes before what it has in common with others.
+    std::vector<ObjectStyleSpec> common = std::exchange(found_.object_styles, {});
+    for (const Value* value : top_.tables("style"))
+      found_.object_styles.push_back(read_object_style(reading_, sets_, *value));
+    std::ranges::move(common, std::back_inserter(found_.object_styles));
+    if (found_.object_styles.size() > drawing::kMostObjectStyles)
+      reading_.fault(top_.at(), "a sheet of more than 1000 styles", "keep those that are seen");
+  }
+
+  void views_and_marks() {
     arrangement();
     for (const Value* value : top_.tables("view")) view(*value);
     if (found_.views.size() > kMostViews)
@@ -79,7 +134,7 @@ class Parser {
     MarkReader marks(reading_, sets_, found_);
     for (const Value* value : top_.tables("tag")) marks.tag(*value);
     if (const Value* const value = top_.table("grid")) marks.grid(*value);
-    if (const Value* const value = top_.table("styles")) marks.styles(*value);
+    styles();
     NoteReader notes(reading_, sets_, found_);
     if (const Value* const value = top_.table("levels")) notes.levels(*value);
     if (const Value* const value = top_.table("scale_bar")) notes.scale_bar(*value);
@@ -89,137 +144,6 @@ class Parser {
     for (const Value* value : top_.tables("dimension")) notes.dimension(*value);
     for (std::size_t v = 0; v < found_.views.size(); ++v)
       notes.check_names(found_.views[v], places_[v]);
-    return std::move(found_);
-  }
-
- private:
-  void sheet() {
-    const Value* const value = top_.table("sheet");
-    if (value == nullptr) return;
-    TableReader table(reading_, *value, "[sheet]");
-    artwork(table);
-    size(table);
-    found_.frame = table.flag("frame").value_or(true);
-    found_.scale = ViewReader::scale(table);
-    constexpr std::array<std::string_view, 2> kHiddenLayers{"one", "two"};
-    found_.split_hidden = table.word("hidden_layers", kHiddenLayers).value_or("one") == "two";
-    constexpr std::string_view kBox = "[\"20mm\", \"10mm\", \"410mm\", \"230mm\"]";
-    if (const auto box = table.lengths_mm("area", 4, kBox))
-      found_.area = paper_box(table, "area", *box);
-    keep_free(table);
-  }
-
-  PaperBox paper_box(TableReader& table, std::string_view key, const std::vector<double>& sides) {
-    const PaperBox box{sides[0], sides[1], sides[2], sides[3]};
-    const bool near = std::all_of(sides.begin(), sides.end(),
-                                  [](double mm) { return std::fabs(mm) <= kFarthestMm; });
-    if (!near || !(box.width() > 0 && box.height() > 0))
-      reading_.fault(table.value(key)->at,
-                     "'" + std::string(key) + "' of [sheet] is no box of paper",
-                     "write left, top, right, bottom, from the upper left corner of the sheet");
-    return box;
-  }
-
-  void keep_free(TableReader& table) {
-    const Value* const value = table.value("keep_free");
-    if (value == nullptr) return;
-    const std::string mend = "write keep_free = [[\"230mm\", \"240mm\", \"410mm\", \"287mm\"]]";
-    const auto* const list = std::get_if<settings::Array>(&value->held);
-    if (list == nullptr) {
-      reading_.fault(value->at, "'keep_free' of [sheet] is no list of boxes", mend);
-      return;
-    }
-    for (const Value& box : *list) {
-      const auto* const sides = std::get_if<settings::Array>(&box.held);
-      if (sides == nullptr || sides->size() != 4) {
-        reading_.fault(box.at, "'keep_free' of [sheet] has something that is no box", mend);
-        return;
-      }
-      std::vector<double> lengths;
-      for (const Value& side : *sides)
-        lengths.push_back(table.length_mm(side, "keep_free").value_or(0));
-      found_.keep_free.push_back(paper_box(table, "keep_free", lengths));
-    }
-  }
-
-  void artwork(TableReader& table) {
-    const auto name = table.text("template");
-    if (!name) return;
-    const SourcePosition at = table.value("template")->at;
-    const Result<std::string> text = read_template_(*name);
-    if (!text) {
-      const Error& error = text.error();
-      reading_.fault(at, "the template '" + *name + "' " + error.message, error.mend);
-      return;
-    }
-    Result<Template> parsed = parse_template(*text);
-    if (!parsed) {
-      Error error = parsed.error();
-      error.where = *name + ", " + error.where + " (the template of " + reading_.file() + ")";
-      reading_.fault(std::move(error));
-      return;
-    }
-    found_.artwork = std::move(*parsed);
-    found_.template_name = *name;
-  }
-
-  void size(TableReader& table) {
-    const Value* const value = table.value("size");
-    constexpr std::array<std::string_view, 2> kTextWays{"landscape", "portrait"};
-    const auto orientation = table.word("orientation", kTextWays);
-    const auto* const name = value != nullptr ? std::get_if<std::string>(&value->held) : nullptr;
-    const bool standard = value == nullptr || name != nullptr;
-    if (orientation && !standard)
-      reading_.fault(table.at(), "'orientation' of [sheet] goes with the sizes A4 to A0",
-                     "write the width before the height in size");
-    if (value == nullptr && found_.artwork && !orientation) {
-      take_size(found_.artwork->width_mm, found_.artwork->height_mm);
-    } else if (standard) {
-      named_size(table, name != nullptr ? *name : "A3", orientation == "portrait");
-    } else if (const auto sides =
-                   table.lengths_mm("size", 2, "\"A3\", or [\"600mm\", \"300mm\"]")) {
-      take_size((*sides)[0], (*sides)[1]);
-    }
-    const auto allowed = [](double mm) {
-      return mm >= drawing::kLeastPaperMm && mm <= drawing::kLargestPaperMm;
-    };
-    if (!allowed(found_.width_mm) || !allowed(found_.height_mm))
-      reading_.fault(value != nullptr ? value->at : table.at(), "a sheet of " + found_.size + " mm",
-                     "take 100mm to 20m");
-    check_artwork(table);
-  }
-
-  void take_size(double width_mm, double height_mm) {
-    const double width = drawing::rounded_paper(width_mm);
-    const double height = drawing::rounded_paper(height_mm);
-    found_.width_mm = width;
-    found_.height_mm = height;
-    found_.size = shortest(width) + " x " + shortest(height);
-    for (const auto& [name, size] : drawing::kNamedPapers)
-      if (std::max(width, height) == size.width_mm && std::min(width, height) == size.height_mm)
-        found_.size = name;
-  }
-
-  void named_size(TableReader& table, const std::string& name, bool portrait) {
-    for (const auto& [known, size] : drawing::kNamedPapers)
-      if (known == name)
-        return take_size(portrait ? size.height_mm : size.width_mm,
-                         portrait ? size.width_mm : size.height_mm);
-    reading_.fault(
-        table.value("size")->at, "no sheet is called '" + name + "'",
-        "write size = \"A4\", \"A3\", \"A2\", \"A1\" or \"A0\", or [\"600mm\", \"300mm\"]");
-  }
-
-  void check_artwork(TableReader& table) {
-    if (!found_.artwork) return;
-    const auto near = [](double a, double b) { return std::fabs(a - b) <= 0.5; };
-    if (!near(found_.width_mm, found_.artwork->width_mm) ||
-        !near(found_.height_mm, found_.artwork->height_mm))
-      reading_.fault(table.at(),
-                     "the template is " + shortest(found_.artwork->width_mm) + " x " +
-                         shortest(found_.artwork->height_mm) + " mm, the sheet " +
-                         shortest(found_.width_mm) + " x " + shortest(found_.height_mm),
-                     "give the sheet the size of its template, or leave size out");
   }
 
   void fields() {
@@ -235,8 +159,18 @@ class Parser {
         reading_.fault(entry->value.at, "the field '" + entry->key + "' is no text",
                        "write " + entry->key + " = \"...\"");
       else
-        found_.fields.emplace_back(entry->key, text != nullptr ? *text : std::to_string(*whole));
+        set_field(entry->key, text != nullptr ? *text : std::to_string(*whole));
     }
+  }
+
+  /// Sets a field, which all sheets may have in common with another value.
+  void set_field(const std::string& name, const std::string& value) {
+    for (auto& field : found_.fields)
+      if (field.first == name) {
+        field.second = value;
+        return;
+      }
+    found_.fields.emplace_back(name, value);
   }
 
   void arrangement() {
@@ -360,8 +294,8 @@ class Parser {
     view.scale = ViewReader::scale(table);
     if (const auto at = table.lengths_mm("position", 2, "[\"150mm\", \"120mm\"]"))
       view.position = PaperPoint{(*at)[0], (*at)[1]};
-    if (view.position &&
-        !(std::fabs(view.position->x) <= kFarthestMm && std::fabs(view.position->y) <= kFarthestMm))
+    if (view.position && !(std::fabs(view.position->x) <= kFarthestPositionMm &&
+                           std::fabs(view.position->y) <= kFarthestPositionMm))
       reading_.fault(value.at, "'position' of " + table.what() + " is far off any sheet",
                      "write millimetres of paper from the upper left corner");
     view.anchor = views_.point(table, "anchor");
@@ -421,28 +355,120 @@ class Parser {
   }
 
   ParseContext& reading_;
-  ReadTemplate read_template_;
-  TableReader top_;
-  NamedSets sets_;
+  TableReader& top_;
+  NamedSets& sets_;
   ViewReader views_;
+  PaperReader paper_;
   ViewSpec defaults_;
   SheetSpec found_;
   std::vector<SourcePosition> places_;  ///< positions of the views in the file
 };
 
+/// Reads the [[sheet]] tables of a file, and before them what they have in common.
+class SheetSetParser {
+ public:
+  SheetSetParser(ParseContext& reading, TableReader& top, NamedSets& sets,
+                 ReadTemplate read_template)
+      : reading_(reading), top_(top), sets_(sets), read_template_(read_template) {}
+
+  std::vector<SheetSpec> run(const settings::Array& sheets) {
+    SheetParser common(reading_, top_, sets_, read_template_);
+    common.read_common();
+    refuse_what_sheets_have();
+    if (sheets.size() > kMostSheets)
+      reading_.fault(top_.value("sheet")->at, "a file of more than 100 sheets",
+                     "make several files of it");
+    std::vector<SheetSpec> found;
+    for (const Value& value : sheets) {
+      found.push_back(sheet(value, common, found));
+      if (found.back().views.empty())
+        reading_.fault(value.at, "the sheet '" + found.back().name + "' has no views",
+                       "write arrangement = \"first-angle\" below its [[sheet]], or "
+                       "[[sheet.view]] tables");
+    }
+    for (std::size_t s = 0; s < found.size(); ++s) {
+      found[s].number = s + 1;
+      found[s].of = found.size();
+    }
+    return found;
+  }
+
+ private:
+  /// Tables of views and notes belong to a sheet, and nobody knows to which.
+  void refuse_what_sheets_have() {
+    for (const std::string_view key : {"arrangement", "view", "tag", "grid", "levels", "scale_bar",
+                                       "north", "parts_list", "revision", "dimension"})
+      if (const Value* const value = top_.value(key))
+        reading_.fault(value->at,
+                       "'" + std::string(key) + "' stands beside [[sheet]], and belongs to one",
+                       "write sheet." + std::string(key) + " below its [[sheet]]");
+  }
+
+  SheetSpec sheet(const Value& value, const SheetParser& common,
+                  const std::vector<SheetSpec>& before) {
+    TableReader table(reading_, value, "[[sheet]]");
+    const std::string name = name_of(table, before);
+    SheetParser parser(reading_, table, sets_, read_template_);
+    parser.begin_with(common);
+    return parser.run_as(name);
+  }
+
+  std::string name_of(TableReader& table, const std::vector<SheetSpec>& before) {
+    const std::string name = table.required_text("name");
+    table.call(name);
+    const Value* const value = table.value("name");
+    if (value != nullptr && !is_part_of_a_file_name(name))
+      reading_.fault(value->at, "'name' of [[sheet]] cannot be part of the name of a file",
+                     "give it up to 100 letters, digits, spaces, '-', '_' and '.'");
+    for (const SheetSpec& other : before)
+      if (other.name == name)
+        reading_.fault(table.at(), "the name '" + name + "' is given to two sheets",
+                       "give each its own");
+    return name;
+  }
+
+  static bool is_part_of_a_file_name(std::string_view name) {
+    constexpr std::size_t kLongestName = 100;
+    if (name.empty() || name.size() > kLongestName) return false;
+    while (!name.empty()) {
+      const TakenCharacter c = take_character(name);
+      if (!is_printable(c) || std::string_view("/\\:*?\"<>|{}").find(c.bytes) != std::string::npos)
+        return false;
+    }
+    return true;
+  }
+
+  ParseContext& reading_;
+  TableReader& top_;
+  NamedSets& sets_;
+  ReadTemplate read_template_;
+};
+
+std::vector<SheetSpec> read_document(ParseContext& reading, const Value& document,
+                                     ReadTemplate read_template) {
+  // As they end, readers of tables refuse keys that were not read.
+  TableReader top(reading, document, "the file");
+  NamedSets sets(reading, top.table("sets"));
+  (void)sets.all();  // sets that nothing names may be wrong as well
+  const Value* const sheet = top.value("sheet");
+  const auto* const several =
+      sheet != nullptr ? std::get_if<settings::Array>(&sheet->held) : nullptr;
+  if (several != nullptr) return SheetSetParser(reading, top, sets, read_template).run(*several);
+  std::vector<SheetSpec> one;
+  one.push_back(SheetParser(reading, top, sets, read_template).run());
+  return one;
+}
+
 }  // namespace
 
-Result<SheetSpec> parse_sheet_spec(std::string_view text, std::string_view file,
-                                   ReadTemplate read_template) {
+Result<std::vector<SheetSpec>> parse_sheet_specs(std::string_view text, std::string_view file,
+                                                 ReadTemplate read_template) {
   const Result<Value> document = settings::parse_toml(text, file);
   if (!document) return document.error();
   ParseContext reading{std::string(file)};
-  SheetSpec found;
-  {
-    Parser parser(reading, *document, read_template);
-    found = parser.run();
-  }  // as it ends, the parser refuses keys that were not read
-  if (found.views.empty())
+  std::vector<SheetSpec> found = read_document(reading, *document, read_template);
+  if (found.empty()) reading.fault({1, 1}, "the file has no sheets", "write [[sheet]] tables");
+  if (found.size() == 1 && found.front().name.empty() && found.front().views.empty())
     reading.fault({1, 1}, "the sheet has no views",
                   "write arrangement = \"first-angle\" at the top, or [[view]] tables");
   if (!reading.good()) return reading.error();

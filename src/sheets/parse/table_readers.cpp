@@ -14,6 +14,7 @@
 #include "hlr/view/view_frustum.hpp"
 #include "sheets/annotation/tags.hpp"
 #include "sheets/spec/template.hpp"
+#include "strake/drawing/object_styles.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/geometry/grid.hpp"
 
@@ -330,21 +331,6 @@ using settings::KeyValue;
 constexpr std::size_t kMostPlanes = 10000;
 constexpr std::array<std::string_view, 3> kAxes{"x", "y", "z"};
 
-std::optional<model::Color> color_of(std::string_view text) {
-  if (text.size() != 7 || text[0] != '#') return std::nullopt;
-  std::array<std::uint8_t, 3> parts{};
-  for (std::size_t k = 0; k < 6; ++k) {
-    const char c = text[k + 1];
-    int digit = -1;
-    if (c >= '0' && c <= '9') digit = c - '0';
-    if (c >= 'a' && c <= 'f') digit = c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') digit = c - 'A' + 10;
-    if (digit < 0) return std::nullopt;
-    parts[k / 2] = static_cast<std::uint8_t>(parts[k / 2] * 16 + digit);
-  }
-  return model::Color{parts[0], parts[1], parts[2], 255};
-}
-
 }  // namespace
 
 std::vector<std::string> MarkReader::views(TableReader& table) {
@@ -497,9 +483,11 @@ void MarkReader::style(const KeyValue& entry) {
     }
   }
   if (const auto text = table.text("color")) {
-    spec.color = color_of(*text);
-    if (!spec.color)
-      reading_.fault(table.value("color")->at, "'" + *text + "' is no colour", "write \"#rrggbb\"");
+    const auto color = drawing::parse_color(*text);
+    if (color)
+      spec.color = *color;
+    else
+      reading_.fault(table.value("color")->at, color.error().message, color.error().mend);
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -13,6 +14,7 @@
 #include "drawing/conventions.hpp"
 #include "settings/named_sets.hpp"
 #include "sheets/spec/template.hpp"
+#include "strake/drawing/object_styles.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/model/single_lines.hpp"
@@ -147,9 +149,18 @@ struct StyleSpec {
   std::optional<model::Color> color;
 };
 
-/// The contents of a sheet description.
+/// How the lines of some objects are drawn.
+struct ObjectStyleSpec {
+  std::string where;
+  std::optional<settings::Chooser> select;
+  drawing::ObjectStyle style;
+};
+
+/// What a file says of one sheet.
 struct SheetSpec {
   std::string file;
+  std::string name;                ///< among the sheets of its file; empty: it is no [[sheet]]
+  std::size_t number = 1, of = 1;  ///< which of how many of its file it is
   double width_mm = 420, height_mm = 297;
   std::string size = "A3";
   bool frame = true;
@@ -172,10 +183,13 @@ struct SheetSpec {
   std::vector<RevisionSpec> revisions;
   std::vector<DimensionSpec> dimensions;
   std::array<StyleSpec, kLineClasses> styles;
+  std::vector<ObjectStyleSpec> object_styles;  ///< the first that picks an object holds for it
   bool split_hidden = false;  ///< what an object hides itself has a layer of its own
 };
 
-[[nodiscard]] Result<SheetSpec> parse_sheet_spec(std::string_view text, std::string_view file,
-                                                 ReadTemplate read_template);
+/// Returns the sheets of a file, one at least, in its order.
+[[nodiscard]] Result<std::vector<SheetSpec>> parse_sheet_specs(std::string_view text,
+                                                               std::string_view file,
+                                                               ReadTemplate read_template);
 
 }  // namespace strake::sheets

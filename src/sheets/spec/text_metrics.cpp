@@ -3,30 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
+#include <cmath>
+#include <span>
 
 #include "core/text_encoding.hpp"
+#include "drawing/lettering/letter_widths.hpp"
+#include "geometry/numeric/trig.hpp"
 
 namespace strake::sheets {
-
-namespace {
-
-/// Advances of " " to "~" in thousandths of the size of the font: of DejaVu Sans, the widest of the
-/// fonts that "sans-serif" usually stands for.
-constexpr std::array<std::uint16_t, 95> kAdvances{
-    318,  401, 460, 838, 636, 950, 780, 275, 390, 390, 500, 838, 318, 361, 318, 337,  //
-    636,  636, 636, 636, 636, 636, 636, 636, 636, 636, 337, 337, 838, 838, 838, 531,  //
-    1000, 684, 686, 698, 770, 632, 575, 775, 752, 295, 295, 656, 557, 863, 748, 787,  //
-    603,  787, 695, 635, 611, 732, 684, 989, 685, 611, 685, 390, 337, 390, 838, 500,  //
-    500,  613, 635, 550, 635, 615, 352, 635, 634, 278, 278, 579, 278, 974, 634, 612,  //
-    635,  635, 411, 521, 392, 634, 592, 818, 592, 592, 525, 636, 337, 636, 838};
-
-double advance(const TakenCharacter& c) {
-  if (c.length == 1 && c.code >= ' ' && c.code <= '~') return kAdvances.at(c.code - ' ') / 1000.0;
-  return c.code >= 0x1100 ? 1.05 : 0.8;  // scripts of square letters; others
-}
-
-}  // namespace
 
 std::string on_one_line(std::string text) {
   for (char& c : text)
@@ -35,8 +19,9 @@ std::string on_one_line(std::string text) {
 }
 
 double text_width(std::string_view text) {
+  const drawing::LetterWidths widths;
   double width = 0;
-  while (!text.empty()) width += advance(take_character(text));
+  while (!text.empty()) width += widths.of(take_character(text));
   return width * kFontSize;
 }
 
@@ -48,8 +33,54 @@ PaperBox box_of(const PaperPoint& at, Align align, double width_mm, double heigh
   return {left, at.y - height_mm, left + width_mm, at.y + height_mm / 4};
 }
 
-PaperBox box_of(const Text& text) {
+PaperBox level_box_of(const Text& text) {
   return box_of(text.at, text.align, text_width(text.text) * text.height_mm, text.height_mm);
+}
+
+std::array<PaperPoint, 4> corners_of(const Text& text) {
+  const PaperBox box = level_box_of(text);
+  std::array<PaperPoint, 4> corners{
+      {{box.left, box.bottom}, {box.right, box.bottom}, {box.right, box.top}, {box.left, box.top}}};
+  if (text.turn_deg == 0) return corners;
+  const auto turn = geometry::sin_cos(text.turn_deg * geometry::kPi / 180);
+  for (PaperPoint& corner : corners) {
+    const double x = corner.x - text.at.x, y = corner.y - text.at.y;
+    corner = {text.at.x + x * turn.cos + y * turn.sin, text.at.y - x * turn.sin + y * turn.cos};
+  }
+  return corners;
+}
+
+namespace {
+
+PaperBox box_round(std::span<const PaperPoint> points) {
+  PaperBox box{points[0].x, points[0].y, points[0].x, points[0].y};
+  for (const PaperPoint& p : points)
+    box = {std::min(box.left, p.x), std::min(box.top, p.y), std::max(box.right, p.x),
+           std::max(box.bottom, p.y)};
+  return box;
+}
+
+}  // namespace
+
+PaperBox box_of(const Text& text) {
+  return text.turn_deg == 0 ? level_box_of(text) : box_round(corners_of(text));
+}
+
+std::vector<PaperBox> boxes_of(const Text& text) {
+  if (text.turn_deg == 0 || text.turn_deg == 90) return {box_of(text)};
+  const auto [a, b, c, d] = corners_of(text);
+  const PaperBox level = level_box_of(text);
+  const double parts = std::clamp(std::ceil(level.width() / level.height()), 1.0, 1000.0);
+  const auto between = [](const PaperPoint& p, const PaperPoint& q, double t) {
+    return PaperPoint{p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t};
+  };
+  std::vector<PaperBox> boxes;
+  for (double i = 0; i < parts; ++i) {
+    const double from = i / parts, to = (i + 1) / parts;
+    boxes.push_back(box_round(std::array{between(a, b, from), between(a, b, to),
+                                         between(d, c, from), between(d, c, to)}));
+  }
+  return boxes;
 }
 
 Text shrunk_to_width(Text text, double width_mm, double least_height) {
@@ -62,11 +93,12 @@ Text cut_to_width(Text text, double width_mm) {
   if (text_width(text.text) * text.height_mm <= width_mm) return text;
   constexpr std::string_view kEllipsis = "\xE2\x80\xA6";
   const double room = width_mm / text.height_mm - text_width(kEllipsis);
+  const drawing::LetterWidths widths;
   std::string_view rest = text.text;
   double width = 0;
   std::size_t kept = 0;
   while (!rest.empty()) {
-    width += advance(take_character(rest)) * kFontSize;
+    width += widths.of(take_character(rest)) * kFontSize;
     if (width > room) break;
     kept = text.text.size() - rest.size();
   }

@@ -58,7 +58,7 @@ TEST(Dimensions, ValuesAreExactOrRounded) {
             "1000");
 }
 
-TEST(Dimensions, UprightOnesAreReadFromBelowInAGap) {
+TEST(Dimensions, UprightOnesAreReadFromTheRight) {
   const Drawn d = dimensioned(
       "from={object=\"base\",side=\"bottom\"}\nto={object=\"base\",side=\"top\"}\n"
       "along=\"vertical\"\nplace=\"right\"\noffset=\"14mm\"\n");
@@ -69,14 +69,66 @@ TEST(Dimensions, UprightOnesAreReadFromBelowInAGap) {
     for (std::size_t i = 1; !path.filled && i < path.points.size(); ++i)
       EXPECT_FALSE(clipped({path.points[i - 1], path.points[i]}, box_of(marks.texts[0])));
   }
-  EXPECT_NEAR(marks.texts[0].at.x, d.sheet.views[0].box.right + 14, 0.01);
+  // The text stands on its line, at the left of it, and runs upwards.
+  EXPECT_NEAR(marks.texts[0].at.x, d.sheet.views[0].box.right + 14 - 1, 0.01);
+  EXPECT_EQ(marks.texts[0].turn_deg, 90);
+  const PaperBox box = box_of(marks.texts[0]);
+  EXPECT_GT(box.height(), box.width());
+  EXPECT_LT(box.right, d.sheet.views[0].box.right + 14);
+}
+
+TEST(Dimensions, TextsRunAlongTheirLinesAndAreNeverUpsideDown) {
+  struct Case {
+    std::string from, to;
+    double turn_deg;
+  };
+  for (const Case& c :
+       {Case{"[0,0,0]", "[\"3m\",0,\"3m\"]", 45}, Case{"[\"3m\",0,\"3m\"]", "[0,0,0]", 45},
+        Case{"[0,0,\"3m\"]", "[\"3m\",0,0]", -45}, Case{"[\"3m\",0,0]", "[0,0,\"3m\"]", -45},
+        Case{"[0,0,0]", "[0,0,\"3m\"]", 90}, Case{"[0,0,\"3m\"]", "[0,0,0]", 90},
+        Case{"[\"3m\",0,0]", "[0,0,0]", 0}}) {
+    const Drawn d = dimensioned("from=" + c.from + "\nto=" + c.to + "\nalong=\"aligned\"\n");
+    const Marks& marks = marks_of(d);
+    ASSERT_EQ(marks.texts.size(), 1U);
+    const Text& text = marks.texts[0];
+    EXPECT_NEAR(text.turn_deg, c.turn_deg, 1e-6) << c.from;
+    // It covers neither its line nor what it measures.
+    const auto corners = corners_of(text);
+    const Path& line = marks.paths.at(marks.paths.size() - 3);
+    const PaperPoint a = line.points[0], b = line.points[1];
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    double least = 1e9, most = -1e9;
+    for (const PaperPoint& p : corners) {
+      const double beside = ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / length;
+      least = std::min(least, beside);
+      most = std::max(most, beside);
+    }
+    EXPECT_GT(least * most, 0) << c.from;
+    EXPECT_NEAR(std::min(std::fabs(least), std::fabs(most)), 1 - text.height_mm / 4, 1e-3);
+  }
+}
+
+TEST(Dimensions, WhatATextCoversIsNoMoreThanItself) {
+  Text text{LineClass::dimension, {100, 100}, 2.5, Align::middle, "1234567890", false, 30};
+  double area = 0;
+  for (const PaperBox& box : boxes_of(text)) area += box.width() * box.height();
+  const PaperBox level = level_box_of(text), round = box_of(text);
+  EXPECT_LT(area, 0.75 * round.width() * round.height());
+  EXPECT_GE(area, level.width() * level.height());
+  for (const PaperPoint& corner : corners_of(text))
+    EXPECT_TRUE(std::ranges::any_of(boxes_of(text), [&](const PaperBox& box) {
+      return box.left - 1e-9 <= corner.x && corner.x <= box.right + 1e-9 &&
+             box.top - 1e-9 <= corner.y && corner.y <= box.bottom + 1e-9;
+    }));
+  text.turn_deg = 90;
+  EXPECT_EQ(boxes_of(text).size(), 1U);
+  EXPECT_NEAR(box_of(text).height(), level.width(), 1e-9);
 }
 
 TEST(Dimensions, AlignedOnesRunAlongTheirPoints) {
   const Drawn d = dimensioned("from=[0,0,0]\nto=[\"3m\",0,\"4m\"]\nalong=\"aligned\"\n");
   EXPECT_EQ(value_of(d), "5000");
-  // Its line has a gap for the text.
-  const PaperPoint a = marks_of(d).paths[2].points[0], b = marks_of(d).paths[3].points[1];
+  const PaperPoint a = marks_of(d).paths[2].points[0], b = marks_of(d).paths[2].points[1];
   EXPECT_NEAR(std::hypot(b.x - a.x, b.y - a.y), 100, 0.01);
 }
 

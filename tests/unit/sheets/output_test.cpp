@@ -43,7 +43,8 @@ Sheet sheet_of_all_classes() {
 
 std::string dxf_of(const Sheet& sheet) {
   std::string text;
-  EXPECT_TRUE(write_dxf(sheet, {}, [&](std::string_view part) { text += part; }, {}));
+  EXPECT_TRUE(
+      write_dxf(std::span(&sheet, 1), {}, [&](std::string_view part) { text += part; }, {}));
   return text;
 }
 

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Takes of an SVG what draws, and nothing that does anything else: elements and attributes of a list, made anew.
 
+import { styleRules } from './drawing_styles.ts';
+
 const SVG = 'http://www.w3.org/2000/svg';
 
-const ATTRIBUTES_OF_ALL = ['class', 'id', 'transform', 'data-id', 'data-name', 'data-file', 'data-view', 'data-scale'];
+const ATTRIBUTES_OF_ALL = ['class', 'id', 'transform', 'data-id', 'data-name', 'data-file', 'data-view', 'data-scale', 'data-style'];
 const ELEMENTS: Record<string, readonly string[]> = {
   svg: ['viewBox', 'width', 'height'],
   g: [],
@@ -23,28 +25,42 @@ const PAINT = ['fill', 'stroke', 'stroke-width', 'stroke-dasharray', 'stroke-lin
 const PLAIN_PAINT = /^[#\w\s.,%()-]*$/;
 const INKSCAPE = 'http://www.inkscape.org/namespaces/inkscape';
 
+export interface DrawingLayer {
+  label: string;
+  group: SVGGElement;
+  /** how many layers it lies in */
+  depth: number;
+}
+
 export interface CleanDrawing {
   svg: SVGSVGElement;
-  layers: { label: string; group: SVGGElement }[];
+  /** in the order of the file, those within another behind it */
+  layers: DrawingLayer[];
+  /** what lies in the layers of a style of objects, as a discipline is, by its name */
+  styles: Map<string, SVGGElement[]>;
+  /** its pens and colours */
+  rules: string;
   /** what can be picked: id, file, element */
   objects: { id: string; file: string; element: SVGElement }[];
 }
 
-/** Reads a drawing, or returns undefined where it is no SVG. */
-export function cleanSvg(text: string): CleanDrawing | undefined {
-  // Its style would not be taken either; this spares the browser a complaint that the page forbids it.
-  const parsed = new DOMParser().parseFromString(text.replace(/<style>[^<]*<\/style>/g, ''), 'image/svg+xml');
+/** Reads a drawing, or returns undefined where it is no SVG. It gets a class of its own, for its rules. */
+export function cleanSvg(text: string, ownClass: string): CleanDrawing | undefined {
+  // Styles would not be taken either; this spares the browser a complaint about each that the page forbids it.
+  const plain = text.replace(/<style>[^<]*<\/style>/g, '').replace(/ style="stroke-dasharray:/g, ' data-dash="');
+  const parsed = new DOMParser().parseFromString(plain, 'image/svg+xml');
   const root = parsed.documentElement;
   if (root.localName !== 'svg' || root.namespaceURI !== SVG || parsed.querySelector('parsererror')) return undefined;
-  const found: CleanDrawing = { svg: undefined as unknown as SVGSVGElement, layers: [], objects: [] };
-  found.svg = taken(root, found, 0) as SVGSVGElement;
+  const found: CleanDrawing = { svg: undefined as unknown as SVGSVGElement, layers: [], styles: new Map(), rules: styleRules(text, `.paper .${ownClass}`), objects: [] };
+  found.svg = taken(root, found, 0, 0) as SVGSVGElement;
+  found.svg.classList.add(ownClass);
   return found;
 }
 
 // Drawings of this program are six deep; more would only fill the stack.
 const DEEPEST = 64;
 
-function taken(from: Element, found: CleanDrawing, depth: number): SVGElement {
+function taken(from: Element, found: CleanDrawing, depth: number, layers: number): SVGElement {
   const name = from.localName;
   const element = document.createElementNS(SVG, name) as SVGElement;
   for (const attribute of [...ATTRIBUTES_OF_ALL, ...ELEMENTS[name]!]) {
@@ -56,17 +72,20 @@ function taken(from: Element, found: CleanDrawing, depth: number): SVGElement {
     const value = from.getAttribute(attribute);
     if (value !== null && PLAIN_PAINT.test(value) && !/url/i.test(value)) element.setAttribute(attribute, value);
   }
-  // Dashes are fitted to each line, and stand in its style; all else of that is left.
-  const dashes = /^stroke-dasharray:([\d. ]+|none)$/.exec(from.getAttribute('style') ?? '')?.[1];
+  // Dashes are fitted to each line, and stand at it.
+  const dashes = /^([\d. ]+|none)$/.exec(from.getAttribute('data-dash') ?? '')?.[1];
   if (dashes !== undefined) element.style.strokeDasharray = dashes;
   if (name === 'g' && from.getAttributeNS(INKSCAPE, 'groupmode') === 'layer') {
-    found.layers.push({ label: from.getAttributeNS(INKSCAPE, 'label') ?? from.id, group: element as SVGGElement });
+    found.layers.push({ label: from.getAttributeNS(INKSCAPE, 'label') ?? from.id, group: element as SVGGElement, depth: layers });
+    ++layers;
+    const style = from.getAttribute('data-style');
+    if (style !== null) found.styles.set(style, [...found.styles.get(style) ?? [], element as SVGGElement]);
   }
   const id = from.getAttribute('data-id');
   if (id !== null) found.objects.push({ id, file: from.getAttribute('data-file') ?? '', element });
   for (const child of from.childNodes) {
     if (child.nodeType === Node.TEXT_NODE && (name === 'text' || name === 'tspan' || name === 'title')) element.append(child.textContent ?? '');
-    else if (child instanceof Element && child.namespaceURI === SVG && Object.hasOwn(ELEMENTS, child.localName) && depth < DEEPEST) element.append(taken(child, found, depth + 1));
+    else if (child instanceof Element && child.namespaceURI === SVG && Object.hasOwn(ELEMENTS, child.localName) && depth < DEEPEST) element.append(taken(child, found, depth + 1, layers));
   }
   return element;
 }

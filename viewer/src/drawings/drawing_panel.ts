@@ -3,11 +3,37 @@
 import { openDrawing, type Report, shown } from '../data/report.ts';
 import { plural } from '../data/words.ts';
 import { fill, h, toggle } from '../ui/dom.ts';
-import { type CleanDrawing, cleanSvg } from './clean_svg.ts';
+import { type CleanDrawing, cleanSvg, type DrawingLayer } from './clean_svg.ts';
+import { adopt } from './drawing_styles.ts';
 
 export interface DrawingEvents {
   /** an object of a drawing, as a number of the page; undefined: it is not in the page */
   picked(object: number | undefined): void;
+}
+
+/** A switch for each style of objects, as a discipline is, in whatever layers its lines are. */
+function styleToggles({ styles }: CleanDrawing): HTMLElement[] {
+  return [...styles].map(([name, groups]) => toggle(shown(name), !groups[0]!.classList.contains('off-style'), (on) => {
+    for (const group of groups) group.classList.toggle('off-style', !on);
+  }, { class: 'style' }));
+}
+
+/** A switch for each layer; those of a view of a sheet are folded together. */
+function layerToggles(layers: DrawingLayer[]): HTMLElement[] {
+  const switchOf = ({ label, group }: DrawingLayer, text = label): HTMLElement =>
+    toggle(shown(text), !group.classList.contains('off'), (on) => group.classList.toggle('off', !on));
+  const all: HTMLElement[] = [];
+  for (let i = 0; i < layers.length;) {
+    const outer = layers[i]!;
+    let end = i + 1;
+    while (end < layers.length && layers[end]!.depth > outer.depth) ++end;
+    const within = layers.slice(i + 1, end);
+    const isView = outer.group.classList.contains('view');
+    if (isView) all.push(h('details', { class: 'view-layers' }, h('summary', {}, shown(outer.label)), h('div', {}, switchOf(outer, 'All of it'), ...within.map((layer) => switchOf(layer)))));
+    else all.push(switchOf(outer), ...within.map((layer) => switchOf(layer)));
+    i = end;
+  }
+  return all;
 }
 
 export class DrawingPanel {
@@ -43,7 +69,8 @@ export class DrawingPanel {
     if (!drawing) {
       fill(this.paper, h('p', { class: 'opening' }, 'Opening the drawing…'));
       try {
-        drawing = cleanSvg(await openDrawing(this.report.head, number)) ?? 'This drawing is damaged: it is no SVG.';
+        drawing = cleanSvg(await openDrawing(this.report.head, number), `drawing-${number}`) ?? 'This drawing is damaged: it is no SVG.';
+        if (typeof drawing !== 'string') adopt(drawing.rules);
       } catch (error) {
         drawing = `This drawing cannot be shown. ${error instanceof Error ? error.message : ''}`;
       }
@@ -59,8 +86,7 @@ export class DrawingPanel {
     svg.setAttribute('aria-label', shown(this.report.head.drawings[number]!.title));
     svg.setAttribute('role', 'img');
     fill(this.paper, svg);
-    fill(this.layers, h('legend', {}, 'Layers'), ...drawing.layers.map(({ label, group }) =>
-      toggle(shown(label), !group.classList.contains('off'), (on) => group.classList.toggle('off', !on))));
+    fill(this.layers, h('legend', {}, 'Layers'), ...styleToggles(drawing), ...layerToggles(drawing.layers));
     this.fit();
     this.mark(this.wanted);
   }

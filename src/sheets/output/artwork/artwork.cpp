@@ -45,8 +45,8 @@ struct TextRun {
 
 class ArtworkDrawer {
  public:
-  ArtworkDrawer(std::string& out, drawing::PdfDocument& document, const SvgElements& elements)
-      : out_(out), document_(document), elements_(elements) {}
+  ArtworkDrawer(ArtworkCanvas& canvas, const SvgElements& elements)
+      : canvas_(canvas), elements_(elements) {}
 
   void draw(const Affine& to_paper) {
     const auto noted = [this](const std::string& what) { left_out_.insert(what); };
@@ -167,26 +167,7 @@ class ArtworkDrawer {
     const bool stroked = style.stroke && style.stroke_width > 0;
     const bool filled = style.fill && path.has_inside();
     if (path.operators().empty() || (!stroked && !filled)) return;
-    out_ += "q\n";
-    if (filled) out_ += drawing::pdf_color(*style.fill) + "rg\n";
-    if (stroked) append_pen(style, scale);
-    out_ += path.operators();
-    out_ += filled ? (stroked ? "B" : "f") : "S";
-    out_ += filled && style.even_odd ? "*\nQ\n" : "\nQ\n";
-  }
-
-  void append_pen(const SvgStyle& style, double scale) {
-    const auto length = [&](double value) {
-      drawing::append_pdf_number(out_, value * scale, 4);
-      out_ += ' ';
-    };
-    out_ += drawing::pdf_color(*style.stroke) + "RG\n";
-    length(style.stroke_width);
-    out_ += "w " + std::to_string(style.cap) + " J " + std::to_string(style.join) + " j ";
-    drawing::append_pdf_number(out_, std::max(style.miter_limit, 1.0), 2);
-    out_ += " M [";
-    for (const double dash : style.dashes) length(dash);
-    out_ += "] 0 d\n";
+    canvas_.paint(path, style, scale, [this](const std::string& what) { left_out_.insert(what); });
   }
 
   void draw_text(const SvgElement& element, const Affine& to_paper, const SvgStyle& style) {
@@ -203,8 +184,11 @@ class ArtworkDrawer {
       }
       x += run.dx, y += run.dy;
       const double size = run.style.font_size;
-      if (run.style.fill && size > 0) append_run(run, to_paper.after({size, 0, 0, -size, x, y}));
-      x += document_.width_of(run.text) * size;
+      const double width = canvas_.width_of(run.text);
+      if (run.style.fill && size > 0 && !run.text.empty())
+        canvas_.write({run.text, run.style, to_paper.after({size, 0, 0, -size, x, y}), width,
+                       runs.size() == 1});
+      x += width * size;
     }
   }
 
@@ -214,22 +198,9 @@ class ArtworkDrawer {
     double width = 0;
     for (std::size_t i = first; i < runs.size(); ++i) {
       if (i > first && (runs[i].x || runs[i].y)) break;
-      width += document_.width_of(runs[i].text) * runs[i].style.font_size;
+      width += canvas_.width_of(runs[i].text) * runs[i].style.font_size;
     }
     return runs[first].style.anchor == Align::middle ? width / 2 : width;
-  }
-
-  void append_run(const TextRun& run, const Affine& to_paper) {
-    if (run.text.empty()) return;
-    out_ += "BT\n" + drawing::pdf_color(*run.style.fill) + "rg\n";
-    for (const double value : {to_paper.a, to_paper.b, to_paper.c, to_paper.d}) {
-      drawing::append_pdf_number(out_, value);
-      out_ += ' ';
-    }
-    drawing::append_pdf_point(out_, {to_paper.e, to_paper.f});
-    out_ += "Tm\n";
-    document_.append_text_at_origin(out_, run.text);
-    out_ += "ET\n";
   }
 
   /// Gathers the runs of a text and of the elements within it.
@@ -275,27 +246,87 @@ class ArtworkDrawer {
     return out;
   }
 
-  std::string& out_;
-  drawing::PdfDocument& document_;
+  ArtworkCanvas& canvas_;
   const SvgElements& elements_;
   StyleSheet styles_;
   std::set<std::string> left_out_;
   int uses_ = 0;  ///< references that are being followed
 };
 
+/// The contents of a page.
+class PdfCanvas final : public ArtworkCanvas {
+ public:
+  PdfCanvas(std::string& out, drawing::PdfDocument& document) : out_(out), document_(document) {}
+
+  [[nodiscard]] double width_of(const std::string& text) override {
+    return document_.width_of(text);
+  }
+
+  void paint(const PathBuilder& path, const SvgStyle& style, double scale,
+             TellStyle /*tell*/) override {
+    const bool stroked = style.stroke && style.stroke_width > 0;
+    const bool filled = style.fill && path.has_inside();
+    out_ += "q\n";
+    if (filled) out_ += drawing::pdf_color(*style.fill) + "rg\n";
+    if (stroked) append_pen(style, scale);
+    out_ += path.operators();
+    out_ += filled ? (stroked ? "B" : "f") : "S";
+    out_ += filled && style.even_odd ? "*\nQ\n" : "\nQ\n";
+  }
+
+  void write(const ArtworkText& text) override {
+    const Affine& m = text.to_paper;
+    out_ += "BT\n" + drawing::pdf_color(*text.style.fill) + "rg\n";
+    for (const double value : {m.a, m.b, m.c, m.d}) {
+      drawing::append_pdf_number(out_, value);
+      out_ += ' ';
+    }
+    drawing::append_pdf_point(out_, {m.e, m.f});
+    out_ += "Tm\n";
+    document_.append_text_at_origin(out_, text.text);
+    out_ += "ET\n";
+  }
+
+ private:
+  void append_pen(const SvgStyle& style, double scale) {
+    const auto length = [&](double value) {
+      drawing::append_pdf_number(out_, value * scale, 4);
+      out_ += ' ';
+    };
+    out_ += drawing::pdf_color(*style.stroke) + "RG\n";
+    length(style.stroke_width);
+    out_ += "w " + std::to_string(style.cap) + " J " + std::to_string(style.join) + " j ";
+    drawing::append_pdf_number(out_, std::max(style.miter_limit, 1.0), 2);
+    out_ += " M [";
+    for (const double dash : style.dashes) length(dash);
+    out_ += "] 0 d\n";
+  }
+
+  std::string& out_;
+  drawing::PdfDocument& document_;
+};
+
 }  // namespace
+
+Status draw_artwork(ArtworkCanvas& canvas, const Sheet::Template& artwork,
+                    const drawing::PaperSize& paper, std::string_view format,
+                    Diagnostics& diagnostics) {
+  const Result<SvgElements> elements = parse_elements(artwork.elements);
+  if (!elements) return elements.error();
+  ArtworkDrawer drawer(canvas, *elements);
+  drawer.draw(fit_view_box(artwork.view_box, paper));
+  for (const std::string& what : drawer.left_out())
+    diagnostics.add(Severity::warning, "template-part-left-out",
+                    "the " + std::string(format) + " has the template without this: " + what,
+                    "the template");
+  return {};
+}
 
 Status append_artwork(std::string& out, drawing::PdfDocument& document,
                       const Sheet::Template& artwork, const drawing::PaperSize& paper,
                       Diagnostics& diagnostics) {
-  const Result<SvgElements> elements = parse_elements(artwork.elements);
-  if (!elements) return elements.error();
-  ArtworkDrawer drawer(out, document, *elements);
-  drawer.draw(fit_view_box(artwork.view_box, paper));
-  for (const std::string& what : drawer.left_out())
-    diagnostics.add(Severity::warning, "template-part-left-out",
-                    "the PDF has the template without this: " + what, "the template");
-  return {};
+  PdfCanvas canvas(out, document);
+  return draw_artwork(canvas, artwork, paper, "PDF", diagnostics);
 }
 
 }  // namespace strake::sheets

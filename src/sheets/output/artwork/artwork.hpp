@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "drawing/pdf/pdf_document.hpp"
+#include "sheets/output/artwork/artwork_canvas.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
@@ -21,5 +23,11 @@ namespace strake::sheets {
 [[nodiscard]] Status append_artwork(std::string& out, drawing::PdfDocument& document,
                                     const Sheet::Template& artwork, const drawing::PaperSize& paper,
                                     Diagnostics& diagnostics);
+
+/// Draws a template on a canvas of that size; `format` is what people call the file. Adds
+/// "template-part-left-out". Errors: input, where the elements are no XML.
+[[nodiscard]] Status draw_artwork(ArtworkCanvas& canvas, const Sheet::Template& artwork,
+                                  const drawing::PaperSize& paper, std::string_view format,
+                                  Diagnostics& diagnostics);
 
 }  // namespace strake::sheets
