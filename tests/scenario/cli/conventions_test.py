@@ -5,6 +5,7 @@ import json
 import re
 import zlib
 
+from dxf_file import read
 from scenario import Scenario, cube, main, rvm, rvm_of_round_things
 
 
@@ -151,6 +152,35 @@ position = ["400mm", "200mm"]
         self.assertNotIn('id="view-2-break-lines"', text)
         self.assertIn('stroke: #ff0000', text)
         self.assertIn('stroke-width: 1.4', text)
+
+    def test_styles_hold_for_them(self):
+        self.folder.joinpath('round.rvm').write_bytes(rvm(*rvm_of_round_things()))
+        run = ['round.rvm', '--view', 'front', '--scale', '1:10', '--single-line', '105mm', '--break-lines', 'on',
+               '--limits', '-5m,-5m,-5m,5m,5m,100', '--style', 'name=PIPING,color=#c00000,pen=1mm,line=dashed: *']
+        _, made = self.drawn(*run, outputs=('x.svg', 'x.pdf', 'x.dxf'))
+        text = made[0].decode()
+        single = re.search(r'[.]visible[.]single_line [.]style-1 path {([^}]*)}', text)[1]
+        broken = re.search(r'[.]break [.]style-1 path {([^}]*)}', text)[1]
+        self.assertIn('stroke: #c00000; stroke-width: 1;', single)
+        self.assertIn('stroke: #c00000; stroke-width: 0.5; stroke-dasharray: none;', broken)
+        self.assertIn('id="visible-single_line-style-1" class="style-1" data-style="PIPING"', text)
+        self.assertIn('id="break-lines-style-1" class="style-1" data-style="PIPING"', text)
+        self.assertIn(b'PIPING', made[1])
+        document, faults = read(self.folder / 'x.dxf')
+        self.assertEqual(faults, [])
+        layers = {entity.dxf.layer for entity in document.modelspace()}
+        self.assertIn('PIPING_AM_0', layers)
+        broken = [entity for entity in document.modelspace() if entity.dxf.layer == 'PIPING_AM_4']
+        self.assertTrue(broken)
+        self.assertEqual({entity.dxf.linetype for entity in broken}, {'Continuous'})
+        self.assertEqual({layer for layer in layers if not layer.startswith('PIPING_')}, set())
+
+    def test_what_is_thinned_on_paper_has_its_layer_in_model_space(self):
+        self.write('wall.obj', corrugated('wall', 400, 10, 2000))
+        style = ['--style', 'name=WALL,pen=1mm: *']
+        self.drawn('wall.obj', *self.RUN, *style, outputs=('x.dxf',))
+        _, (thinned,) = self.drawn('wall.obj', *self.RUN, *style, '--thin', 'on', outputs=('y.dxf',))
+        self.assertEqual(thinned, (self.folder / 'x.dxf').read_bytes())
 
     def test_wrong_values_are_told(self):
         self.write('m.obj', cube('beam', 0, (0, 0, 0), 1000))

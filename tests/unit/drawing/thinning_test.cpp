@@ -8,8 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <memory>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "strake/drawing/write.hpp"
@@ -42,13 +45,14 @@ std::vector<Line> wall(int count, double step, std::uint32_t object = 0) {
 }
 
 Ink thinned(std::vector<Line> lines, const ThinOptions& options = {.spacing_mm = 0.5},
-            const parallel::Context& context = {}) {
+            const parallel::Context& context = {},
+            std::shared_ptr<const ObjectStyles> styles = nullptr) {
   NeutralDrawing drawing;
   drawing.view.direction = {0, 0, 1};
   drawing.view.up = {0, 1, 0};
   drawing.lines = std::move(lines);
   const Pens pens{.outline = 0.25, .edge = 0.25, .thin = 0.13, .section = 0.35};
-  auto ink = choose_ink(drawing, {.pens = pens}, {});
+  auto ink = choose_ink(drawing, {.pens = pens, .styles = std::move(styles)}, {});
   EXPECT_TRUE(ink);
   EXPECT_TRUE(thin_lines(*ink, drawing, options, context));
   return std::move(ink).value();
@@ -78,6 +82,22 @@ TEST(Thinning, OnIsTwoWidePens) {
   const Ink ink = thinned(wall(101, 0.1), {});
   EXPECT_EQ(ink.thinned->spacing_mm, 0.5);
   EXPECT_EQ(places(ink).size(), 21U);
+}
+
+// Two pens of an object are those of its style; a spacing that is given holds for all.
+TEST(Thinning, OnIsTwoPensOfTheStyle) {
+  ObjectStyles styles(2);
+  styles.add({.name = {}, .color = {}, .pen_mm = 0.5, .line = {}}, {false, true});
+  const auto shared = std::make_shared<const ObjectStyles>(std::move(styles));
+  std::vector<Line> lines = wall(101, 0.1);
+  std::ranges::copy(wall(101, 0.1, 1), std::back_inserter(lines));
+  const auto left = [&](const ThinOptions& options, std::uint32_t object) {
+    const Ink ink = thinned(lines, options, {}, shared);
+    return std::ranges::count(ink.lines, model::ObjectId{object}, &Line::object);
+  };
+  EXPECT_EQ(left({}, 0), 21);
+  EXPECT_EQ(left({}, 1), 11);
+  EXPECT_EQ(left({.spacing_mm = 0.5}, 1), 21);
 }
 
 TEST(Thinning, LinesFarEnoughApartStay) {
