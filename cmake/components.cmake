@@ -108,6 +108,7 @@ strake_component(model
     model/model.hpp
     model/scene.hpp
     model/selection.hpp
+    model/single_lines.hpp
   PAGES ${manual})
 
 strake_component(clash
@@ -131,11 +132,13 @@ strake_component(drawing
   DEPENDS parallel geometry model
   PACKAGES zlib
   HEADERS
+    drawing/break_lines.hpp
     drawing/centre_lines.hpp
     drawing/drawing.hpp
     drawing/hatching.hpp
     drawing/ink.hpp
     drawing/object_styles.hpp
+    drawing/thinning.hpp
     drawing/view.hpp
     drawing/write.hpp
     hlr/hlr.hpp

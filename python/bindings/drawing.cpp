@@ -170,7 +170,7 @@ void bind_drawing(nb::module_& module) {
       .def_prop_ro("model", [](const DrawRun& run) { return run.model; })
       .def_prop_ro("diagnostics", [](const DrawRun& run) { return listed(run.diagnostics); });
   module.attr("LINE_KINDS") =
-      names(static_cast<std::size_t>(hlr::EdgeKind::smooth) + 1,
+      names(static_cast<std::size_t>(hlr::kLastEdgeKind) + 1,
             [](std::size_t i) { return drawing::kind_name(static_cast<hlr::EdgeKind>(i)); });
   module.attr("LINE_STATES") = names(drawing::kLineStates, [](std::size_t i) {
     return drawing::state_name(static_cast<drawing::LineState>(i));

@@ -57,6 +57,8 @@ std::string_view kind_name(hlr::EdgeKind kind) {
       return "hatch";
     case hlr::EdgeKind::smooth:
       return "smooth";
+    case hlr::EdgeKind::single_line:
+      return "single_line";
   }
   return "";
 }

@@ -46,9 +46,9 @@ void ObjectStyles::add(ObjectStyle style, const std::vector<bool>& picked) {
 }
 
 std::size_t ObjectStyles::number_of(const Line& line) const {
-  const std::size_t own = of_object_[model::index(line.object)];
+  const std::size_t own = number_of(line.object);
   if (own != kPlain || line.kind != hlr::EdgeKind::intersection) return own;
-  return of_object_[model::index(line.other)];
+  return number_of(line.other);
 }
 
 double ObjectStyles::widening(std::size_t number, double edge_mm) const {

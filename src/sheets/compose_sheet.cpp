@@ -24,6 +24,7 @@
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/arrangement/view_margins.hpp"
 #include "sheets/output/line_styles.hpp"
+#include "sheets/pipe_scenes.hpp"
 #include "sheets/place_notes.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "sheets/spec/text_metrics.hpp"
@@ -58,7 +59,8 @@ class Composer {
         scene_(scene),
         options_(options),
         context_(context),
-        room_(sheet_area_of(what)) {}
+        room_(sheet_area_of(what)),
+        pipe_scenes_(scene) {}
 
   Result<Sheet> run() {
     sheet_.name = what_.name;
@@ -183,7 +185,10 @@ class Composer {
       options.hatches = std::move(chosen[v].hatches);
       options.uncut = std::move(chosen[v].uncut);
       if (!sags->empty()) options.sag_mm = (*sags)[v];
-      Result<hlr::Drawing> lines = hlr::draw(scene_, chosen[v].drawn, view.view, options, context_);
+      const Result<const model::Scene*> scene = pipe_scenes_.of(view, context_);
+      if (!scene) return scene.error();
+      Result<hlr::Drawing> lines =
+          hlr::draw(**scene, chosen[v].drawn, view.view, options, context_);
       if (!lines) {
         Error error = lines.error();
         if (error.code != ErrorCode::cancelled)
@@ -318,7 +323,7 @@ class Composer {
                                         context_);
       if (!chosen) return chosen.error();
       sheet_.views[v].ink = std::move(*chosen);
-      if (const Status status = centre_lines(v); !status) return status;
+      if (const Status status = conventions(v); !status) return status;
     }
     return {};
   }
@@ -331,14 +336,19 @@ class Composer {
     return std::make_shared<const drawing::ObjectStyles>(std::move(styles));
   }
 
-  Status centre_lines(std::size_t v) {
+  Status conventions(std::size_t v) {
     PlacedView& view = sheet_.views[v];
-    if (!what_.views[v].centre_lines) return {};
-    auto lines = drawing::find_centre_lines(view.drawing, view.ink, *scene_.model,
-                                            *what_.views[v].centre_lines, context_);
-    if (!lines) return lines.error();
-    view.ink.centre_lines = std::move(*lines);
-    return {};
+    const ViewSpec& spec = what_.views[v];
+    const Status status = drawing::apply_conventions(view.ink, view.drawing, *scene_.model,
+                                                     spec.conventions, context_);
+    if (status && view.ink.thinned && view.ink.thinned->lines > 0)
+      sheet_.diagnostics.add(
+          Severity::note, "lines-thinned",
+          "the view '" + view.name + "' lacks " + std::to_string(view.ink.thinned->lines) +
+              " lines of " + std::to_string(view.ink.thinned->objects) +
+              " objects, wholly or in part, that lie too near to each other on paper",
+          spec.where);
+    return status;
   }
 
   [[nodiscard]] PaperBox paper() const { return {0, 0, what_.width_mm, what_.height_mm}; }
@@ -550,6 +560,7 @@ class Composer {
   Picks picks_;
   std::size_t asked_ = 0;                                   ///< how many of them have been used
   std::vector<std::vector<model::ObjectId>> far_left_out_;  ///< of each view
+  PipeScenes pipe_scenes_;
   std::vector<hlr::Drawing> drawings_;
   std::vector<ViewPlace> places_;
   std::vector<PaperBox> dimensioned_;  ///< the lines of each view, with its dimensions

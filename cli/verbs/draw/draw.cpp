@@ -63,13 +63,15 @@ Status check_drawing_outputs(Session& session, const DrawOptions& given) {
 /// Draws the model files, or a project as if its model came from them.
 Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
                             const DrawRequest& request) {
-  const Result<Loaded> loaded = [&]() -> Result<Loaded> {
+  Result<Loaded> loaded = [&]() -> Result<Loaded> {
     if (given.project.file.empty()) return load(session, given.input, request.scene);
     Result<OpenedProject> opened = open_project(session, given.project, project::Access::read);
     if (!opened) return opened.error();
     return load_project(session, *opened, request.scene);
   }();
   if (!loaded) return loaded.error();
+  if (const Status status = draw_pipes_as_lines(session, request, loaded->scene); !status)
+    return status.error();
   const Result<PreparedView> prepared = prepare_view(session, request, loaded->scene);
   if (!prepared) return prepared.error();
   const Result<hlr::Drawing> lines = solve(session, request, *prepared, loaded->scene);
@@ -199,6 +201,23 @@ void add_lines(CLI::App& command, DrawOptions& options) {
                       suffixes_by_ink(true)))
       ->type_name("on|off|LENGTH")
       ->group("Lines");
+  add_choice(command, "--break-lines", options.break_lines, {"on", "off"},
+             "Lines with zigzags where --limits cut objects (default off)")
+      ->group("Lines");
+  command
+      .add_option("--single-line", options.single_line,
+                  "Draw pipes up to this outer diameter as single lines, their axes (ISO 6412): "
+                  "a length, or a nominal size as DN50; off (default off)")
+      ->type_name("off|DN|LENGTH")
+      ->group("Lines");
+  command
+      .add_option(
+          "--thin", options.thin,
+          "Leave out inner lines of an object that are nearer than this to others on paper: "
+          "on (two pens), off, or a distance, as 0.5mm; +dxf behind it leaves them out of "
+          "model space of .dxf, too (default off)")
+      ->type_name("on|off|LENGTH[+dxf]")
+      ->group("Lines");
   command
       .add_option(
           "--style", options.styles,
@@ -296,14 +315,36 @@ void add_sheet(CLI::App& command, DrawOptions& options) {
           ->allow_extra_args(false)
           ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
           ->group("Output");
-  for (const char* const other :
-       {"--view",         "--direction",   "--eye",           "--up",
-        "--limits",       "--section",     "--uncut",         "--hatch",
-        "--select",       "--hidden",      "--hidden-layers", "--centre-lines",
-        "--visible-only", "--stage",       "--intersections", "--own-polylines",
-        "--smooth",       "--flush-seams", "--sharp-angle",   "--contact-distance",
-        "--scale",        "--paper",       "--title",         "--project",
-        "--save",         "--stored",      "--style"})
+  for (const char* const other : {"--view",
+                                  "--direction",
+                                  "--eye",
+                                  "--up",
+                                  "--limits",
+                                  "--section",
+                                  "--uncut",
+                                  "--hatch",
+                                  "--select",
+                                  "--hidden",
+                                  "--hidden-layers",
+                                  "--centre-lines",
+                                  "--break-lines",
+                                  "--thin",
+                                  "--single-line",
+                                  "--visible-only",
+                                  "--stage",
+                                  "--intersections",
+                                  "--own-polylines",
+                                  "--smooth",
+                                  "--flush-seams",
+                                  "--sharp-angle",
+                                  "--contact-distance",
+                                  "--scale",
+                                  "--paper",
+                                  "--title",
+                                  "--project",
+                                  "--save",
+                                  "--stored",
+                                  "--style"})
     sheet->excludes(other);
 }
 

@@ -193,13 +193,36 @@ drawing::InkOptions ink_options(const DrawOptions& given) {
           .split_hidden = given.hidden_layers == "two"};
 }
 
-Result<std::optional<drawing::CentreLineOptions>> centre_line_options(const DrawOptions& given) {
-  if (given.centre_lines.empty()) return std::optional<drawing::CentreLineOptions>();
-  auto options = drawing::parse_centre_lines(given.centre_lines);
-  if (options) return options;
-  Error error = options.error();
-  error.where = "--centre-lines";
+namespace {
+
+/// Parses the text of an option into `into`, unless it was not given.
+template <class Value, class Parse>
+Status parse_option(const std::string& text, const char* option, Parse&& parse, Value& into) {
+  if (text.empty()) return {};
+  auto value = parse(text);
+  if (value) {
+    into = std::move(*value);
+    return {};
+  }
+  Error error = value.error();
+  error.where = option;
   return error;
+}
+
+}  // namespace
+
+Result<drawing::Conventions> conventions_of(const DrawOptions& given) {
+  drawing::Conventions conventions;
+  conventions.break_lines = given.break_lines == "on";
+  if (const Status status = parse_option(given.centre_lines, "--centre-lines",
+                                         drawing::parse_centre_lines, conventions.centre_lines);
+      !status)
+    return status.error();
+  if (const Status status =
+          parse_option(given.thin, "--thin", drawing::parse_thinning, conventions.thin);
+      !status)
+    return status.error();
+  return conventions;
 }
 
 Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool keep_hidden) {
@@ -217,18 +240,18 @@ Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool 
   if (!uncut) return uncut.error();
   const auto hatches = parse_hatches(given.hatches);
   if (!hatches) return hatches.error();
-  if (const auto centre_lines = centre_line_options(given); !centre_lines)
-    return centre_lines.error();
+  if (const auto conventions = conventions_of(given); !conventions) return conventions.error();
   if (const auto styles = parse_styles(given.styles); !styles) return styles.error();
-  return DrawRequest{*scene,
-                     *view,
-                     *options,
-                     *layout,
-                     *selections,
-                     *uncut,
-                     *hatches,
-                     given.scene.sag.empty(),
-                     given.limits != kAutoLimits};
+  std::optional<model::SingleLineOptions> single_line;
+  if (const Status status =
+          parse_option(given.single_line, "--single-line", model::parse_single_line, single_line);
+      !status)
+    return status.error();
+  return DrawRequest{*scene,      *view,
+                     *options,    *layout,
+                     *selections, *uncut,
+                     *hatches,    given.scene.sag.empty(),
+                     single_line, given.limits != kAutoLimits};
 }
 
 }  // namespace strake::cli

@@ -10,13 +10,14 @@
 #include "cli/run/load.hpp"
 #include "cli/run/project_input.hpp"
 #include "cli/verbs/draw/draw_options.hpp"
+#include "drawing/conventions.hpp"
 #include "strake/core/result.hpp"
-#include "strake/drawing/centre_lines.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/ink.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/model/selection.hpp"
+#include "strake/model/single_lines.hpp"
 
 /// What `draw` is asked for: as it was written, and parsed.
 namespace strake::cli {
@@ -32,7 +33,8 @@ struct DrawOptions {
   std::vector<std::string> sheets;
   std::string view, direction, up, limits, scale, paper, title;
   std::string stage, solver, global, culling, bucketing, hidden, hidden_layers, centre_lines,
-      intersections, own_polylines, smooth, flush_seams, sharp_angle, contact_distance;
+      break_lines, thin, single_line, intersections, own_polylines, smooth, flush_seams,
+      sharp_angle, contact_distance;
   std::vector<std::string> select, outputs, sections, uncut, hatches, styles;
   bool visible_only = false;
   ProjectOptions project;
@@ -49,6 +51,7 @@ struct DrawRequest {
   std::vector<model::Selection> selections, uncut;
   std::vector<HatchRule> hatches;
   bool sag_for_paper = true;
+  std::optional<model::SingleLineOptions> single_line;
   bool far_objects = true;  ///< drawn, and warned of; otherwise left out
 };
 
@@ -63,8 +66,7 @@ struct DrawRequest {
 /// Returns what --hidden asks for.
 [[nodiscard]] drawing::InkOptions ink_options(const DrawOptions& given);
 
-/// Parses --centre-lines; none: they are not drawn. Errors: usage.
-[[nodiscard]] Result<std::optional<drawing::CentreLineOptions>> centre_line_options(
-    const DrawOptions& given);
+/// Parses --centre-lines, --break-lines and --thin. Errors: usage.
+[[nodiscard]] Result<drawing::Conventions> conventions_of(const DrawOptions& given);
 
 }  // namespace strake::cli

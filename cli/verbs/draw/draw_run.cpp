@@ -16,12 +16,25 @@
 #include "cli/verbs/draw/draw_summary.hpp"
 #include "cli/verbs/draw/far_objects.hpp"
 #include "cli/verbs/draw/styles/style_option.hpp"
+#include "core/number.hpp"
 #include "core/output_format.hpp"
 #include "drawing/drawing_writers.hpp"
 #include "publish/drawing_formats.hpp"
 #include "strake/drawing/write.hpp"
 
 namespace strake::cli {
+
+Status draw_pipes_as_lines(Session& session, const DrawRequest& request, model::Scene& scene) {
+  if (!request.single_line) return {};
+  auto lines = model::pipes_as_lines(scene, *request.single_line, session.context());
+  if (!lines) return lines.error();
+  scene = std::move(lines->scene);
+  session.stats().count("single-line pipes", lines->bodies);
+  session.console().note(fmt::format("{} {} of pipes drawn as single lines (up to {} mm)",
+                                     lines->bodies, lines->bodies == 1 ? "piece" : "pieces",
+                                     shortest(request.single_line->largest_diameter_mm)));
+  return {};
+}
 
 Result<PreparedView> prepare_view(Session& session, const DrawRequest& request,
                                   const model::Scene& scene) {
@@ -106,6 +119,16 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
                    : "warning empty-sheet: the model has nothing to draw");
 }
 
+/// Says what thinning left out, and how many break lines there are.
+void tell_conventions(Session& session, const drawing::Conventions& conventions,
+                      const drawing::Ink& ink) {
+  if (ink.thinned) {
+    session.stats().count("lines thinned", ink.thinned->lines);
+    session.console().note(thinned_line(*ink.thinned));
+  }
+  if (conventions.break_lines) session.stats().count("break lines", ink.break_lines.size());
+}
+
 }  // namespace
 
 void tell_drawing(Session& session, const drawing::NeutralDrawing& drawing,
@@ -138,14 +161,13 @@ Status write_drawing(Session& session, const DrawOptions& given,
     Result<drawing::Ink> chosen = drawing::choose_ink(drawing, options, session.context());
     if (!chosen) return chosen.error();
     ink = std::move(*chosen);
-    const auto centre_lines = centre_line_options(given);
-    if (!centre_lines) return centre_lines.error();
-    if (*centre_lines) {
-      auto found =
-          drawing::find_centre_lines(drawing, ink, model, **centre_lines, session.context());
-      if (!found) return found.error();
-      ink.centre_lines = std::move(*found);
-    }
+    const auto conventions = conventions_of(given);
+    if (!conventions) return conventions.error();
+    if (const Status status =
+            drawing::apply_conventions(ink, drawing, model, *conventions, session.context());
+        !status)
+      return status;
+    tell_conventions(session, *conventions, ink);
   }
   for (std::size_t i = 0; i < writers.size(); ++i) {
     Diagnostics noticed;

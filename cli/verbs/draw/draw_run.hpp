@@ -21,6 +21,11 @@ struct PreparedView {
   drawing::LayoutOptions layout;
 };
 
+/// Makes lines of the pipes of a scene where they are asked for, and says how many. Errors:
+/// cancelled.
+[[nodiscard]] Status draw_pipes_as_lines(Session& session, const DrawRequest& request,
+                                         model::Scene& scene);
+
 /// Works out which objects are drawn, hatched and left whole, and how fine curves are. Errors: a
 /// selection that picks nothing, cancelled.
 [[nodiscard]] Result<PreparedView> prepare_view(Session& session, const DrawRequest& request,

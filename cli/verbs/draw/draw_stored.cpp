@@ -418,8 +418,10 @@ Result<report::ViewDocument> document_of_now(Session& session, OpenedProject& op
   if (!asked) return asked.error();
   const Result<DrawRequest> request = request_of(asked->solved, session, true);
   if (!request) return request.error();
-  const Result<Loaded> loaded = load_project(session, opened, request->scene);
+  Result<Loaded> loaded = load_project(session, opened, request->scene);
   if (!loaded) return loaded.error();
+  if (const Status status = draw_pipes_as_lines(session, *request, loaded->scene); !status)
+    return status.error();
   StoredRun run(session, given, *asked, *request, *loaded);
   if (const Status status = run.find_lines(opened); !status) return status.error();
   const Result<drawing::NeutralDrawing> drawing = run.lay_out();
@@ -436,8 +438,10 @@ Result<ExitCode> draw_stored(Session& session, const DrawOptions& given) {
   if (!view) return view.error();
   const Result<DrawRequest> request = request_of(view->solved, session, true);
   if (!request) return request.error();
-  const Result<Loaded> loaded = load_project(session, *reader, request->scene);
+  Result<Loaded> loaded = load_project(session, *reader, request->scene);
   if (!loaded) return loaded.error();
+  if (const Status status = draw_pipes_as_lines(session, *request, loaded->scene); !status)
+    return status.error();
   StoredRun run(session, given, *view, *request, *loaded);
   if (const Status status = run.find_lines(*reader); !status) return status.error();
   // What is stored is in the file itself once nobody else has it open.

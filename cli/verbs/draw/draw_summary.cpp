@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "cli/run/load.hpp"
+#include "core/number.hpp"
 #include "strake/drawing/drawing.hpp"
 
 namespace strake::cli {
@@ -60,6 +61,12 @@ std::vector<std::string> left_alone_lines(const drawing::NeutralDrawing& drawing
   if (!drawing.flush_seams)
     lines.push_back("flush seams of " + counted(work.seams, "edge", "edges") + " are left out");
   return lines;
+}
+
+std::string thinned_line(const drawing::ThinnedLines& thinned) {
+  return fmt::format("{} of {} too near to each other on paper are left out or shortened ({} mm)",
+                     counted(thinned.lines, "line"), counted(thinned.objects, "object"),
+                     shortest(thinned.spacing_mm));
 }
 
 std::string_view words(ViewRun run) {

@@ -7,6 +7,7 @@
 
 #include "cli/output/stats.hpp"
 #include "strake/drawing/drawing.hpp"
+#include "strake/drawing/ink.hpp"
 #include "strake/hlr/hlr.hpp"
 
 namespace strake::cli {
@@ -23,6 +24,9 @@ namespace strake::cli {
 /// Returns a sentence for each of what was asked to be left whole or out: "3 objects are left whole
 /// by the sections", "flush seams of 12 edges are left out".
 [[nodiscard]] std::vector<std::string> left_alone_lines(const drawing::NeutralDrawing& drawing);
+
+/// Returns how many lines were left out as they are too near to each other on paper.
+[[nodiscard]] std::string thinned_line(const drawing::ThinnedLines& thinned);
 
 /// Adds every fate to --stats, each name behind `prefix`.
 void count_objects(Stats& stats, const hlr::Account& account, std::string_view prefix);

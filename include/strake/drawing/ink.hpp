@@ -42,14 +42,35 @@ struct CentreLine {
   bool cross = false;  ///< an arm of a cross, which has a dash in its middle
 };
 
+/// A break line on paper: straight from point to point, with zigzags.
+struct BreakLine {
+  model::ObjectId object{};  ///< what it breaks; of several beside each other the first
+  std::vector<PaperPoint> points;
+};
+
+/// What thin_lines() left out.
+struct ThinnedLines {
+  /// On paper, from the middle of a line to that of the next; of objects without a style.
+  double spacing_mm = 0;
+  std::uint64_t lines = 0, objects = 0;  ///< lines left out in part or wholly, and whose they are
+};
+
 /// The lines of a drawing that get ink on paper, and the pens.
 struct Ink {
   Pens pens;
   std::vector<Line> lines;               ///< visible or hidden, in the order of the drawing
   std::uint64_t left_out = 0;            ///< hidden lines that were left out in part or wholly
   std::vector<CentreLine> centre_lines;  ///< those of find_centre_lines(), where they are wanted
+  std::vector<BreakLine> break_lines;    ///< those of find_break_lines(), where they are wanted
   bool split_hidden = false;  ///< as InkOptions has it; the states of the lines tell which is which
   std::shared_ptr<const ObjectStyles> styles = nullptr;  ///< null: all objects look alike
+  std::optional<ThinnedLines> thinned;                   ///< where thin_lines() was asked
+  /// The lines in model space, of which true size thins none; empty: `lines`, as on paper.
+  std::vector<Line> true_size_lines;
+
+  [[nodiscard]] const std::vector<Line>& in_model_space() const {
+    return true_size_lines.empty() ? lines : true_size_lines;
+  }
 };
 
 /// Returns the pens for a drawing: the widest group that suits the sheet's size, or a narrower one

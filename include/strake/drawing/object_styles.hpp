@@ -47,6 +47,9 @@ class ObjectStyles {
   /// The style of a line is that of the object that the drawing gives it to. An intersection of an
   /// object without a style has that of the other object.
   [[nodiscard]] std::size_t number_of(const Line& line) const;
+  [[nodiscard]] std::size_t number_of(model::ObjectId object) const {
+    return of_object_[model::index(object)];
+  }
   /// Returns how much wider or narrower the lines of a style are than those of all objects, where
   /// visible edges have this width.
   [[nodiscard]] double widening(std::size_t number, double edge_mm) const;

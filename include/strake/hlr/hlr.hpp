@@ -58,7 +58,9 @@ enum class EdgeKind : std::uint8_t {
   section,       ///< where a section plane cuts a part
   hatch,         ///< a hatch line on the face of a cut through a solid
   smooth,        ///< where two faces turn by no more than the sharp angle, if asked for
+  single_line,   ///< the axis of a pipe that is drawn as a line: see model::pipes_as_lines()
 };
+inline constexpr EdgeKind kLastEdgeKind = EdgeKind::single_line;
 enum class State : std::uint8_t {
   visible,
   hidden_by_self,

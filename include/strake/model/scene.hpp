@@ -38,6 +38,7 @@ struct GridShape {
   /// The origin of the vertices, in grid units from the placed local origin: zero unless the shape
   /// lies far from it (site coordinates baked into the vertices).
   geometry::Vec3l base;
+  bool single_line = false;  ///< a pipe that is drawn as its axis: see pipes_as_lines()
 };
 
 /// A body on the grid: world coordinate of a vertex = origin + vertex.

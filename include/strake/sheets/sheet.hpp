@@ -47,8 +47,10 @@ enum class LineClass : std::uint8_t {
   extent,         ///< what another view shows
   note,           ///< scale bar, north, levels, lists
   dimension,      ///< dimensions, with their extension lines
+  single_line,    ///< pipes that are drawn as their axes
+  break_line,     ///< break lines, which are in the ink of a view
 };
-inline constexpr std::size_t kLineClasses = 22;
+inline constexpr std::size_t kLineClasses = 24;
 
 /// Returns the name of a class as files spell it: "frame_thin".
 [[nodiscard]] std::string_view class_name(LineClass line);

@@ -95,6 +95,8 @@ class LinesAcross {
  public:
   explicit LinesAcross(std::span<const Line> lines) {
     for (const Line& line : lines) {
+      // A pipe that is drawn as its axis needs no centre line.
+      if (line.kind == hlr::EdgeKind::single_line) continue;
       by_left_.emplace_back(std::min(line.a_paper.x, line.b_paper.x), &line);
       widest_ = std::max(widest_, std::fabs(line.b_paper.x - line.a_paper.x));
     }

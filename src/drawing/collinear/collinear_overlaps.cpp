@@ -22,20 +22,6 @@ struct Cover {
   ParamInterval interval{};
 };
 
-/// Unites intervals that have a point in common.
-void unite(std::vector<ParamInterval>& intervals) {
-  std::sort(intervals.begin(), intervals.end(), [](const ParamInterval& a, const ParamInterval& b) {
-    return std::tie(a.from, a.to) < std::tie(b.from, b.to);
-  });
-  std::size_t kept = 0;
-  for (const ParamInterval& next : intervals)
-    if (kept > 0 && next.from <= intervals[kept - 1].to)
-      intervals[kept - 1].to = std::max(intervals[kept - 1].to, next.to);
-    else
-      intervals[kept++] = next;
-  intervals.resize(kept);
-}
-
 /// Finds the covered intervals, leaf by leaf of the index.
 ///
 /// For the lines of a leaf, covering lines are sought in their own class of lengths and in lower
@@ -159,6 +145,19 @@ Result<std::vector<KeyedItem>> by_line(std::span<const Cover> covers,
 }
 
 }  // namespace
+
+void unite(std::vector<ParamInterval>& intervals) {
+  std::sort(intervals.begin(), intervals.end(), [](const ParamInterval& a, const ParamInterval& b) {
+    return std::tie(a.from, a.to) < std::tie(b.from, b.to);
+  });
+  std::size_t kept = 0;
+  for (const ParamInterval& next : intervals)
+    if (kept > 0 && next.from <= intervals[kept - 1].to)
+      intervals[kept - 1].to = std::max(intervals[kept - 1].to, next.to);
+    else
+      intervals[kept++] = next;
+  intervals.resize(kept);
+}
 
 std::optional<ParamInterval> covered(const PlaneSegment& line, const PlaneSegment& other,
                                      const OverlapRule& rule) {

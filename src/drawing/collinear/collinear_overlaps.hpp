@@ -85,6 +85,9 @@ struct ParamInterval {
   double from, to;
 };
 
+/// Unites intervals that have a point in common, and puts them in order.
+void unite(std::vector<ParamInterval>& intervals);
+
 /// The definition for one pair: returns the interval of `line` on which `other` coincides with it.
 /// It is all of `line` where they have the same ends, whatever rounding would make of that.
 [[nodiscard]] std::optional<ParamInterval> covered(const PlaneSegment& line,

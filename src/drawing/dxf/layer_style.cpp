@@ -69,6 +69,7 @@ ViewLayer layer_of(const Line& line) {
   if (is_hidden(line.state)) return ViewLayer::hidden_by_other;
   switch (line.kind) {
     case hlr::EdgeKind::contour:
+    case hlr::EdgeKind::single_line:
       return ViewLayer::outline;
     case hlr::EdgeKind::boundary:
       return ViewLayer::boundary;

@@ -45,6 +45,9 @@ inline constexpr std::size_t kViewLayers = 11;
 /// Returns the layer of a line that is visible or hidden.
 [[nodiscard]] ViewLayer layer_of(const Line& line);
 
+/// The layer of break lines, which is that of narrow continuous lines.
+inline constexpr ViewLayer kBreakLineLayer = ViewLayer::polyline;
+
 /// The numbers of the layers that lines of styles lie on, by style and ViewLayer; none: no line is
 /// there.
 using StyleLayers = std::vector<std::array<std::optional<std::size_t>, kViewLayers>>;

@@ -21,7 +21,7 @@ std::array<End, 2> ends_of(const Line& line) {
 
 ModelPlane::ModelPlane(const NeutralDrawing& drawing, const Ink& ink)
     : there_{0, drawing.sheet.height_mm} {
-  const std::vector<Line>& lines = ink.lines;
+  const std::vector<Line>& lines = ink.in_model_space();
   if (!drawing.view.perspective) axes_ = paper_axes(drawing.view);
   if (axes_) scale_ = drawing.sheet.scale;
   if (axes_ && !lines.empty()) {
@@ -41,6 +41,8 @@ ModelPlane::ModelPlane(const NeutralDrawing& drawing, const Ink& ink)
   for (const Line& line : lines)
     for (const End& end : ends_of(line)) include(end.paper, place(end.mm, end.paper));
   for (const CentreLine& line : ink.centre_lines)
+    for (const PaperPoint& point : line.points) include(point, place(point));
+  for (const BreakLine& line : ink.break_lines)
     for (const PaperPoint& point : line.points) include(point, place(point));
 }
 

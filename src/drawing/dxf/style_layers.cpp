@@ -51,9 +51,13 @@ StyleLayers add_style_layers(std::span<const Ink* const> views, std::vector<Laye
   if (views.empty() || views.front()->styles == nullptr) return found;
   const Ink& first = *views.front();
   std::vector<std::array<bool, kViewLayers>> used(first.styles->all().size() + 1);
-  for (const Ink* const ink : views)
-    for (const Line& line : ink->lines)
+  for (const Ink* const ink : views) {
+    for (const Line& line : ink->in_model_space())
       used[ink->styles->number_of(line)].at(static_cast<std::size_t>(layer_of(line))) = true;
+    for (const BreakLine& line : ink->break_lines)
+      used[ink->styles->number_of(line.object)].at(static_cast<std::size_t>(kBreakLineLayer)) =
+          true;
+  }
   found.resize(first.styles->all().size());
   for (std::size_t s = 0; s < found.size(); ++s)
     for (std::size_t l = 0; l < kViewLayers; ++l) {

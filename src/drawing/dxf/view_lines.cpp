@@ -139,6 +139,28 @@ std::string centre_lines_of(const ViewLines& view, const model::Model& model,
   return out;
 }
 
+/// Returns the entities of the break lines of a view. Those of a style are continuous even where
+/// the other lines of their layer are not.
+std::string break_lines_of(const ViewLines& view, const model::Model& model,
+                           std::span<const LayerStyle> layers, Handle first) {
+  constexpr auto kLayer = static_cast<std::size_t>(kBreakLineLayer);
+  std::string out;
+  for (const BreakLinesOfStyle& part : break_lines_by_style(view.ink)) {
+    const bool plain = part.style == ObjectStyles::kPlain;
+    const LayerStyle& layer =
+        layers[plain ? kLayer : view.style_layers[part.style - 1].at(kLayer).value_or(kLayer)];
+    const bool dashed = plain && !layer.dash_mm.empty();
+    const double stretch = plain || layer.dash_mm.empty() ? 1 : 0;
+    for (const BreakLine* const line : part.lines) {
+      Chain points;
+      for (const PaperPoint& point : line->points) points.push_back(view.plane.place(point));
+      append_polyline(out, {Space::model, first++, layer.name, stretch}, points, dashed);
+      out += object_data(model.object(line->object), model);
+    }
+  }
+  return out;
+}
+
 /// The lines of a view by layers, those of an object side by side.
 struct SortedLines {
   struct OfObject {
@@ -157,10 +179,10 @@ bool is_hidden_layer(std::size_t layer) {
 
 SortedLines sorted_lines(const Ink& ink, const StyleLayers& style_layers) {
   std::array<std::vector<const Line*>, kViewLayers> of_layer;
-  for (const Line& line : ink.lines)
+  for (const Line& line : ink.in_model_space())
     of_layer.at(static_cast<std::size_t>(layer_of(line))).push_back(&line);
   SortedLines sorted;
-  sorted.lines.reserve(ink.lines.size());
+  sorted.lines.reserve(ink.in_model_space().size());
   for (std::size_t layer = 0; layer < kViewLayers; ++layer)
     for (const LinesOfStyle& part : by_style(of_layer.at(layer), ink)) {
       const bool plain = part.style == ObjectStyles::kPlain;
@@ -250,10 +272,11 @@ Status write_view_lines(const ViewLines& view, const model::Model& model,
         phase.add(sorted.objects[shares[share + 1] - 1].end - sorted.objects[shares[share]].begin);
       },
       context);
-  if (status)
-    sink(centre_lines_of(view, model, layers[static_cast<std::size_t>(ViewLayer::centre)],
-                         first + sorted.lines.size()));
-  return status;
+  if (!status) return status;
+  const Handle next = first + sorted.lines.size();
+  sink(centre_lines_of(view, model, layers[static_cast<std::size_t>(ViewLayer::centre)], next));
+  sink(break_lines_of(view, model, layers, next + view.ink.centre_lines.size()));
+  return {};
 }
 
 }  // namespace strake::drawing::dxf

@@ -26,7 +26,7 @@ struct ViewLines {
 
 /// Returns as many handles as the entities of a view need at most: one for a line.
 [[nodiscard]] inline std::size_t entities_at_most(const Ink& ink) {
-  return ink.lines.size() + ink.centre_lines.size();
+  return ink.in_model_space().size() + ink.centre_lines.size() + ink.break_lines.size();
 }
 
 /// Writes the lines of a view as entities of model space, layer by layer and object by object, and

@@ -10,18 +10,13 @@
 #include <vector>
 
 #include "drawing/collinear/collinear_overlaps.hpp"
+#include "drawing/ink/line_grid.hpp"
 
 namespace strake::drawing {
 
 /// The dash and the gap of a dashed line in widths of its pen (ISO 128-20).
 inline constexpr double kDash = 12, kDashGap = 3;
 inline constexpr std::array<double, 2> kHiddenDashes{kDash, kDashGap};
-
-struct HiddenInkRule {
-  OverlapRule overlap;
-  double whole_below = 0;  ///< lines shorter than this are dropped or kept as a whole
-  double touch = 0;        ///< lengths that differ by no more are equal
-};
 
 /// A hidden line that gets ink unless there is ink beside it.
 struct HiddenLine {
@@ -41,7 +36,7 @@ struct HiddenLine {
 /// Cost: intervals that are laid down are found in grid cells, of which there are about as many as
 /// lines; a cell has room for few lines of a direction. Once `stop` is requested, the rest is
 /// missing.
-void choose_hidden_lines(std::vector<HiddenLine>& lines, const HiddenInkRule& rule,
+void choose_hidden_lines(std::vector<HiddenLine>& lines, const LayingRule& rule,
                          const std::stop_token& stop, LineIntervals& out);
 
 }  // namespace strake::drawing

@@ -11,15 +11,13 @@
 
 #include "drawing/collinear/collinear_overlaps.hpp"
 #include "drawing/ink/hidden_ink.hpp"
+#include "drawing/ink/on_paper.hpp"
 #include "drawing/layout/duplicates.hpp"
-#include "strake/geometry/grid.hpp"
 #include "strake/parallel/collect.hpp"
 
 namespace strake::drawing {
 
 namespace {
-
-using geometry::Vec3d;
 
 /// The length of lines per area of paper, by square.
 class Density {
@@ -85,68 +83,12 @@ bool is_large(const Sheet& sheet) {
   return std::max(sheet.width_mm, sheet.height_mm) > kA2LongerSideMm;
 }
 
-/// Returns the width of a line as it is of objects without a style.
-double usual_width(const Line& line, const Pens& pens) {
-  if (line.state != LineState::visible || line.kind == hlr::EdgeKind::polyline ||
-      line.kind == hlr::EdgeKind::hatch || line.kind == hlr::EdgeKind::smooth)
-    return pens.thin;
-  if (line.kind == hlr::EdgeKind::section) return pens.section;
-  return line.kind == hlr::EdgeKind::contour ? pens.outline : pens.edge;
-}
-
-double width_of(const Line& line, const Ink& ink) {
-  const double width = usual_width(line, ink.pens);
-  if (ink.styles == nullptr) return width;
-  return width * ink.styles->widening(ink.styles->number_of(line), ink.pens.edge);
-}
-
 /// Returns whether a line may be dashed. Dashed hatching would suggest a cut hidden face, and a
 /// smooth edge is worth a hint only.
 bool may_be_dashed(const Line& line) {
   return is_hidden(line.state) && line.kind != hlr::EdgeKind::hatch &&
          line.kind != hlr::EdgeKind::smooth;
 }
-
-/// The places of lines on paper, without rounding, which would make equal objects unequal where
-/// their ink nearly touches.
-class OnPaper {
- public:
-  OnPaper(const std::vector<Line>& lines, const PaperAxes& axes, double scale)
-      : axes_(axes), scale_(scale) {
-    // An origin near the lines that does not depend on their order.
-    if (!lines.empty()) origin_ = lines.front().a_mm;
-    for (const Line& l : lines)
-      origin_ = {std::min(origin_.x, l.a_mm.x), std::min(origin_.y, l.a_mm.y),
-                 std::min(origin_.z, l.a_mm.z)};
-  }
-
-  [[nodiscard]] PlaneSegment operator()(const Line& line) const {
-    const PaperPoint a = at(line.a_mm, line.a_paper), b = at(line.b_mm, line.b_paper);
-    return {.ax = a.x, .ay = a.y, .bx = b.x, .by = b.y};
-  }
-
-  /// Returns the order in which hidden lines of an object are laid down: the nearer first, and of
-  /// equally near ones the left and upper one. It is one number, a depth along a direction that
-  /// leans off the view a little, as hardly any two edges do to each other: with depths alone, a
-  /// corner's rounding to the grid would choose between the edges of a face that is seen square.
-  [[nodiscard]] double order(const Line& line, const PlaneSegment& flat) const {
-    constexpr double kLeft = 0.13, kUp = 0.08;
-    const double toward = dot(axes_.toward, (line.a_mm - origin_) + (line.b_mm - origin_));
-    return toward / scale_ - kLeft * (flat.ax + flat.bx) - kUp * (flat.ay + flat.by);
-  }
-
- private:
-  /// Returns an unrounded point; in perspective, where nothing looks equal, `rounded`.
-  [[nodiscard]] PaperPoint at(const Vec3d& mm, const PaperPoint& rounded) const {
-    if (axes_.eye) return rounded;
-    const Vec3d from = mm - origin_;
-    return {dot(axes_.right, from) / scale_, -dot(axes_.up, from) / scale_};
-  }
-
-  const PaperAxes& axes_;
-  double scale_;
-  Vec3d origin_;
-};
 
 std::vector<PlaneSegment> flatten(const Ink& ink, const OnPaper& on_paper, double touch) {
   const std::vector<Line>& lines = ink.lines;
@@ -175,7 +117,7 @@ class HiddenChooser {
       : lines_(lines), on_paper_(on_paper), flat_(flat), beside_visible_(beside_visible) {}
 
   /// Returns intervals by line, then from a to b; a line without ink has none. Errors: cancelled.
-  [[nodiscard]] Result<LineIntervals> run(const HiddenInkRule& rule,
+  [[nodiscard]] Result<LineIntervals> run(const LayingRule& rule,
                                           const parallel::Context& context) const {
     return parallel::collect_with<LineInterval>(
         context, {.name = "ink of hidden lines", .n = lines_.size(), .grain = 1024},
@@ -210,10 +152,8 @@ class HiddenChooser {
 Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
                 const parallel::Context& context) {
   const double thin = ink.pens.thin, scale = drawing.sheet.scale;
-  // Ink that would just touch counts as touching. Corners are rounded to the grid: two of them may
-  // be two steps farther apart than meant, or nearer. With half a step more, the limit is a
-  // distance that corners seldom have.
-  const double touch = 4.5 * geometry::kMmPerGrid / scale;
+  // Ink that would just touch counts as touching.
+  const double touch = corner_rounding_mm(scale);
   // Lines that cross, or of which one begins on the other, do not run along each other.
   const OverlapRule along{.least = 1e-3 + touch,
                           .greatest_sine = 0.2,
@@ -262,11 +202,10 @@ Pens choose_pens(const NeutralDrawing& drawing) {
 
 Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
                        const parallel::Context& context) {
-  Ink ink{.pens = options.pens ? *options.pens : choose_pens(drawing),
-          .lines = {},
-          .centre_lines = {},
-          .split_hidden = options.split_hidden,
-          .styles = options.styles};
+  Ink ink;
+  ink.pens = options.pens ? *options.pens : choose_pens(drawing);
+  ink.split_hidden = options.split_hidden;
+  ink.styles = options.styles;
   for (const Line& line : drawing.lines)
     if (line.state == LineState::visible || (options.hidden && may_be_dashed(line)))
       ink.lines.push_back(line);

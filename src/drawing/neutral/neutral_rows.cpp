@@ -90,23 +90,31 @@ ViewRow<Int> row_of(const Line& line, std::uint32_t curve, const Vec3l& origin,
   return row;
 }
 
-/// Returns the names of all values of an enumeration, in order: ["sharp","contour"].
+/// Returns the names of the values of an enumeration up to one, in order: ["sharp","contour"].
 template <class Enum, class Name>
-std::string names_of(Name&& name) {
+std::string names_to(Enum last, Name&& name) {
   std::string out;
-  for (std::uint8_t i = 0; !name(static_cast<Enum>(i)).empty(); ++i)
+  for (std::uint8_t i = 0; i <= static_cast<std::uint8_t>(last); ++i)
     out += fmt::format("{}\"{}\"", i == 0 ? "[" : ",", name(static_cast<Enum>(i)));
   return out + "]";
 }
 
+/// Returns the last kind of line that a file names: those that came after the first versions of the
+/// format only where there are such lines, so that older programs read the others.
+hlr::EdgeKind last_named_kind(const NeutralDrawing& drawing) {
+  hlr::EdgeKind last = hlr::EdgeKind::smooth;
+  for (const Line& line : drawing.lines) last = std::max(last, line.kind);
+  return last;
+}
+
 template <class Int>
-void write_form(BufferedWriter& out, const Vec3l& origin) {
+void write_form(BufferedWriter& out, const Vec3l& origin, hlr::EdgeKind last_kind) {
   out << "\"rows\":{\"bytes\":" << std::to_string(sizeof(ViewRow<Int>))
       << ",\"fields\":" << row_fields<Int>()
       << ",\n\"origin_um\":" << fmt::format("[{},{},{}]", origin.x, origin.y, origin.z)
-      << ",\"kinds\":" << names_of<hlr::EdgeKind>(kind_name)
-      << ",\"states\":" << names_of<LineState>(state_name) << ",\"checksum\":\"" << kChecksumName
-      << "\"}}\n";
+      << ",\"kinds\":" << names_to(last_kind, kind_name)
+      << ",\"states\":" << names_to(LineState::duplicate, state_name) << ",\"checksum\":\""
+      << kChecksumName << "\"}}\n";
 }
 
 /// Returns the text with its length before it, in one string.
@@ -118,7 +126,7 @@ std::string head_of(const NeutralDrawing& drawing, const model::Model& model,
     const auto append = [&](std::string_view part) { text += part; };
     BufferedWriter out(append);
     write_view_head(out, drawing, model, listed);
-    write_form<Int>(out, origin);
+    write_form<Int>(out, origin, last_named_kind(drawing));
   }
   while (text.size() % kRowsAlign != 0) text += ' ';
   const std::uint64_t size = text.size();

@@ -57,6 +57,7 @@ Result<Diagnostics> write_pdf(const NeutralDrawing& drawing, const Ink& ink,
       add_pdf_view(document, std::nullopt, drawing.curves, ink, model,
                    {pen_of_layer,
                     {ink.pens.thin, pen_dashes(kCentreDashes, ink.pens.thin), {0, 0, 0, 255}},
+                    {ink.pens.thin, {}, {0, 0, 0, 255}},
                     styles},
                    context);
   if (!status) return status.error();

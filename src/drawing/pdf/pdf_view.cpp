@@ -260,6 +260,25 @@ void add_centre_lines(PdfDocument& document, std::optional<PdfLayerId> parent, c
   document.add(out + "Q\n" + document.close(layer));
 }
 
+void add_break_lines(PdfDocument& document, std::optional<PdfLayerId> parent, const Ink& ink,
+                     const PdfPens& pens) {
+  if (ink.break_lines.empty()) return;
+  const PdfLayerId layer = document.add_layer("Break lines", parent);
+  std::string out = document.open(layer);
+  for (const BreakLinesOfStyle& part : break_lines_by_style(ink)) {
+    const bool plain = part.style == ObjectStyles::kPlain;
+    const std::optional<PdfLayerId> style =
+        plain ? std::nullopt : pens.style_layers.at(part.style - 1);
+    if (style) out += PdfDocument::open_alone(*style);
+    out += "q\n" + pdf_pen(plain ? pens.break_lines
+                                 : styled_break_pen(pens.break_lines, *ink.styles, part.style,
+                                                    ink.pens.edge));
+    for (const BreakLine* const line : part.lines) append_pdf_chain(out, line->points);
+    out += style ? "S\nQ\nEMC\n" : "S\nQ\n";
+  }
+  document.add(out + document.close(layer));
+}
+
 std::string with_commas(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
 }  // namespace
@@ -272,6 +291,7 @@ PdfStyleLayers add_style_layers(PdfDocument& document, std::span<const Ink* cons
     const std::vector<ObjectStyle>& styles = ink->styles->all();
     std::vector<bool> used(styles.size() + 1);
     for (const Line& line : ink->lines) used[ink->styles->number_of(line)] = true;
+    for (const BreakLine& line : ink->break_lines) used[ink->styles->number_of(line.object)] = true;
     layers.resize(std::max(layers.size(), styles.size()));
     for (std::size_t s = 0; s < styles.size(); ++s) {
       if (!used[s + 1] || styles[s].name.empty() || layers[s]) continue;
@@ -316,7 +336,9 @@ Status add_pdf_view(PdfDocument& document, std::optional<PdfLayerId> parent,
         phase.add(streams[i].lines.size());
       },
       context);
-  if (status) add_centre_lines(document, parent, ink, pens.centre_lines);
+  if (!status) return status;
+  add_break_lines(document, parent, ink, pens);
+  add_centre_lines(document, parent, ink, pens.centre_lines);
   return status;
 }
 
@@ -338,6 +360,7 @@ std::string pdf_facts(const NeutralDrawing& drawing, const Ink& ink, const model
   fact("hash", drawing.hash.text());
   fact("objects", std::to_string(drawing.account.objects()));
   fact("objectsDrawn", std::to_string(drawing.account.of(hlr::Fate::drawn)));
+  if (ink.thinned) fact("linesThinned", std::to_string(ink.thinned->lines));
   fact("hiddenLeftOut", std::to_string(ink.left_out));
   for (const model::ObjectId id : drawing.far_left_out) fact("farObject", model.object(id).id);
   return out + "</rdf:li>\n";

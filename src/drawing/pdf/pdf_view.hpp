@@ -32,7 +32,7 @@ using PdfStyleLayers = std::vector<std::optional<PdfLayerId>>;
 /// The pens of a view.
 struct PdfPens {
   PenOfLayer of;
-  LinePen centre_lines;
+  LinePen centre_lines, break_lines;
   const PdfStyleLayers& style_layers;
 };
 

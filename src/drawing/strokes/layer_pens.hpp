@@ -35,15 +35,26 @@ using PenOfLayer = parallel::FunctionRef<LinePen(const Layer&, LineState)>;
 [[nodiscard]] LinePen styled_pen(LinePen usual, const Layer& layer, const ObjectStyles& styles,
                                  std::size_t number, double edge_mm);
 
+/// Returns the pen of the break lines of a style, which have no type of line of it: zigzags in
+/// dashes are none.
+[[nodiscard]] LinePen styled_break_pen(LinePen usual, const ObjectStyles& styles,
+                                       std::size_t number, double edge_mm);
+
 /// Lines of one style, in the order of the drawing.
-struct LinesOfStyle {
+template <class L>
+struct OfStyle {
   std::size_t style = ObjectStyles::kPlain;
-  std::vector<const Line*> lines;
+  std::vector<const L*> lines;
 };
+using LinesOfStyle = OfStyle<Line>;
+using BreakLinesOfStyle = OfStyle<BreakLine>;
 
 /// Parts lines by their styles: those without a style first, then style by style.
 [[nodiscard]] std::vector<LinesOfStyle> by_style(std::span<const Line* const> lines,
                                                  const Ink& ink);
+
+/// Parts the break lines of a view by the styles of their objects.
+[[nodiscard]] std::vector<BreakLinesOfStyle> break_lines_by_style(const Ink& ink);
 
 /// Returns what people call a style: its name, or "style 2".
 [[nodiscard]] std::string style_label(const ObjectStyles& styles, std::size_t number);

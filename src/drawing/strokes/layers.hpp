@@ -23,7 +23,7 @@ struct Layer {
 };
 
 // Later layers are drawn over earlier ones: outlines last, and of these the outlines of cuts.
-inline constexpr std::array<Layer, 16> kLayers = {{
+inline constexpr std::array<Layer, 18> kLayers = {{
     {true, hlr::EdgeKind::polyline, "Hidden polylines"},
     {true, hlr::EdgeKind::boundary, "Hidden boundary"},
     {true, hlr::EdgeKind::non_manifold, "Hidden non-manifold"},
@@ -31,6 +31,7 @@ inline constexpr std::array<Layer, 16> kLayers = {{
     {true, hlr::EdgeKind::intersection, "Hidden intersections"},
     {true, hlr::EdgeKind::contour, "Hidden outline"},
     {true, hlr::EdgeKind::section, "Hidden section"},
+    {true, hlr::EdgeKind::single_line, "Hidden single-line pipes"},
     {false, hlr::EdgeKind::hatch, "Hatch"},
     {false, hlr::EdgeKind::smooth, "Visible smooth"},
     {false, hlr::EdgeKind::polyline, "Visible polylines"},
@@ -39,6 +40,7 @@ inline constexpr std::array<Layer, 16> kLayers = {{
     {false, hlr::EdgeKind::sharp, "Visible sharp"},
     {false, hlr::EdgeKind::intersection, "Visible intersections"},
     {false, hlr::EdgeKind::contour, "Visible outline"},
+    {false, hlr::EdgeKind::single_line, "Single-line pipes"},
     {false, hlr::EdgeKind::section, "Visible section"},
 }};
 

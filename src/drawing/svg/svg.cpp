@@ -77,6 +77,14 @@ void begin_layer(BufferedWriter& out, std::string_view label, std::string_view i
   out << ">\n";
 }
 
+/// Begins the layer of a style within another.
+void begin_style(BufferedWriter& out, const ObjectStyles& styles, std::size_t number,
+                 std::string_view outer_label, std::string_view outer_id) {
+  const std::string label = xml_escaped(style_label(styles, number));
+  begin_layer(out, fmt::format("{}, {}", outer_label, label),
+              fmt::format("{}-style-{}", outer_id, number), fmt::format("style-{}", number), label);
+}
+
 /// Writes the layers of a view.
 class LayerWriter {
  public:
@@ -131,10 +139,7 @@ class LayerWriter {
         continue;
       }
       const LinePen styled = styled_pen(pen, layer, *ink_.styles, part.style, ink_.pens.edge);
-      const std::string label = xml_escaped(style_label(*ink_.styles, part.style));
-      begin_layer(out_, names.label + ", " + label,
-                  fmt::format("{}-style-{}", names.id, part.style),
-                  fmt::format("style-{}", part.style), label);
+      begin_style(out_, *ink_.styles, part.style, names.label, names.id);
       write_objects(out_, curves_, model_, part.lines, styled.dash_mm);
       out_ << "</g>\n";
     }
@@ -162,6 +167,20 @@ void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink
                   const model::Model& model, std::string_view prefix, PenOfLayer pen_of) {
   LayerWriter writer(out, curves, ink, model, pen_of);
   for (const Layer& layer : kLayers) writer.write(layer, prefix);
+}
+
+void write_break_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix) {
+  if (ink.break_lines.empty()) return;
+  const std::string id = fmt::format("{}break-lines", prefix);
+  begin_layer(out, "Break lines", id, "break");
+  for (const BreakLinesOfStyle& part : break_lines_by_style(ink)) {
+    const bool plain = part.style == ObjectStyles::kPlain;
+    if (!plain) begin_style(out, *ink.styles, part.style, "Break lines", id);
+    out << "<path d=\"";
+    for (const BreakLine* const line : part.lines) append_svg_chain(out.text(), line->points);
+    out << (plain ? "\"/>\n" : "\"/>\n</g>\n");
+  }
+  out << "</g>\n";
 }
 
 void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix,
@@ -202,11 +221,17 @@ void write_style(BufferedWriter& out, const Ink& ink, bool sections, PenOfLayer 
         pens.section, pens.thin);
   if (!ink.centre_lines.empty())
     out << fmt::format(".centre path {{ stroke-width: {}; stroke-linecap: butt; }}\n", pens.thin);
-  const bool smooth = std::ranges::any_of(
-      ink.lines, [](const Line& line) { return line.kind == hlr::EdgeKind::smooth; });
-  if (smooth) out << fmt::format(".visible.smooth path {{ stroke-width: {}; }}\n", pens.thin);
+  if (!ink.break_lines.empty())
+    out << fmt::format(".break path {{ stroke-width: {}; }}\n", pens.thin);
+  const auto has = [&](hlr::EdgeKind kind) {
+    return std::ranges::any_of(ink.lines, [&](const Line& line) { return line.kind == kind; });
+  };
+  if (has(hlr::EdgeKind::single_line))
+    out << fmt::format(".visible.single_line path {{ stroke-width: {}; }}\n", pens.outline);
+  if (has(hlr::EdgeKind::smooth))
+    out << fmt::format(".visible.smooth path {{ stroke-width: {}; }}\n", pens.thin);
   const std::array<const Ink*, 1> views{&ink};
-  out << svg_style_rules(views, "", pen_of) << "</style>\n";
+  out << svg_style_rules(views, "", pen_of, {pens.thin, {}, {0, 0, 0, 255}}) << "</style>\n";
 }
 
 std::string vector_text(const geometry::Vec3l& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
@@ -238,6 +263,7 @@ void write_head(BufferedWriter& out, const NeutralDrawing& drawing, const Ink& i
   }
   if (drawing.uncut) out << fmt::format(" objects-uncut=\"{}\"", drawing.counters.uncut_objects);
   if (!drawing.flush_seams) out << fmt::format(" edges-with-seams=\"{}\"", drawing.counters.seams);
+  if (ink.thinned) out << fmt::format(" lines-thinned=\"{}\"", ink.thinned->lines);
   out << fmt::format(" hidden-left-out=\"{}\"", ink.left_out) << "/>\n";
   write_far_objects(out, drawing, model);
   out << "</drawing>\n</metadata>\n";
@@ -283,6 +309,7 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
   write_layers(out, drawing.curves, ink, model, "", pen_of);
+  write_break_lines(out, ink, "");
   write_centre_lines(out, ink, "", pen_dashes(kCentreDashes, ink.pens.thin));
   write_frame(out, drawing);
   out << "</g>\n";

@@ -22,6 +22,9 @@ namespace strake::drawing {
 void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
                   const model::Model& model, std::string_view prefix, PenOfLayer pen_of);
 
+/// Writes the layer of break lines, of class "break", where there are any.
+void write_break_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix);
+
 /// Writes the layer of centre lines, of class "centre", where there are any. Their dashes fit each
 /// of them.
 void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix,

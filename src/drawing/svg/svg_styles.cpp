@@ -40,7 +40,7 @@ std::vector<bool> styles_in(const Layer& layer, std::span<const Ink* const> view
 }  // namespace
 
 std::string svg_style_rules(std::span<const Ink* const> views, std::string_view scope,
-                            PenOfLayer pen_of) {
+                            PenOfLayer pen_of, const LinePen& break_lines) {
   std::string rules;
   if (views.empty() || views.front()->styles == nullptr) return rules;
   const ObjectStyles& styles = *views.front()->styles;
@@ -62,6 +62,13 @@ std::string svg_style_rules(std::span<const Ink* const> views, std::string_view 
                          views.front()->pens.edge));
     }
   }
+  std::vector<bool> broken(styles.all().size() + 1);
+  for (const Ink* const ink : views)
+    for (const BreakLine& line : ink->break_lines) broken[styles.number_of(line.object)] = true;
+  for (std::size_t number = 1; number < broken.size(); ++number)
+    if (broken[number])
+      rules += rule_of(fmt::format("{}.break .style-{} path", scope, number),
+                       styled_break_pen(break_lines, styles, number, views.front()->pens.edge));
   return rules;
 }
 

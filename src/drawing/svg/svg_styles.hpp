@@ -12,8 +12,9 @@
 namespace strake::drawing {
 
 /// Returns the rules for the lines of each style in each layer of the views, which have one set of
-/// styles. `scope` stands before each selector: ".strake ".
+/// styles, and for break lines, which have the pen `break_lines` without a style. `scope` stands
+/// before each selector: ".strake ".
 [[nodiscard]] std::string svg_style_rules(std::span<const Ink* const> views, std::string_view scope,
-                                          PenOfLayer pen_of);
+                                          PenOfLayer pen_of, const LinePen& break_lines);
 
 }  // namespace strake::drawing

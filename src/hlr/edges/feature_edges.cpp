@@ -182,11 +182,10 @@ void add_edge(std::vector<FeatureEdge>& edges, const Part& part, FeatureEdge e, 
 }
 
 void add_chains(std::vector<FeatureEdge>& edges, const Part& part, std::uint32_t part_index,
-                const Viewer& viewer) {
+                EdgeKind kind, const Viewer& viewer) {
   for (std::size_t c = 0; c + 1 < part.chain_first.size(); ++c)
     for (std::uint32_t v = part.chain_first[c]; v + 1 < part.chain_first[c + 1]; ++v)
-      add_edge(edges, part,
-               {.part = part_index, .part_edge = kNoPartEdge, .kind = EdgeKind::polyline}, v, v + 1,
+      add_edge(edges, part, {.part = part_index, .part_edge = kNoPartEdge, .kind = kind}, v, v + 1,
                viewer);
 }
 
@@ -232,7 +231,8 @@ Result<std::vector<FeatureEdge>> feature_edges(const model::GridShape& shape,
     const Part& part = shape.parts[p];
     if (part.kind == geometry::PartKind::wire) {
       std::vector<FeatureEdge> chains;
-      add_chains(chains, part, p, options.viewer);
+      add_chains(chains, part, p, shape.single_line ? EdgeKind::single_line : EdgeKind::polyline,
+                 options.viewer);
       sort_edges(chains);
       edges.insert(edges.end(), chains.begin(), chains.end());
       continue;

@@ -77,6 +77,7 @@ Result<std::vector<HashedShape>> hash_shapes(const model::Scene& scene,
       [&](Words& words, std::size_t s) {
         const model::GridShape& shape = scene.shapes[s];
         words.add(std::uint64_t{shape.parts.size()});
+        if (shape.single_line) words.add(std::uint64_t{1});
         for (const geometry::Part& part : shape.parts) add(words, part, shape.box.lo);
         HashedShape hashed{.hash = words.take(), .corner = {}};
         if (!shape.box.empty()) hashed.corner = shape.box.lo.as<std::int64_t>();

@@ -23,7 +23,9 @@ struct ShapesOfView {
   std::vector<std::uint32_t> first;  ///< by shape: the first body that is drawn with it, or none
 };
 
+/// Returns the primitive that a shape is made from; an axis stands for its pipe, and is not.
 const geometry::Primitive* primitive_of(const Scene& scene, std::uint32_t shape) {
+  if (scene.shapes[shape].single_line) return nullptr;
   return std::get_if<geometry::Primitive>(&scene.model->shapes[index(scene.shapes[shape].shape)]);
 }
 

@@ -73,7 +73,7 @@ class BlockReader {
     const std::size_t n = pieces.size();
     if (bytes.size() < 2 * n) return false;
     for (std::size_t i = 0; i < n; ++i) {
-      if (bytes[i] > static_cast<std::uint8_t>(hlr::EdgeKind::smooth) ||
+      if (bytes[i] > static_cast<std::uint8_t>(hlr::kLastEdgeKind) ||
           bytes[n + i] > static_cast<std::uint8_t>(hlr::State::clipped))
         return false;
       pieces[i].kind = static_cast<hlr::EdgeKind>(bytes[i]);

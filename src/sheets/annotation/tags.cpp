@@ -102,6 +102,9 @@ OccupancyGrid occupied_paper(const Sheet& sheet) {
     for (const drawing::CentreLine& line : view.ink.centre_lines)
       for (std::size_t i = 1; i < line.points.size(); ++i)
         occupied.add_line(line.points[i - 1], line.points[i]);
+    for (const drawing::BreakLine& line : view.ink.break_lines)
+      for (std::size_t i = 1; i < line.points.size(); ++i)
+        occupied.add_line(line.points[i - 1], line.points[i]);
     for (const Marks* marks : {&view.caption, &view.grid, &view.frame, &view.notes}) {
       for (const Path& path : marks->paths)
         for (std::size_t i = 1; i < path.points.size(); ++i)

@@ -104,6 +104,7 @@ std::vector<drawing::dxf::LayerStyle> dxf_layers_of(const Sheet& sheet) {
 constexpr std::optional<ViewLayer> view_layer_of(LineClass line) {
   switch (line) {
     case LineClass::outline:
+    case LineClass::single_line:
       return ViewLayer::outline;
     case LineClass::edge:
       return ViewLayer::edge;
@@ -126,6 +127,8 @@ constexpr std::optional<ViewLayer> view_layer_of(LineClass line) {
       return ViewLayer::hidden_by_self;
     case LineClass::centre:
       return ViewLayer::centre;
+    case LineClass::break_line:
+      return drawing::dxf::kBreakLineLayer;
     case LineClass::grid:
     case LineClass::grid_label:
     case LineClass::leader:

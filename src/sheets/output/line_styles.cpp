@@ -27,6 +27,7 @@ std::vector<double> usual_dashes(LineClass line, double width) {
 double usual_width(LineClass line, const drawing::Pens& pens) {
   switch (line) {
     case LineClass::outline:
+    case LineClass::single_line:
       return pens.outline;
     case LineClass::edge:
     case LineClass::boundary:
@@ -49,6 +50,7 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
     case LineClass::dimension:
     case LineClass::grid_label:
     case LineClass::leader:
+    case LineClass::break_line:
       // As thin as hidden lines, and no thinner than prints well.
       return std::max(pens.thin, 0.13);
     case LineClass::title:
@@ -68,7 +70,7 @@ std::string_view class_name(LineClass line) {
       "outline",       "edge",   "boundary",   "intersection", "section",      "hatch",
       "polyline",      "smooth", "hidden",     "grid",         "grid_label",   "leader",
       "title",         "frame",  "frame_thin", "hidden_self",  "hidden_other", "centre",
-      "cutting_plane", "extent", "note",       "dimension"};
+      "cutting_plane", "extent", "note",       "dimension",    "single_line",  "break_line"};
   return kNames.at(static_cast<std::size_t>(line));
 }
 
@@ -89,6 +91,8 @@ LineClass class_of(hlr::EdgeKind kind, bool hidden) {
       return LineClass::polyline;
     case hlr::EdgeKind::smooth:
       return LineClass::smooth;
+    case hlr::EdgeKind::single_line:
+      return LineClass::single_line;
     case hlr::EdgeKind::sharp:
     case hlr::EdgeKind::non_manifold:
       break;

@@ -72,9 +72,10 @@ class PageWriter {
     const auto pen = [&](const drawing::Layer& of, drawing::LineState state) {
       return pen_of_layer(sheet_->styles, view.ink, of, state);
     };
+    const LinePen break_lines = pen_of(style_of(sheet_->styles, LineClass::break_line));
     const Status status = drawing::add_pdf_view(
         document_, layer, view.drawing.curves, view.ink, model_,
-        {pen, pen_of(style_of(sheet_->styles, LineClass::centre)), styles_}, context_);
+        {pen, pen_of(style_of(sheet_->styles, LineClass::centre)), break_lines, styles_}, context_);
     if (!status) return status;
     write_layer(view.frame, "Frame", layer);
     write_layer(view.grid, "Grid", layer);

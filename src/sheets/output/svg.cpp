@@ -46,14 +46,16 @@ std::string dashes(const LineStyle& style) {
 
 /// Returns the selector of a class of lines in the style sheet: layers of views by their contents,
 /// marks by their class.
-std::string selector(LineClass line) {
+std::string selector(LineClass line, bool single_lines) {
   std::string list;
   for (const drawing::Layer& layer : drawing::kLayers)
-    if (class_of(layer.kind, layer.hidden) == line)
+    if (class_of(layer.kind, layer.hidden) == line &&
+        (layer.kind != hlr::EdgeKind::single_line || single_lines))
       list += fmt::format(".strake .{}.{} path, ", layer.hidden ? "hidden" : "visible",
                           drawing::kind_name(layer.kind));
   if (line == LineClass::hidden_self) list = ".strake .hidden .by-self path, ";
   if (line == LineClass::centre) list = ".strake .centre path, ";
+  if (line == LineClass::break_line) list = ".strake .break path, ";
   if (line == LineClass::hidden_other) list = ".strake .hidden .by-other path, ";
   return list + ".strake ." + std::string(class_name(line));
 }
@@ -67,6 +69,14 @@ std::vector<const Marks*> marks_of(const Sheet& sheet) {
   return all;
 }
 
+bool has_single_lines(const Sheet& sheet) {
+  return std::ranges::any_of(sheet.views, [](const PlacedView& view) {
+    return std::ranges::any_of(view.ink.lines, [](const drawing::Line& line) {
+      return line.kind == hlr::EdgeKind::single_line;
+    });
+  });
+}
+
 /// Returns whether a class has a rule: those that came later have none where nothing is of them, so
 /// that sheets without stay as they were.
 bool is_used(const Sheet& sheet, LineClass line) {
@@ -76,6 +86,9 @@ bool is_used(const Sheet& sheet, LineClass line) {
     return any([](const PlacedView& view) { return view.ink.split_hidden; });
   if (line == LineClass::centre)
     return any([](const PlacedView& view) { return !view.ink.centre_lines.empty(); });
+  if (line == LineClass::single_line) return has_single_lines(sheet);
+  if (line == LineClass::break_line)
+    return any([](const PlacedView& view) { return !view.ink.break_lines.empty(); });
   return std::ranges::any_of(marks_of(sheet), [&](const Marks* marks) {
     const auto has = [&](const auto& mark) { return mark.line == line; };
     return std::ranges::any_of(marks->paths, has) || std::ranges::any_of(marks->circles, has) ||
@@ -87,10 +100,11 @@ void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>
   out << "<style>\n"
          ".strake path, .strake circle { fill: none; stroke-linecap: round; stroke-linejoin: "
          "round; }\n";
+  const bool single_lines = has_single_lines(sheet);
   for (std::size_t c = 0; c < kLineClasses; ++c) {
     if (!is_used(sheet, static_cast<LineClass>(c))) continue;
     const LineStyle& style = sheet.styles.at(c);
-    out << selector(static_cast<LineClass>(c))
+    out << selector(static_cast<LineClass>(c), single_lines)
         << fmt::format(" {{ stroke: {}; stroke-width: {}; stroke-dasharray: {};{} }}\n",
                        model::color_text(style.color), shortest(style.width_mm), dashes(style),
                        style.dash_mm.empty() ? "" : " stroke-linecap: butt;");
@@ -108,10 +122,12 @@ void write_style(BufferedWriter& out, const Sheet& sheet, const std::set<double>
                        shortest(std::round(height * kFontSize * 1000) / 1000));
   std::vector<const drawing::Ink*> inks;
   for (const PlacedView& view : sheet.views) inks.push_back(&view.ink);
-  out << drawing::svg_style_rules(inks, ".strake ",
-                                  [&](const drawing::Layer& layer, drawing::LineState state) {
-                                    return pen_of_layer(sheet.styles, *inks.front(), layer, state);
-                                  });
+  const auto pen = [&](const drawing::Layer& layer, drawing::LineState state) {
+    return pen_of_layer(sheet.styles, *inks.front(), layer, state);
+  };
+  const LineStyle& break_line = style_of(sheet.styles, LineClass::break_line);
+  out << drawing::svg_style_rules(inks, ".strake ", pen,
+                                  {break_line.width_mm, break_line.dash_mm, break_line.color});
   out << ".strake .paper { fill: #fff; stroke: none; }\n</style>\n";
 }
 
@@ -141,6 +157,7 @@ void write_metadata(BufferedWriter& out, const Sheet& sheet, const model::Model&
     if (!drawing.flush_seams)
       out << fmt::format(" edges-with-seams=\"{}\"", drawing.counters.seams);
     if (!drawing.hidden_lines) out << " hidden-lines=\"not asked for\"";
+    if (view.ink.thinned) out << fmt::format(" lines-thinned=\"{}\"", view.ink.thinned->lines);
     out << fmt::format(" hidden-left-out=\"{}\"", view.ink.left_out);
     if (drawing.far_left_out.empty()) {
       out << "/>\n";
@@ -208,6 +225,7 @@ void write_view(BufferedWriter& out, const PlacedView& view, const LineStyles& s
                         [&](const drawing::Layer& layer, drawing::LineState state) {
                           return pen_of_layer(styles, view.ink, layer, state);
                         });
+  drawing::write_break_lines(out, view.ink, id + "-");
   drawing::write_centre_lines(out, view.ink, id + "-", style_of(styles, LineClass::centre).dash_mm);
   write_layer(out, view.frame, id + "-frame", "Frame");
   write_layer(out, view.grid, id + "-grid", "Grid");

@@ -257,16 +257,25 @@ void ViewReader::place_sections(ViewSpec& view) {
   }
 }
 
-void ViewReader::centre_lines(TableReader& table, ViewSpec& view) {
-  const auto text = table.text("centre_lines");
-  if (!text) return;
-  const auto options = drawing::parse_centre_lines(*text);
-  if (options)
-    view.centre_lines = *options;
-  else
-    reading_.fault(table.value("centre_lines")->at,
-                   "'centre_lines' of " + table.what() + ": " + options.error().message,
-                   options.error().mend);
+void ViewReader::conventions(TableReader& table, ViewSpec& view) {
+  // Reads a text by the parser that the command line has for the same option.
+  const auto read = [&](const std::string& key, auto&& parse, auto& into) {
+    const auto text = table.text(key);
+    if (!text) return;
+    const auto options = parse(*text);
+    if (options)
+      into = *options;
+    else
+      reading_.fault(table.value(key)->at,
+                     "'" + key + "' of " + table.what() + ": " + options.error().message,
+                     options.error().mend);
+  };
+  read("centre_lines", drawing::parse_centre_lines, view.conventions.centre_lines);
+  read("thin", drawing::parse_thinning, view.conventions.thin);
+  read("single_line", model::parse_single_line, view.single_line);
+  constexpr std::array<std::string_view, 2> kOnOff{"off", "on"};
+  if (const auto word = table.word("break_lines", kOnOff))
+    view.conventions.break_lines = *word == "on";
 }
 
 void ViewReader::content(TableReader& table, ViewSpec& view) {
@@ -275,7 +284,7 @@ void ViewReader::content(TableReader& table, ViewSpec& view) {
   sections(table, view);
   uncut(table, view);
   hatches(table, view);
-  centre_lines(table, view);
+  conventions(table, view);
   constexpr std::array<std::string_view, 3> kHidden{"off", "dashed", "all"};
   if (const auto word = table.word("hidden", kHidden))
     view.hidden = *word == "off"      ? HiddenLines::off

@@ -40,7 +40,7 @@ class ViewReader {
   void select(settings::TableReader& table, ViewSpec& view);
   void uncut(settings::TableReader& table, ViewSpec& view);
   void hatches(settings::TableReader& table, ViewSpec& view);
-  void centre_lines(settings::TableReader& table, ViewSpec& view);
+  void conventions(settings::TableReader& table, ViewSpec& view);
   void hatch(const settings::Value& value, const std::string& outer, ViewSpec& view);
 
   settings::ParseContext& reading_;

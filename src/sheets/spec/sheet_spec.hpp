@@ -11,12 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "drawing/conventions.hpp"
 #include "settings/named_sets.hpp"
 #include "sheets/spec/template.hpp"
-#include "strake/drawing/centre_lines.hpp"
 #include "strake/drawing/object_styles.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/hlr/hlr.hpp"
+#include "strake/model/single_lines.hpp"
 #include "strake/sheets/sheet_file.hpp"
 
 namespace strake::sheets {
@@ -52,7 +53,8 @@ struct ViewSpec {
   std::vector<HatchSpec> hatches;         ///< the first that picks an object holds for it
   std::vector<settings::Chooser> uncut;   ///< what sections leave whole
   HiddenLines hidden = HiddenLines::off;
-  std::optional<drawing::CentreLineOptions> centre_lines;  ///< none: not drawn
+  drawing::Conventions conventions;                     ///< centre lines, break lines, thinning
+  std::optional<model::SingleLineOptions> single_line;  ///< none: pipes have their outlines
   /// Objects that lie so far from all others that they decide the scale are left out.
   bool leaves_far_objects_out = false;
   std::optional<double> scale;

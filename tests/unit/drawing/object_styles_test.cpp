@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <vector>
 
 #include "drawing/strokes/layer_pens.hpp"
@@ -52,6 +53,35 @@ TEST(ObjectStyles, PensKeepTheirRatioAndHiddenLinesStayDashed) {
   EXPECT_EQ(hidden.color, (model::Color{200, 0, 0, 255}));
   // 12 and 3 widths of the pen that it has now.
   EXPECT_EQ(hidden.dash_mm, (std::vector<double>{4.32, 1.08}));
+}
+
+TEST(ObjectStyles, SingleLinesAndBreakLinesHaveThePenOfTheirObject) {
+  ObjectStyles styles(2);
+  styles.add({.name = {},
+              .color = model::Color{200, 0, 0, 255},
+              .pen_mm = 0.7,
+              .line = LineType{{24, 3}, true}},
+             {false, true});
+  const Pens pens{.outline = 0.35, .edge = 0.35, .thin = 0.18, .section = 0.5};
+  const Layer single{false, hlr::EdgeKind::single_line, {}};
+  const LinePen line = styled_pen(usual_pen(single, pens), single, styles, 1, pens.edge);
+  EXPECT_EQ(line.width_mm, 0.7);
+  EXPECT_EQ(line.dash_mm, (std::vector<double>{16.8, 2.1}));
+  // Zigzags in dashes are none.
+  const LinePen broken = styled_break_pen({pens.thin, {}, {0, 0, 0, 255}}, styles, 1, pens.edge);
+  EXPECT_EQ(broken.width_mm, 0.36);
+  EXPECT_TRUE(broken.dash_mm.empty());
+  EXPECT_EQ(broken.color, (model::Color{200, 0, 0, 255}));
+  Ink ink;
+  ink.break_lines = {{model::ObjectId{1}, {{0, 0}, {1, 0}}},
+                     {model::ObjectId{0}, {{0, 1}, {1, 1}}}};
+  EXPECT_EQ(break_lines_by_style(ink).size(), 1U);
+  ink.styles = std::make_shared<const ObjectStyles>(styles);
+  const std::vector<BreakLinesOfStyle> parts = break_lines_by_style(ink);
+  ASSERT_EQ(parts.size(), 2U);
+  EXPECT_EQ(parts[0].style, ObjectStyles::kPlain);
+  EXPECT_EQ(parts[0].lines.front(), &ink.break_lines[1]);
+  EXPECT_EQ(parts[1].style, 1U);
 }
 
 TEST(ObjectStyles, TextsAreReadOrRefused) {
