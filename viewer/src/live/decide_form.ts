@@ -3,7 +3,7 @@
 import { plural, STATUS_WORDS } from '../data/words.ts';
 import { STATUSES } from '../payload/payload.ts';
 import { fill, h } from '../ui/dom.ts';
-import type { Decision } from './api.ts';
+import { ApiError, type Decision } from './api.ts';
 import type { Decisions } from './decisions.ts';
 
 /** What became of a decision: of how many clashes it is, and of which it is not. */
@@ -121,7 +121,9 @@ export class DecideForm {
       else if (outcome.refused.length > 0) this.tellRefused(outcome, '');
     } catch (error) {
       const what = this.rows === rows ? '' : ` for ${rows.length === 1 ? this.nameOf(rows[0]!) : plural(rows.length, 'clash', 'clashes')}, chosen before`;
-      fill(this.told, h('p', { class: 'note', role: 'alert' }, `Nothing was saved${what}. ${error instanceof Error ? error.message : String(error)}`));
+      // Who does not answer may have taken it all the same.
+      const saved = error instanceof ApiError && error.kind === 'silent' ? 'It is not known whether it was saved' : 'Nothing was saved';
+      fill(this.told, h('p', { class: 'note', role: 'alert' }, `${saved}${what}. ${error instanceof Error ? error.message : String(error)}`));
     }
     this.busy = false;
     this.save.removeAttribute('aria-disabled');
