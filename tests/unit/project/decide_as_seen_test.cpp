@@ -121,6 +121,20 @@ TEST_F(DecideAsSeen, what_a_later_run_found_is_not_decided_about_by_who_knows_it
   EXPECT_TRUE(decide(keys, approval, now()).refused.empty()) << "who has seen the run may";
 }
 
+TEST_F(DecideAsSeen, texts_that_are_no_utf8_are_stored_as_such_nowhere) {
+  ClashDecision decision = decision_by("bob\xff", DecisionStatus::reviewed);
+  decision.comment = "a\xff";
+  decision.assignee = "\xff";
+  const SeenState seen = now();
+  decide({clash_key(0)}, decision, seen);
+  const std::vector<ClashEvent> events = read_events(*database_, clash_key(0)).value();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].who, "bob\ufffd");
+  EXPECT_EQ(events[0].comment, "a\ufffd; assigned to \ufffd");
+  ASSERT_TRUE(events[0].said.has_value());
+  EXPECT_EQ(events[0].said->text, "a\ufffd");
+}
+
 TEST_F(DecideAsSeen, keys_of_no_clash_are_refused_each) {
   const std::string strange(10000, '\'');
   const DecisionsAsSeen done =
