@@ -154,7 +154,7 @@ position = ["400mm", "200mm"]
         self.assertIn('stroke-width: 1.4', text)
 
     def test_styles_hold_for_them(self):
-        self.folder.joinpath('round.rvm').write_bytes(rvm(*rvm_of_round_things()))
+        self.folder.joinpath('round.rvm').write_bytes(rvm(rvm_of_round_things()))
         run = ['round.rvm', '--view', 'front', '--scale', '1:10', '--single-line', '105mm', '--break-lines', 'on',
                '--limits', '-5m,-5m,-5m,5m,5m,100', '--style', 'name=PIPING,color=#c00000,pen=1mm,line=dashed: *']
         _, made = self.drawn(*run, outputs=('x.svg', 'x.pdf', 'x.dxf'))
