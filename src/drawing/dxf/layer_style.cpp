@@ -22,8 +22,10 @@ constexpr std::array<LayerName, kViewLayers> kNames{{
     {"AM_0_EDGE", "Visible edges"},
     {"AM_0_INTERSECTION", "Intersections of bodies"},
     {"AM_0", "Visible outlines"},
+    {"AM_0_PIPE", "Single-line pipes"},
     {"AM_0_SECTION", "Outlines of sections"},
     {"AM_7", "Centre lines"},
+    {"AM_4_BREAK", "Break lines"},
 }};
 
 LayerStyle style_of_view(ViewLayer layer, const Pens& pens) {
@@ -41,6 +43,7 @@ LayerStyle style_of_view(ViewLayer layer, const Pens& pens) {
       break;
     case ViewLayer::hatch:
     case ViewLayer::smooth:
+    case ViewLayer::break_line:
       style.width_mm = pens.thin;
       break;
     case ViewLayer::boundary:
@@ -49,6 +52,7 @@ LayerStyle style_of_view(ViewLayer layer, const Pens& pens) {
       style.width_mm = pens.edge;
       break;
     case ViewLayer::outline:
+    case ViewLayer::single_line:
       style.width_mm = pens.outline;
       break;
     case ViewLayer::section:
@@ -69,8 +73,9 @@ ViewLayer layer_of(const Line& line) {
   if (is_hidden(line.state)) return ViewLayer::hidden_by_other;
   switch (line.kind) {
     case hlr::EdgeKind::contour:
-    case hlr::EdgeKind::single_line:
       return ViewLayer::outline;
+    case hlr::EdgeKind::single_line:
+      return ViewLayer::single_line;
     case hlr::EdgeKind::boundary:
       return ViewLayer::boundary;
     case hlr::EdgeKind::intersection:

@@ -37,16 +37,15 @@ enum class ViewLayer : std::uint8_t {
   edge,
   intersection,
   outline,
+  single_line,
   section,
   centre,
+  break_line,
 };
-inline constexpr std::size_t kViewLayers = 11;
+inline constexpr std::size_t kViewLayers = 13;
 
 /// Returns the layer of a line that is visible or hidden.
 [[nodiscard]] ViewLayer layer_of(const Line& line);
-
-/// The layer of break lines, which is that of narrow continuous lines.
-inline constexpr ViewLayer kBreakLineLayer = ViewLayer::polyline;
 
 /// The numbers of the layers that lines of styles lie on, by style and ViewLayer; none: no line is
 /// there.

@@ -28,7 +28,9 @@ std::string fit_for_layer(std::string_view name) {
 /// Returns a layer of which styles make what they make of this one.
 Layer as_layer(ViewLayer layer) {
   const bool hidden = layer == ViewLayer::hidden_by_other || layer == ViewLayer::hidden_by_self;
-  return {hidden, layer == ViewLayer::hatch ? hlr::EdgeKind::hatch : hlr::EdgeKind::sharp, {}};
+  // Break lines are continuous, as hatches are.
+  const bool continuous = layer == ViewLayer::hatch || layer == ViewLayer::break_line;
+  return {hidden, continuous ? hlr::EdgeKind::hatch : hlr::EdgeKind::sharp, {}};
 }
 
 LayerStyle styled_layer(const LayerStyle& usual, ViewLayer layer, const Ink& ink,
@@ -55,8 +57,8 @@ StyleLayers add_style_layers(std::span<const Ink* const> views, std::vector<Laye
     for (const Line& line : ink->in_model_space())
       used[ink->styles->number_of(line)].at(static_cast<std::size_t>(layer_of(line))) = true;
     for (const BreakLine& line : ink->break_lines)
-      used[ink->styles->number_of(line.object)].at(static_cast<std::size_t>(kBreakLineLayer)) =
-          true;
+      used[ink->styles->number_of(line.object)].at(
+          static_cast<std::size_t>(ViewLayer::break_line)) = true;
   }
   found.resize(first.styles->all().size());
   for (std::size_t s = 0; s < found.size(); ++s)

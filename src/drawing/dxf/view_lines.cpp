@@ -139,22 +139,19 @@ std::string centre_lines_of(const ViewLines& view, const model::Model& model,
   return out;
 }
 
-/// Returns the entities of the break lines of a view. Those of a style are continuous even where
-/// the other lines of their layer are not.
+/// Returns the entities of the break lines of a view.
 std::string break_lines_of(const ViewLines& view, const model::Model& model,
                            std::span<const LayerStyle> layers, Handle first) {
-  constexpr auto kLayer = static_cast<std::size_t>(kBreakLineLayer);
+  constexpr auto kLayer = static_cast<std::size_t>(ViewLayer::break_line);
   std::string out;
   for (const BreakLinesOfStyle& part : break_lines_by_style(view.ink)) {
     const bool plain = part.style == ObjectStyles::kPlain;
     const LayerStyle& layer =
         layers[plain ? kLayer : view.style_layers[part.style - 1].at(kLayer).value_or(kLayer)];
-    const bool dashed = plain && !layer.dash_mm.empty();
-    const double stretch = plain || layer.dash_mm.empty() ? 1 : 0;
     for (const BreakLine* const line : part.lines) {
       Chain points;
       for (const PaperPoint& point : line->points) points.push_back(view.plane.place(point));
-      append_polyline(out, {Space::model, first++, layer.name, stretch}, points, dashed);
+      append_polyline(out, {Space::model, first++, layer.name}, points, !layer.dash_mm.empty());
       out += object_data(model.object(line->object), model);
     }
   }

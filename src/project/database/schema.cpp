@@ -56,8 +56,7 @@ Result<std::unique_ptr<Database>> empty_tables() {
 
 std::string all_tables() {
   return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", kModelTables, kRevisionTables, kResultTables,
-                     kViewTables, kHistoryTables, kExchangeTables,
-                     kSnapshotTables);
+                     kViewTables, kHistoryTables, kExchangeTables, kSnapshotTables);
 }
 
 std::span<const MigrationStep> migration_steps() {

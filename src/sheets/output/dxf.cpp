@@ -72,6 +72,10 @@ LineClass class_of_view_layer(ViewLayer layer, bool split_hidden) {
       return LineClass::section;
     case ViewLayer::centre:
       return LineClass::centre;
+    case ViewLayer::single_line:
+      return LineClass::single_line;
+    case ViewLayer::break_line:
+      return LineClass::break_line;
   }
   return LineClass::edge;
 }
@@ -104,8 +108,9 @@ std::vector<drawing::dxf::LayerStyle> dxf_layers_of(const Sheet& sheet) {
 constexpr std::optional<ViewLayer> view_layer_of(LineClass line) {
   switch (line) {
     case LineClass::outline:
-    case LineClass::single_line:
       return ViewLayer::outline;
+    case LineClass::single_line:
+      return ViewLayer::single_line;
     case LineClass::edge:
       return ViewLayer::edge;
     case LineClass::boundary:
@@ -128,7 +133,7 @@ constexpr std::optional<ViewLayer> view_layer_of(LineClass line) {
     case LineClass::centre:
       return ViewLayer::centre;
     case LineClass::break_line:
-      return drawing::dxf::kBreakLineLayer;
+      return ViewLayer::break_line;
     case LineClass::grid:
     case LineClass::grid_label:
     case LineClass::leader:

@@ -11,7 +11,7 @@ from ezdxf.lldxf.encoding import decode_dxf_unicode  # noqa: E402
 
 LAYERS = {'contour': 'AM_0', 'boundary': 'AM_0_BOUNDARY', 'intersection': 'AM_0_INTERSECTION', 'section': 'AM_0_SECTION',
           'hatch': 'AM_8', 'polyline': 'AM_4', 'smooth': 'AM_4_SMOOTH', 'sharp': 'AM_0_EDGE', 'non_manifold': 'AM_0_EDGE',
-          'single_line': 'AM_0'}
+          'single_line': 'AM_0_PIPE'}
 HIDDEN = {'hidden_by_self': 'AM_3_SELF', 'hidden_by_other': 'AM_3'}
 CURVES = ('ARC', 'CIRCLE', 'ELLIPSE')
 # A tiny arc is its chord, mm; the grid that ends of lines are rounded to, and then some.

@@ -160,7 +160,7 @@ TEST(Thinning, TheTeamDecidesNothing) {
   for (std::uint32_t o = 0; o < 60; ++o)
     for (const Line& l : wall(40 + static_cast<int>(o), 0.03 + 0.01 * o, o)) lines.push_back(l);
   const Ink alone = thinned(lines);
-  for (const int threads : {2, 5}) {
+  for (const unsigned threads : {2U, 5U}) {
     parallel::Team team(threads);
     const Ink some = thinned(lines, {.spacing_mm = 0.5}, {.team = &team});
     ASSERT_EQ(some.lines.size(), alone.lines.size());
