@@ -34,6 +34,15 @@ std::vector<std::string> SheetFile::names() const {
   return names;
 }
 
+SheetFile SheetFile::in_set(std::size_t before, std::size_t of) const {
+  std::vector<SheetSpec> sheets = *what_;
+  for (SheetSpec& sheet : sheets) {
+    sheet.number += before;
+    sheet.of = of;
+  }
+  return SheetFile(std::make_shared<const std::vector<SheetSpec>>(std::move(sheets)));
+}
+
 std::vector<std::string> SheetFile::template_names() const {
   std::vector<std::string> names;
   for (const SheetSpec& sheet : *what_)

@@ -170,6 +170,13 @@ Result<std::vector<sheets::SheetFile>> read_sheet_files(Session& session,
     }
     files.push_back(*file);
   }
+  std::size_t of = 0, before = 0;
+  for (const sheets::SheetFile& file : files) of += file.names().size();
+  for (sheets::SheetFile& file : files) {
+    const std::size_t own = file.names().size();
+    file = file.in_set(before, of);
+    before += own;
+  }
   return files;
 }
 

@@ -50,6 +50,9 @@ class SheetFile {
   /// Returns the names of its [[sheet]] tables in their order; one empty name where it describes
   /// a sheet without them.
   [[nodiscard]] std::vector<std::string> names() const;
+  /// Returns the file as a part of a set: `before` sheets of other files come before its own, and
+  /// there are `of` sheets in all. Title blocks count so.
+  [[nodiscard]] SheetFile in_set(std::size_t before, std::size_t of) const;
   /// Returns the names of the templates as the file has them, relative to itself, each once.
   [[nodiscard]] std::vector<std::string> template_names() const;
 

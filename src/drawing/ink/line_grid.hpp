@@ -107,9 +107,11 @@ class LaidLines {
     });
   }
 
-  /// Appends the intervals of a line that run along those that are laid down.
-  void find(const PlaneSegment& line, std::uint32_t query, std::vector<ParamInterval>& covers) {
-    near(line, query, std::numeric_limits<std::size_t>::max(), [&](std::uint32_t number) {
+  /// Appends the intervals of a line that run along those that are laid down, of no cell more than
+  /// the last `most`.
+  void find(const PlaneSegment& line, std::uint32_t query, std::vector<ParamInterval>& covers,
+            std::size_t most = std::numeric_limits<std::size_t>::max()) {
+    near(line, query, most, [&](std::uint32_t number) {
       if (const auto interval = covered(line, segments_[number], rule_))
         covers.push_back(*interval);
       return true;

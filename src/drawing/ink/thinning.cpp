@@ -209,7 +209,9 @@ class ObjectThinner {
   /// Lays down what of the inner intervals of a line is not beside what is laid down.
   void thin(const SeenLine& line, std::uint32_t query, LaidLines& laid, LineIntervals& out) {
     covers_.clear();
-    laid.find(line.flat, query, covers_);
+    // Inner lines that stay were laid down last, and are what it may lie beside; where rims of a
+    // scanned surface lie by thousands in a cell, it cannot ask all of them.
+    laid.find(line.flat, query, covers_, kMostOfCell);
     unite(covers_);
     std::vector<ParamInterval> gone = common(covers_, line.inner);
     const std::size_t first = out.size();

@@ -283,10 +283,9 @@ class Fields {
     };
     own("scale", scale ? drawing::scale_text(*scale) : std::string(kNoScale));
     own("size", what.size);
-    if (!what.name.empty()) {
-      own("title", what.name);
+    if (!what.name.empty()) own("title", what.name);
+    if (!what.name.empty() || what.of > 1)
       own("sheet", std::to_string(what.number) + " of " + std::to_string(what.of));
-    }
     const bool arranged = std::any_of(what.views.begin(), what.views.end(),
                                       [](const ViewSpec& v) { return v.slot != ViewSlot::none; });
     if (arranged)

@@ -38,7 +38,7 @@ using settings::TableReader;
 using settings::Value;
 
 constexpr double kFarthestPositionMm = 1e6;
-constexpr std::size_t kMostViews = 100, kMostSheets = 100;
+constexpr std::size_t kMostViews = 100, kMostSheets = 100, kMostFields = 1000;
 
 struct SlotName {
   std::string_view name;
@@ -152,7 +152,13 @@ class SheetParser {
     TableReader table(reading_, *value, "[fields]");
     found_.fields_where =
         reading_.file() + ", line " + std::to_string(value->at.line) + ": [fields]";
-    for (const KeyValue* entry : table.others()) {
+    const std::vector<const KeyValue*> entries = table.others();
+    if (entries.size() > kMostFields) {
+      reading_.fault(value->at, "a sheet of more than 1000 fields",
+                     "keep those that its title block shows");
+      return;
+    }
+    for (const KeyValue* entry : entries) {
       const auto* const text = std::get_if<std::string>(&entry->value.held);
       const auto* const whole = std::get_if<std::int64_t>(&entry->value.held);
       if (text == nullptr && whole == nullptr)
@@ -375,10 +381,12 @@ class SheetSetParser {
     SheetParser common(reading_, top_, sets_, read_template_);
     common.read_common();
     refuse_what_sheets_have();
-    if (sheets.size() > kMostSheets)
+    std::vector<SheetSpec> found;
+    if (sheets.size() > kMostSheets) {
       reading_.fault(top_.value("sheet")->at, "a file of more than 100 sheets",
                      "make several files of it");
-    std::vector<SheetSpec> found;
+      return found;
+    }
     for (const Value& value : sheets) {
       found.push_back(sheet(value, common, found));
       if (found.back().views.empty())
@@ -430,6 +438,8 @@ class SheetSetParser {
   static bool is_part_of_a_file_name(std::string_view name) {
     constexpr std::size_t kLongestName = 100;
     if (name.empty() || name.size() > kLongestName) return false;
+    // As the name of a folder these would be that of another one.
+    if (name == "." || name == "..") return false;
     while (!name.empty()) {
       const TakenCharacter c = take_character(name);
       if (!is_printable(c) || std::string_view("/\\:*?\"<>|{}").find(c.bytes) != std::string::npos)

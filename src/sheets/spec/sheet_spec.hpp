@@ -160,7 +160,7 @@ struct ObjectStyleSpec {
 struct SheetSpec {
   std::string file;
   std::string name;                ///< among the sheets of its file; empty: it is no [[sheet]]
-  std::size_t number = 1, of = 1;  ///< which of how many of its file it is
+  std::size_t number = 1, of = 1;  ///< which of how many it is
   double width_mm = 420, height_mm = 297;
   std::string size = "A3";
   bool frame = true;

@@ -227,6 +227,9 @@ class Pdf(Scenario):
         self.assertEqual([mark[1:] for mark in marks], [(1, ['a-view']), (2, ['b-view'])])
         order = self.layers('set.pdf')
         self.assertEqual([part[0] for part in order], [mark[0] for mark in marks])
+        words = self.text_of('set.pdf')
+        for count in ('1 of 2', '2 of 2'):
+            self.assertIn(count, words)
         done = self.run_strake('draw', *sheets, '-o', 'set.svg')
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("'set.svg' holds one sheet, and 2 are given", done.stderr)

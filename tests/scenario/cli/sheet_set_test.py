@@ -208,7 +208,12 @@ class SheetSet(Scenario):
         for text, told in (
                 ('[[sheet]]\nname = "a"\n' + view + '[[sheet]]\nname = "a"\n' + view, r"line 5.*'a' is given to two sheets"),
                 ('[[sheet]]\nname = "a/b"\n' + view, r"line 2.*cannot be part of the name of a file"),
+                # As the name of a folder in -o '{sheet}/plan.svg' it would lead out of where files are to lie.
+                ('[[sheet]]\nname = ".."\n' + view, r"line 2.*cannot be part of the name of a file"),
                 ('[[sheet]]\n' + view, r"\[\[sheet\]\] has no 'name'"),
+                ('[[sheet]]\n' * 101, r"a file of more than 100 sheets"),
+                ('[fields]\n' + ''.join(f'f{i} = ""\n' for i in range(1001)) + '[[view]]\nname = "v"\n',
+                 r"line 1.*a sheet of more than 1000 fields"),
                 ('[[sheet]]\nname = "a"\n', r"line 1.*the sheet 'a' has no views"),
                 ('sheet = []\n', r'has no sheets'),
                 ('[[view]]\nname = "v"\n[[sheet]]\nname = "a"\n' + view, r"'view' stands beside \[\[sheet\]\], and belongs to one"),
@@ -224,7 +229,8 @@ class SheetSet(Scenario):
             self.assertRegex(done.stderr, told)
         for style, told in (('color=#c00000', 'does not say whose lines'), ('colour=#c00000: *', "has no 'colour'"),
                             ('red: *', 'no part of a style'), ('color=red: *', 'no colour'), ('pen=1m: *', 'no width of a pen'),
-                            ('pen=1mm,pen=2mm: *', 'comes again'), ('line=wavy: *', 'no type of line')):
+                            ('pen=1mm,pen=2mm: *', 'comes again'),
+                            ('name=a,name=b: *', 'comes again'), ('line=wavy: *', 'no type of line')):
             done = self.run_strake('draw', 'm.obj', *SETTINGS, '--style', style, '-o', 'w.svg')
             self.assertEqual(done.returncode, 2, style)
             self.assertIn(told, done.stderr)

@@ -42,6 +42,7 @@ Status add_part(std::string_view part, drawing::ObjectStyle& style) {
   if (key == "pen") return take_part(style.pen_mm, value, drawing::parse_pen_mm);
   if (key == "line") return take_part(style.line, value, drawing::parse_line_type);
   if (key != "name") return fault_of_style("a style has no " + in_quotes(key));
+  if (!style.name.empty()) return fault_of_style(in_quotes(value) + " comes again");
   style.name = printable(value);
   return {};
 }
