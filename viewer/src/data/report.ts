@@ -11,7 +11,12 @@ import { dropBlock, findBlock, unpack } from '../payload/unpack.ts';
 
 /** What hides in a name is made to show: control characters, and marks that turn the direction of writing. */
 export function shown(text: string): string {
-  return text.replace(/[\p{Cc}\u200b-\u200f\u202a-\u202e\u2060-\u2069\ufeff]/gu, '\ufffd');
+  return text.replace(/[\p{Cc}\u061c\u200b-\u200f\u2028-\u202e\u2060-\u2069\ufeff]/gu, '\ufffd');
+}
+
+/** What people wrote, in their lines. */
+export function shownLines(text: string): string {
+  return text.split(/\r\n?|\n/).map(shown).join('\n');
 }
 
 export interface Report {

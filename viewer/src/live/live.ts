@@ -140,7 +140,7 @@ export class Live {
         outcome.isBehind ||= state.tooMany || state.run !== this.seen.run;
         for (const { key: of, why } of state.refused) {
           const row = this.decisions!.row(of);
-          outcome.refused.push({ row, what: row === undefined ? of : this.nameOf(row), why: shown(why).slice(0, 300) });
+          outcome.refused.push({ row, what: row === undefined ? of : this.nameOf(row), why: shown(why.replace(/\s+/g, ' ')).slice(0, 300) });
         }
       }
       return outcome;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // All that is known of one clash, or of one object.
-import { disciplineOf, fileName, objectName, type Report, shown } from '../data/report.ts';
+import { disciplineOf, fileName, objectName, type Report, shown, shownLines } from '../data/report.ts';
 import { CLASS_WORDS, count, coordinate, exact, FLAG_MEANINGS, length, plural, RELATION_WORDS, sentence, STATUS_WORDS } from '../data/words.ts';
 import { DEPTH_INCOMPLETE, LEVELS, NONE16, NONE32, NONE8, REOPENED } from '../payload/payload.ts';
 import { classMark, h } from '../ui/dom.ts';
@@ -50,7 +50,7 @@ async function copy(text: string): Promise<boolean> {
 /** The text of a number column that counts into texts. */
 function text(report: Report, column: Uint32Array | undefined, row: number): string {
   const at = column?.[row] ?? 0;
-  return at > 0 ? shown(report.results!.texts?.at(at) ?? '') : '';
+  return at > 0 ? shownLines(report.results!.texts?.at(at) ?? '') : '';
 }
 
 export function resultDetails(report: Report, row: number, events: DetailEvents): HTMLElement {
@@ -67,6 +67,7 @@ export function resultDetails(report: Report, row: number, events: DetailEvents)
   const mayBe = results.may_be?.[row] ?? NONE8;
   const regions = results.region_count?.[row] ?? 0;
   const group = results.group?.[row] ?? NONE32;
+  const comment = text(report, results.comment, row);
   const place = [results.x[row]!, results.y[row]!, results.z[row]!];
   return h(
     'div',
@@ -90,7 +91,7 @@ export function resultDetails(report: Report, row: number, events: DetailEvents)
           ['By', text(report, results.decided_by, row)],
           ['On', text(report, results.decided_on, row)],
           ['For', text(report, results.assignee, row)],
-          ['Comment', text(report, results.comment, row)],
+          ['Comment', comment !== '' && h('span', { class: 'lines' }, comment)],
         ])),
     h('section', {}, h('h3', {}, 'Numbers'),
       pairs([

@@ -60,12 +60,12 @@ test('what is set is in the project, the list and the overview', { skip }, async
   const key = await choose(page, 0);
   await page.selectOption('#decide-status', 'reviewed');
   await page.fill('#decide-assignee', 'Bob <b>');
-  await page.fill('#decide-comment', 'move it "up"');
+  await page.fill('#decide-comment', 'move it\n"up"');
   await page.click('.decide button[type=submit]');
   await saved(page);
-  assert.deepEqual(project.clash(key), { status: 'reviewed', assignee: 'Bob <b>', comment: 'move it "up"' });
+  assert.deepEqual(project.clash(key), { status: 'reviewed', assignee: 'Bob <b>', comment: 'move it\n"up"' });
   assert.equal(await page.textContent('#results-row-0 .chip'), 'Reviewed');
-  assert.match((await page.textContent('.details'))!, /move it "up"/);
+  assert.equal(await page.innerText('.details .lines'), 'move it\n"up"');
   assert.match((await page.textContent('.view-overview .chip.status-2'))!, /Reviewed 1/);
   // A filter by status finds it, and a second page has it from the start.
   await page.click('.filters .status-2');

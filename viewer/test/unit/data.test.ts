@@ -4,7 +4,7 @@ import { test } from 'node:test';
 import { type Filter, isUnlimited, noFilter, Rows, SEVERITY, worstOf } from '../../src/data/filter.ts';
 import { filterGroups, sortGroups } from '../../src/data/groups.ts';
 import { sortByValue } from '../../src/data/order.ts';
-import { objectName, type Report, shown } from '../../src/data/report.ts';
+import { objectName, type Report, shown, shownLines } from '../../src/data/report.ts';
 import { sentence } from '../../src/data/words.ts';
 import { matrixCounts, runsOf } from '../../src/panels/overview.ts';
 import { decodeHead } from '../../src/payload/head.ts';
@@ -175,6 +175,8 @@ test('a list of a million and a half rows reaches its last row', () => {
 test('what does not show is made to show', () => {
   assert.equal(shown('RIGHT\u202eLEFT\u0000'), 'RIGHT\ufffdLEFT\ufffd');
   assert.equal(shown('Ångström –'), 'Ångström –');
+  assert.equal(shown('a\u061cb\u2028c'), 'a\ufffdb\ufffdc');
+  assert.equal(shownLines('one\r\ntwo\n\u202ethree'), 'one\ntwo\n\ufffdthree');
 });
 
 test('a result is told in a sentence', () => {
