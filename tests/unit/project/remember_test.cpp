@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "project/database/exchange_tables.hpp"
 #include "project/database/history_tables.hpp"
 #include "project/database/result_tables.hpp"
 #include "project/database/snapshot_tables.hpp"
@@ -43,6 +44,7 @@ class Remembered : public ::testing::Test {
     ASSERT_TRUE(database_->execute(kResultTables));
     ASSERT_TRUE(database_->execute(kViewTables));
     ASSERT_TRUE(database_->execute(kHistoryTables));
+    ASSERT_TRUE(database_->execute(kExchangeTables));
     ASSERT_TRUE(database_->execute(kSnapshotTables));
   }
 
