@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 2> kLoopbackNames{"127.0.0.1", "localhost
 
 Answer forbidden(std::string why) { return text_answer(HttpStatus::forbidden, std::move(why)); }
 
-/// What a page says that asks: "same-origin", "none" for a person, or something else.
+/// Whether a browser says that its own page asks, or a person ("none"). Older ones say nothing.
 bool is_of_this_page(const Request& request) {
   const auto site = request.header("Sec-Fetch-Site");
   return !site || *site == "same-origin" || *site == "none";

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -18,6 +19,8 @@ namespace {
 using report::DecisionStatus;
 
 constexpr int kMostDepth = 3;
+/// Of a comment or a name. It is stored with each clash, of which a request names thousands.
+constexpr std::size_t kMostTextBytes = std::size_t{64} << 10U;
 /// Numbers of a row that a double holds exactly.
 constexpr double kGreatestNumber = 9007199254740992.0;
 
@@ -40,8 +43,8 @@ class RequestReader {
     if (name == "event") return number(request_.seen.event, "event");
     if (name == "keys") return keys();
     if (name == "status") return status();
-    if (name == "assignee") return text(request_.decision.assignee, "assignee");
-    if (name == "comment") return text(request_.decision.comment, "comment");
+    if (name == "assignee") return said(request_.decision.assignee, "assignee");
+    if (name == "comment") return said(request_.decision.comment, "comment");
     reject("the request has a member that has no meaning");
   }
 
@@ -78,6 +81,12 @@ class RequestReader {
   void text(std::optional<std::string>& value, const char* name) {
     if (json_.kind() != Kind::string) return reject(std::string(name) + " is no text");
     value = json_.text();
+  }
+
+  void said(std::optional<std::string>& value, const char* name) {
+    text(value, name);
+    if (value && value->size() > kMostTextBytes)
+      fail("the " + std::string(name) + " is longer than 64 KiB");
   }
 
   void status() {

@@ -166,6 +166,18 @@ class View(Scenario):
             self.assertEqual(state['run'], 2)
             self.assertNotEqual(self.ask('GET', '/').text, before, 'the page is that of the new run')
 
+    def test_what_a_later_run_measured_otherwise_is_not_approved_unseen(self):
+        with self.served():
+            self.write('a.obj', cube('a0', 0, (0, 0, 0), 100) + cube('a1', 1, (70, 70, 70), 100)
+                       + cube('a2', 2, (900, 0, 0), 100) + cube('a3', 3, (950, 50, 50), 100))
+            self.text('project', 'update', 'p.strake')
+            self.text('clash', '-p', 'p.strake')
+            event = json.loads(self.ask('GET', '/api/state?event=0').text)['event']
+            done = self.decide(self.keys, event=event, expect=409, status='approved')
+            self.assertEqual([refused['why'] for refused in done['refused']], ['run 2 finds it otherwise: HIT, d = -30.000 mm'])
+            self.assertEqual(sorted(self.statuses().values()), ['active', 'approved'])
+            self.decide(self.keys, run=2, event=event + 1, status='approved')
+
     def test_a_project_that_is_locked_is_told_and_served_on(self):
         with self.served():
             writer = sqlite3.connect(self.folder / 'p.strake', isolation_level=None)

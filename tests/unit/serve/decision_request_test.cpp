@@ -60,6 +60,17 @@ TEST(DecisionRequest, whatever_makes_no_sense_is_told) {
             "the request is no JSON");
 }
 
+TEST(DecisionRequest, a_text_that_each_clash_would_have_is_not_endless) {
+  const auto request = [](const char* name, std::size_t bytes) {
+    return std::string(R"({"run":0,"event":0,"keys":["k"],")") + name + "\":\"" +
+           std::string(bytes, 'x') + "\"}";
+  };
+  constexpr std::size_t kMost = 65536;
+  EXPECT_EQ(fault_of(request("comment", kMost)), "");
+  EXPECT_EQ(fault_of(request("comment", kMost + 1)), "the comment is longer than 64 KiB");
+  EXPECT_EQ(fault_of(request("assignee", kMost + 1)), "the assignee is longer than 64 KiB");
+}
+
 TEST(DecisionRequest, deep_nesting_is_no_way_in) {
   EXPECT_EQ(fault_of(std::string(1000000, '[')), "the request is no object");
   EXPECT_EQ(fault_of("{\"x\":" + std::string(1000000, '[')), "the request is no JSON");

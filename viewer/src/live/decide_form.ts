@@ -25,6 +25,7 @@ export class DecideForm {
   private readonly hint = h('p', { class: 'hint', id: 'decide-hint' });
   private readonly told = h('div', { class: 'decide-told', role: 'status' });
   private readonly save = h('button', { type: 'submit', class: 'small primary' }, 'Save');
+  private readonly fields = [['status', this.status], ['assignee', this.assignee], ['comment', this.comment]] as const;
   private readonly touched = new Set<Field>();
   private rows: ArrayLike<number> = [];
   private busy = false;
@@ -40,7 +41,7 @@ export class DecideForm {
     this.element = h('form', { class: 'decide', 'aria-label': 'Decision', 'aria-describedby': 'decide-hint' },
       field('Status', this.status), field('For', this.assignee), field('Comment', this.comment),
       h('div', { class: 'buttons' }, this.save, h('span', { class: 'hint' }, `as ${by}`)), this.hint, this.told);
-    for (const [name, control] of [['status', this.status], ['assignee', this.assignee], ['comment', this.comment]] as const) {
+    for (const [name, control] of this.fields) {
       control.addEventListener('input', () => {
         this.touched.add(name);
         fill(this.told);
@@ -115,9 +116,10 @@ export class DecideForm {
     this.busy = true;
     this.save.setAttribute('aria-disabled', 'true');
     const { rows } = this;
+    const sent = this.fields.map(([, control]) => control.value);
     try {
       const outcome = await this.decide(rows, decision);
-      if (this.rows === rows) this.tell(outcome);
+      if (this.rows === rows) this.tell(outcome, sent);
       else if (outcome.refused.length > 0) this.tellRefused(outcome, '');
     } catch (error) {
       const what = this.rows === rows ? '' : ` for ${rows.length === 1 ? this.nameOf(rows[0]!) : plural(rows.length, 'clash', 'clashes')}, chosen before`;
@@ -129,11 +131,12 @@ export class DecideForm {
     this.save.removeAttribute('aria-disabled');
   }
 
-  /** Tells what became of a decision about the rows that the form is about. */
-  private tell(outcome: Outcome): void {
+  /** Tells what became of a decision about the rows that the form is about; `sent` is what its fields said then. */
+  private tell(outcome: Outcome, sent: readonly string[]): void {
     const { decided, refused, isBehind } = outcome;
     if (refused.length === 0) {
-      this.touched.clear();
+      // What was written since is still to be saved.
+      this.fields.forEach(([name, control], i) => control.value === sent[i] && this.touched.delete(name));
       this.refresh();
       fill(this.told, h('p', {}, `Saved for ${plural(decided, 'clash', 'clashes')}.`));
       return;

@@ -104,6 +104,29 @@ test('who approves one clash after another stays where they are in the list', { 
   await page.context().close();
 });
 
+test('what is written while something is saved is not lost', { skip }, async () => {
+  const { page, faults } = await open();
+  const key = await choose(page, 6);
+  let goOn = (): void => undefined;
+  const gone = new Promise<void>((done) => (goOn = done));
+  await page.route('**/api/decide', async (route) => {
+    await gone;
+    await route.continue();
+  });
+  await page.fill('#decide-assignee', 'Bob');
+  await page.click('.decide button[type=submit]');
+  await page.fill('#decide-comment', 'and more');
+  goOn();
+  await saved(page);
+  assert.equal(await page.inputValue('#decide-comment'), 'and more');
+  await page.fill('#decide-comment', 'and more of it');
+  await page.click('.decide button[type=submit]');
+  await saved(page);
+  assert.deepEqual([project.clash(key).assignee, project.clash(key).comment], ['Bob', 'and more of it']);
+  assert.deepEqual(faults, []);
+  await page.context().close();
+});
+
 test('what was not saved is told to who has gone on', { skip }, async () => {
   const { page, faults } = await open();
   const key = await choose(page, 8);
