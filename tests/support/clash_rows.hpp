@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "project/database/database.hpp"
+#include "project/database/exchange_tables.hpp"
 #include "project/database/history_tables.hpp"
 #include "project/database/result_tables.hpp"
 #include "project/database/view_tables.hpp"
@@ -33,7 +34,7 @@ inline std::unique_ptr<project::Database> project_with_clashes(int count) {
   std::unique_ptr<project::Database> database = std::move(project::Database::in_memory()).value();
   for (const std::string_view tables :
        {std::string_view(project::kResultTables), std::string_view(project::kViewTables),
-        std::string_view(project::kHistoryTables)})
+        std::string_view(project::kHistoryTables), std::string_view(project::kExchangeTables)})
     EXPECT_TRUE(database->execute(tables));
   EXPECT_TRUE(database->execute(
       "INSERT INTO run VALUES (1, '2026-01-01T00:00:00Z', '1', 'night', 1);"

@@ -13,6 +13,10 @@ namespace strake::geometry::tessellation {
 namespace {
 
 constexpr int kMostSteps = 1024;
+/// How far a line of the contour may turn in its section where the section turns by one about the
+/// axis. Where it turns faster, as of a bend that is seen from low over its plane, the triangles
+/// beside it are slivers across it, which hide it in places.
+constexpr double kSteepest = 6;
 
 /// A torus whose contour from an eye runs along its net. In the plane of a section the normals are
 /// those of its circle, so that its contour is that of a pipe along it: where the tangents from the
@@ -86,6 +90,7 @@ class TorusFromEye {
     const auto here = contour(angle), between = contour(middle);
     if (!here || !between) return false;
     const double most = std::max(turn(*between, *here), turn(before.contour, *between));
+    if (most > kSteepest * (angle - middle)) return false;
     if (most > step() / 4 && depth < kDeepest)
       return add_from_last(middle, depth + 1) && add_from_last(angle, depth + 1);
     sections_.push_back({angle, *here});

@@ -70,7 +70,8 @@ class ViewSplitter {
     return {};
   }
 
-  /// Returns the part that asks for some objects; `also` are the others that it needs.
+  /// Returns the part that asks for some of these objects; `needed` says by place which others it
+  /// has.
   [[nodiscard]] ViewPart part_of(const std::vector<std::uint32_t>& asked,
                                  const std::vector<std::uint32_t>& objects,
                                  const std::vector<bool>& needed) const {

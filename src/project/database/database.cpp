@@ -122,6 +122,15 @@ Status Database::check_unchanged() const {
   return Error{ErrorCode::input, "was written to while it was read", file_.string(), "try again"};
 }
 
+Status Database::check_in_place() {
+  int has_moved = 0;
+  // A database in memory knows of no such question, and lies nowhere.
+  const int code = sqlite3_file_control(handle_, "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
+  if (code != SQLITE_OK || has_moved == 0) return {};
+  return Error{ErrorCode::output, "was moved, deleted or replaced while it was open",
+               file_.string(), "end this program, and start it on the project that is there now"};
+}
+
 Status Database::check_end() {
   const auto file = size_and_time(file_);
   if (!file) return {};

@@ -93,6 +93,9 @@ class Database {
   /// Whether what was read is of one moment, where SQLite cannot see to it: on read-only media,
   /// which somebody else may still write to. Errors: input.
   [[nodiscard]] Status check_unchanged() const;
+  /// Whether the file is still where it was opened: what is written to one that was moved, deleted
+  /// or replaced, nobody finds again. Errors: output.
+  [[nodiscard]] Status check_in_place();
   /// Whether the file ends with a whole page. SQLite takes what a last page lacks for zeros and
   /// says nothing. Errors: input.
   [[nodiscard]] Status check_end();

@@ -61,14 +61,22 @@ std::string told(const ClashRow& before, const ClashRow& after, const ClashDecis
   return text;
 }
 
+/// Returns a decision as tables have it: its texts are UTF-8.
+ClashDecision as_stored(ClashDecision decision) {
+  decision.by = valid_utf8(decision.by);
+  for (std::optional<std::string>* const text : {&decision.comment, &decision.assignee})
+    if (*text) *text = valid_utf8(**text);
+  return decision;
+}
+
 /// Returns a row as somebody decides it to be.
 ClashRow decided(ClashRow row, const ClashDecision& decision, std::int64_t last_run) {
-  if (decision.comment) row.comment = valid_utf8(*decision.comment);
-  if (decision.assignee) row.assignee = valid_utf8(*decision.assignee);
+  if (decision.comment) row.comment = *decision.comment;
+  if (decision.assignee) row.assignee = *decision.assignee;
   if (!decision.status) return row;
   row.decision = *decision.status;
   row.decided.reset();
-  row.decided_by = valid_utf8(decision.by);
+  row.decided_by = decision.by;
   row.decided_at = decision.at;
   if (row.decision == DecisionStatus::approved) row.decided = row.now;
   if (row.decision == DecisionStatus::undecided) {
@@ -174,6 +182,7 @@ Result<std::uint64_t> decide(Database& database, std::span<const std::string> ke
   if (!tests) return tests.error();
   Result<ClashRows> rows = ClashRows::of(database);
   if (!rows) return rows.error();
+  const ClashDecision stored = as_stored(decision);
   std::uint64_t changed = 0;
   for (const std::string& key : keys) {
     const Result<std::optional<ClashRow>> known = rows->find(std::string_view(key));
@@ -183,18 +192,18 @@ Result<std::uint64_t> decide(Database& database, std::span<const std::string> ke
     const auto test = tests->find(before.test);
     if (test == tests->end()) return database.damaged("a clash is of no test");
     const std::int64_t run = test->second.run;
-    const ClashRow after = decided(before, decision, run);
+    const ClashRow after = decided(before, stored, run);
     if (after == before) continue;
     ++changed;
     if (const Status status = rows->update(after); !status) return status.error();
     ClashEvent event{before.id,
                      std::nullopt,
-                     decision.at,
-                     decision.by,
+                     stored.at,
+                     stored.by,
                      before.status(run),
                      after.status(run),
-                     told(before, after, decision)};
-    const std::string said = decision.comment.value_or(std::string());
+                     told(before, after, stored)};
+    const std::string said = stored.comment.value_or(std::string());
     if (event.comment != said) event.said = Said{.text = said};
     if (event.before == event.after && event.comment.empty()) continue;
     if (const Status status = rows->add(event); !status) return status.error();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "project/review/decide_as_seen.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -20,42 +22,71 @@ Result<std::int64_t> greatest_id(Database& database, std::string_view table) {
   return *there ? select->integer(0) : 0;
 }
 
-/// Tells what became of clashes after an event.
-class LaterEvents {
+/// Tells what became of clashes since somebody saw them.
+class LaterChanges {
  public:
-  static Result<LaterEvents> of(Database& database, std::int64_t event) {
-    Result<Statement> select = database.prepare(
-        "SELECT who, before, after, comment, run FROM event WHERE clash = ?1 AND id > ?2 "
-        "ORDER BY id DESC LIMIT 1");
-    if (!select) return select.error();
-    return LaterEvents(std::move(*select), event);
+  static Result<LaterChanges> of(Database& database, const SeenState& seen) {
+    // Who is told the status that a later run gave has still not seen what that run found.
+    Result<Statement> events = database.prepare(
+        "SELECT who, before, after, comment, run FROM event WHERE clash = ?1 AND "
+        "(id > ?2 OR run > ?3) ORDER BY id DESC LIMIT 1");
+    if (!events) return events.error();
+    Result<Statement> former = database.prepare(
+        "SELECT run FROM former WHERE clash = ?1 AND run > ?2 ORDER BY run DESC LIMIT 1");
+    if (!former) return former.error();
+    return LaterChanges(std::move(*events), std::move(*former), seen);
   }
 
   /// Returns the last of it in a sentence; nothing where nothing happened.
-  Result<std::optional<std::string>> last_of(std::int64_t clash) {
-    select_.bind(1, clash).bind(2, event_);
-    const Result<bool> there = select_.step();
-    if (!there) return there.error();
-    std::optional<std::string> told;
-    if (*there) told = sentence();
-    select_.reset();
-    return told;
+  Result<std::optional<std::string>> last_of(const ClashRow& clash) {
+    Result<std::optional<std::string>> told = last_event(clash.id);
+    if (!told || *told) return told;
+    if (clash.gone_run && *clash.gone_run > seen_.run)
+      return std::optional("run " + std::to_string(*clash.gone_run) + " does not find it any more");
+    return other_finding(clash);
   }
 
  private:
-  LaterEvents(Statement select, std::int64_t event) : select_(std::move(select)), event_(event) {}
+  LaterChanges(Statement events, Statement former, const SeenState& seen)
+      : events_(std::move(events)), former_(std::move(former)), seen_(seen) {}
+
+  Result<std::optional<std::string>> last_event(std::int64_t clash) {
+    events_.bind(1, clash).bind(2, seen_.event).bind(3, seen_.run);
+    const Result<bool> there = events_.step();
+    if (!there) return there.error();
+    std::optional<std::string> told;
+    if (*there) told = sentence();
+    events_.reset();
+    return told;
+  }
 
   /// What the event says at which the statement stands.
   [[nodiscard]] std::string sentence() const {
-    const std::string who(select_.text(0)), after(select_.text(2)), comment(select_.text(3));
+    const std::string who(events_.text(0)), after(events_.text(2)), comment(events_.text(3));
     const std::string says = comment.empty() ? std::string() : ": " + comment;
-    if (!select_.is_null(4)) return "a later run made it " + after + says;
-    if (select_.text(1) != after) return who + " made it " + after + " meanwhile" + says;
+    if (!events_.is_null(4)) return "a later run made it " + after + says;
+    if (events_.text(1) != after) return who + " made it " + after + " meanwhile" + says;
     return who + " wrote about it meanwhile" + says;
   }
 
-  Statement select_;
-  std::int64_t event_;
+  /// What a later run found that was something else before.
+  Result<std::optional<std::string>> other_finding(const ClashRow& clash) {
+    former_.bind(1, clash.id).bind(2, seen_.run);
+    const Result<bool> there = former_.step();
+    if (!there) return there.error();
+    std::optional<std::string> told;
+    if (*there) {
+      const std::string run = "run " + std::to_string(former_.integer(0));
+      told = clash.unknown.empty() ? fmt::format("{} finds it otherwise: {}, d = {:.3f} mm", run,
+                                                 name(clash.now.cls), clash.now.d_mm)
+                                   : run + " cannot tell whether it is there: " + clash.unknown;
+    }
+    former_.reset();
+    return told;
+  }
+
+  Statement events_, former_;
+  SeenState seen_;
 };
 
 }  // namespace
@@ -72,8 +103,8 @@ Result<DecisionsAsSeen> decide_as_seen(Database& database, std::span<const std::
                                        const ClashDecision& decision, const SeenState& seen) {
   Result<ClashRows> rows = ClashRows::of(database);
   if (!rows) return rows.error();
-  Result<LaterEvents> events = LaterEvents::of(database, seen.event);
-  if (!events) return events.error();
+  Result<LaterChanges> changes = LaterChanges::of(database, seen);
+  if (!changes) return changes.error();
   DecisionsAsSeen outcome;
   std::vector<std::string> standing;
   for (const std::string& key : keys) {
@@ -83,10 +114,8 @@ Result<DecisionsAsSeen> decide_as_seen(Database& database, std::span<const std::
       outcome.refused.push_back({key, "no clash has the key " + in_quotes(key)});
       continue;
     }
-    Result<std::optional<std::string>> later = events->last_of((**row).id);
+    Result<std::optional<std::string>> later = changes->last_of(**row);
     if (!later) return later.error();
-    if (!*later && (**row).gone_run && *(**row).gone_run > seen.run)
-      *later = "run " + std::to_string(*(**row).gone_run) + " does not find it any more";
     if (*later) {
       outcome.refused.push_back({key, std::move(**later)});
       continue;

@@ -35,9 +35,9 @@ struct DecisionsAsSeen {
 };
 
 /// Decides about those of some clashes that are as somebody saw them, by decide() (decision 0101).
-/// A clash that a person or a run changed since, or that a later run does not find, is refused, and
-/// so is a key that no clash has: all others stand. To be called within a transaction. Errors:
-/// those of decide(), but for unknown keys.
+/// A clash that a person or a run changed since is refused, as is one that a later run does not
+/// find or measures otherwise, whatever events were seen, and a key that no clash has: all others
+/// stand. To be called within a transaction. Errors: those of decide(), but for unknown keys.
 [[nodiscard]] Result<DecisionsAsSeen> decide_as_seen(Database& database,
                                                      std::span<const std::string> keys,
                                                      const ClashDecision& decision,

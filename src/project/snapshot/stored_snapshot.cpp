@@ -19,7 +19,7 @@ using Bytes = std::vector<std::byte>;
 constexpr std::size_t kObjectsPerSnapshotPart = 4096;
 
 /// Returns how many parts so many objects have. There is always one: a snapshot without any is one
-/// that version 2 wrote.
+/// that a version before 4 wrote.
 std::size_t count_snapshot_parts(std::size_t objects) {
   return std::max<std::size_t>(1,
                                (objects + kObjectsPerSnapshotPart - 1) / kObjectsPerSnapshotPart);
@@ -81,8 +81,8 @@ Result<SnapshotHead> decode_snapshot_head(std::span<const std::byte> bytes, std:
   return head;
 }
 
-/// Returns all of a snapshot out of one row, as version 2 had it.
-Result<Snapshot> decode_version_2(std::span<const std::byte> bytes, const std::string& what) {
+/// Returns all of a snapshot out of one row, as versions before 4 had it.
+Result<Snapshot> decode_one_row(std::span<const std::byte> bytes, const std::string& what) {
   Result<BlobReader> in = BlobReader::open(bytes, what);
   if (!in) return in.error();
   Snapshot snapshot = read_snapshot(*in);
@@ -174,7 +174,7 @@ Result<StoredSnapshot> read_snapshot(Database& database, std::int64_t test,
   const Result<std::vector<Bytes>> parts = read_snapshot_parts(database, test);
   if (!parts) return parts.error();
   if (parts->empty()) {
-    Result<Snapshot> whole = decode_version_2(head, what);
+    Result<Snapshot> whole = decode_one_row(head, what);
     if (!whole) return whole.error();
     return StoredSnapshot{test, std::move(*whole), {}, {}};
   }

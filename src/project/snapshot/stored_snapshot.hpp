@@ -22,9 +22,9 @@ struct StoredSnapshot {
   std::int64_t test = 0;  ///< the id of the test
   Snapshot snapshot;
   /// clash::KeptForChanges::elements; none where the result was not kept for changes, or where
-  /// version 2 wrote it, which had them with what it kept.
+  /// a version before 4 wrote it, which had them with what it kept.
   std::vector<std::uint64_t> elements;
-  std::vector<Hash128> parts;  ///< hashes of its parts; none where version 2 wrote it
+  std::vector<Hash128> parts;  ///< hashes of its parts; none where a version before 4 wrote it
 };
 
 /// Reads the snapshot of a test, of which `head` is what its row in `report` has; `what` is what

@@ -98,7 +98,7 @@ Result<std::vector<std::byte>> encode_kept(const std::optional<KeptForChanges>& 
   out.number(kept->box_pairs);
   out.number(kept->framed ? 1 : 0);
   out.hash(kept->hash_sum);
-  out.column(std::span<const std::uint64_t>());  // version 2 had the elements here
+  out.column(std::span<const std::uint64_t>());  // versions before 4 had the elements here
   write_rules(out, kept->exempted);
   write_rules(out, kept->concerned);
   write_rules(out, kept->allowed_regions);

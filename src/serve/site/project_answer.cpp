@@ -2,6 +2,7 @@
 #include "serve/site/project_answer.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,30 @@ void append_clash(std::string& out, const project::ListedClash& clash) {
   out += '}';
 }
 
+/// Which clashes are told, by the ids of their rows.
+struct ToldChanges {
+  std::vector<std::int64_t> clashes;
+  bool too_many = false;  ///< more changed than is told
+};
+
+/// What the page itself has just decided is told however much it is.
+Result<ToldChanges> told_changes(project::Database& database, std::int64_t event,
+                                 const project::DecisionsAsSeen* done) {
+  std::vector<std::int64_t> own;
+  if (done != nullptr) own = done->decided;
+  std::ranges::sort(own);
+  own.erase(std::ranges::unique(own).begin(), own.end());
+  const Result<std::vector<std::int64_t>> changed =
+      project::changed_since(database, event, kMostChanges + 1 + own.size());
+  if (!changed) return changed.error();
+  std::vector<std::int64_t> others;
+  std::ranges::set_difference(*changed, own, std::back_inserter(others));
+  if (others.size() > kMostChanges) return ToldChanges{std::move(own), true};
+  std::vector<std::int64_t> all;
+  std::ranges::merge(own, others, std::back_inserter(all));
+  return ToldChanges{std::move(all), false};
+}
+
 HttpStatus status_of(ErrorCode code) {
   if (code == ErrorCode::usage) return HttpStatus::bad_request;
   // A project that is locked, or on a full disk: another try may do better.
@@ -49,18 +74,14 @@ Result<std::string> project_answer(project::Database& database, std::int64_t eve
                                    const project::DecisionsAsSeen* done) {
   const Result<project::SeenState> now = project::state_now(database);
   if (!now) return now.error();
-  Result<std::vector<std::int64_t>> ids = project::changed_since(database, event, kMostChanges + 1);
-  if (!ids) return ids.error();
-  const bool too_many = ids->size() > kMostChanges;
-  if (too_many) ids->clear();
-  if (done != nullptr) ids->insert(ids->end(), done->decided.begin(), done->decided.end());
-  std::ranges::sort(*ids);
-  ids->erase(std::ranges::unique(*ids).begin(), ids->end());
-  const Result<std::vector<project::ListedClash>> clashes = project::read_clashes(database, *ids);
+  const Result<ToldChanges> told = told_changes(database, event, done);
+  if (!told) return told.error();
+  const Result<std::vector<project::ListedClash>> clashes =
+      project::read_clashes(database, told->clashes);
   if (!clashes) return clashes.error();
   std::string out = "{\"run\": " + std::to_string(now->run) +
                     ", \"event\": " + std::to_string(now->event) +
-                    ", \"too_many\": " + (too_many ? "true" : "false") + ", ";
+                    ", \"too_many\": " + (told->too_many ? "true" : "false") + ", ";
   report::append_list(out, "clashes", *clashes,
                       [&](const project::ListedClash& clash) { append_clash(out, clash); });
   if (done != nullptr) {

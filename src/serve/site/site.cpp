@@ -44,6 +44,11 @@ bool is_json(std::string_view type) {
   return lowered(trimmed(type.substr(0, end))) == kJson;
 }
 
+/// An error as people read it, where no page can be shown.
+Answer told_answer(const Error& error) {
+  return text_answer(error_answer(error).status, error.text());
+}
+
 Answer json_answer(HttpStatus status, std::string text) {
   return {status, std::string(kJson), std::make_shared<const std::string>(std::move(text))};
 }
@@ -75,7 +80,10 @@ std::optional<Answer> Site::refuse(const Request& request) {
 }
 
 Answer Site::answer(const Request& request) {
-  if (request.path == kPagePath) return guarded(page());
+  const bool is_page = request.path == kPagePath;
+  if (const Status there = contents_.database.check_in_place(); !there)
+    return guarded(is_page ? told_answer(there.error()) : error_answer(there.error()));
+  if (is_page) return guarded(page());
   if (request.path == kStatePath) return guarded(state(request));
   return guarded(decide(request));
 }
@@ -95,10 +103,7 @@ Status Site::prepare() {
 }
 
 Answer Site::page() {
-  if (const Status status = prepare(); !status) {
-    const Answer refusal = error_answer(status.error());
-    return text_answer(refusal.status, status.error().text());
-  }
+  if (const Status status = prepare(); !status) return told_answer(status.error());
   return {HttpStatus::ok,
           "text/html; charset=utf-8",
           page_.html,

@@ -181,6 +181,20 @@ class View(Scenario):
             writer.close()
             self.decide(self.keys, status='approved')
 
+    def test_a_project_that_is_not_there_any_more_takes_no_decisions(self):
+        with self.served():
+            for move in (lambda: (self.folder / 'p.strake').rename(self.folder / 'away.strake'),
+                         lambda: self.write('p.strake', 'another one')):
+                move()
+                told = self.decide(self.keys, expect=503, status='approved')
+                self.assertIn('was moved, deleted or replaced', told['error'])
+                self.assertEqual(self.ask('GET', '/api/state?event=0').status, 503)
+                page = self.ask('GET', '/')
+                self.assertEqual((page.status, page.getheader('Content-Type')), (503, 'text/plain; charset=utf-8'))
+            (self.folder / 'away.strake').rename(self.folder / 'p.strake')
+            self.decide(self.keys[:1], status='approved')
+        self.assertEqual(self.statuses(), {self.keys[0]: 'approved', self.keys[1]: 'new'})
+
     def test_slow_and_broken_clients_keep_nobody_waiting(self):
         with self.served():
             slow = [socket.create_connection(('127.0.0.1', self.port)) for _ in range(30)]

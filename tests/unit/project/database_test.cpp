@@ -260,6 +260,19 @@ TEST_F(ProjectFileTest, WhoeverClosesLastLeavesOneFile) {
   EXPECT_EQ(test::number(*later, "SELECT length(files) FROM model_seal"), 15);
 }
 
+TEST_F(ProjectFileTest, AFileThatIsNoLongerWhereItWasIsTold) {
+  auto project = Project::open(make(), {.access = Access::write});
+  ASSERT_TRUE(project) << project.error().text();
+  EXPECT_TRUE(project->database().check_in_place());
+  const fs::path away = folder_.path() / "away.strake";
+  fs::rename(file_, away);
+  expect_error(project->database().check_in_place(), ErrorCode::output, "moved");
+  static_cast<void>(folder_.write("ship.strake", "another one"));
+  expect_error(project->database().check_in_place(), ErrorCode::output, "replaced");
+  fs::rename(away, file_);
+  EXPECT_TRUE(project->database().check_in_place());
+}
+
 TEST_F(ProjectFileTest, ALastPageThatIsCutOffIsFound) {
   static_cast<void>(make());
   const auto faults = [&] {

@@ -98,6 +98,43 @@ TEST_F(DecideAsSeen, a_run_meanwhile_that_leaves_a_clash_as_it_is_is_no_change) 
   EXPECT_EQ(status(1), "approved");
 }
 
+TEST_F(DecideAsSeen, what_a_later_run_found_is_not_decided_about_by_who_knows_its_events_alone) {
+  const std::int64_t run_seen = now().run;
+  add_run(*database_, 2);
+  ASSERT_TRUE(database_->execute(
+      "INSERT INTO event (clash, run, at, who, before, after, comment) VALUES "
+      "(1, 2, '2026-01-03T00:00:00Z', 'strake', 'approved', 'active', 'deeper')"));
+  // Of one that nobody had approved a run changes the depth without an event.
+  ASSERT_TRUE(
+      database_->execute("INSERT INTO former VALUES (2, 2, 'found', 'HIT', -1, 1, NULL), "
+                         "(3, 2, 'found', 'HIT', -1, 1, NULL);"
+                         "UPDATE clash SET d_mm = -50 WHERE id = 2;"
+                         "UPDATE clash SET unknown = 'it is left out' WHERE id = 3"));
+  const std::vector<std::string> keys{clash_key(0), clash_key(1), clash_key(2), clash_key(3)};
+  const ClashDecision approval = decision_by("ann", DecisionStatus::approved);
+  const DecisionsAsSeen done = decide(keys, approval, {run_seen, now().event});
+  EXPECT_EQ(done.decided, (std::vector<std::int64_t>{4}));
+  ASSERT_EQ(done.refused.size(), 3U);
+  EXPECT_EQ(done.refused[0].why, "a later run made it active: deeper");
+  EXPECT_EQ(done.refused[1].why, "run 2 finds it otherwise: HIT, d = -50.000 mm");
+  EXPECT_EQ(done.refused[2].why, "run 2 cannot tell whether it is there: it is left out");
+  EXPECT_TRUE(decide(keys, approval, now()).refused.empty()) << "who has seen the run may";
+}
+
+TEST_F(DecideAsSeen, texts_that_are_no_utf8_are_stored_as_such_nowhere) {
+  ClashDecision decision = decision_by("bob\xff", DecisionStatus::reviewed);
+  decision.comment = "a\xff";
+  decision.assignee = "\xff";
+  const SeenState seen = now();
+  decide({clash_key(0)}, decision, seen);
+  const std::vector<ClashEvent> events = read_events(*database_, clash_key(0)).value();
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].who, "bob\ufffd");
+  EXPECT_EQ(events[0].comment, "a\ufffd; assigned to \ufffd");
+  ASSERT_TRUE(events[0].said.has_value());
+  EXPECT_EQ(events[0].said->text, "a\ufffd");
+}
+
 TEST_F(DecideAsSeen, keys_of_no_clash_are_refused_each) {
   const std::string strange(10000, '\'');
   const DecisionsAsSeen done =

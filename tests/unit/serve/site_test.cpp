@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "serve/site/project_answer.hpp"
 #include "support/clash_rows.hpp"
 #include "unit/serve/http_client.hpp"
 
@@ -188,6 +189,26 @@ TEST_F(SiteTest, a_run_that_came_in_between_is_told) {
       decide(here, {{"run", 1}, {"event", 0}, {"keys", {clash_key(1)}}, {"status", "approved"}},
              HttpStatus::ok);
   EXPECT_EQ(done["run"], 2) << "it still stands, and the page is told of the run";
+}
+
+TEST_F(SiteTest, what_the_page_decides_itself_is_never_too_much_to_be_told) {
+  const int most = static_cast<int>(kMostChanges);
+  database_ = project_with_clashes(most + 2);
+  Site here = site();
+  json keys = json::array();
+  for (int i = 0; i <= most; ++i) keys.push_back(clash_key(i));
+  const json own = decide(here, {{"run", 1}, {"event", 0}, {"keys", keys}, {"status", "reviewed"}},
+                          HttpStatus::ok);
+  EXPECT_EQ(own["too_many"], false);
+  EXPECT_EQ(own["clashes"].size(), kMostChanges + 1);
+  // To whom it is not their own it is, whatever they decide besides.
+  EXPECT_EQ(state(here, 0)["too_many"], true);
+  const json other =
+      decide(here, {{"run", 1}, {"event", 0}, {"keys", {clash_key(most + 1)}}, {"comment", "mine"}},
+             HttpStatus::ok);
+  EXPECT_EQ(other["too_many"], true);
+  ASSERT_EQ(other["clashes"].size(), 1U);
+  EXPECT_EQ(other["clashes"][0]["comment"], "mine");
 }
 
 TEST_F(SiteTest, what_makes_no_sense_changes_nothing) {

@@ -47,8 +47,13 @@ const LONGEST_MS = 60_000;
 export function takeToken(): string | undefined {
   const url = new URL(location.href);
   const given = url.searchParams.get('token');
-  if (given === null) return sessionStorage.getItem(TOKEN) ?? undefined;
-  sessionStorage.setItem(TOKEN, given);
+  try {
+    if (given === null) return sessionStorage.getItem(TOKEN) ?? undefined;
+    sessionStorage.setItem(TOKEN, given);
+  } catch {
+    // A browser that lets pages keep nothing: then the address keeps it, and opens the page again.
+    return given ?? undefined;
+  }
   url.searchParams.delete('token');
   history.replaceState(null, '', url.pathname + url.search + url.hash);
   return given;

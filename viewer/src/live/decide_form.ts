@@ -3,13 +3,15 @@
 import { plural, STATUS_WORDS } from '../data/words.ts';
 import { STATUSES } from '../payload/payload.ts';
 import { fill, h } from '../ui/dom.ts';
-import type { Decision } from './api.ts';
+import { ApiError, type Decision } from './api.ts';
 import type { Decisions } from './decisions.ts';
 
 /** What became of a decision: of how many clashes it is, and of which it is not. */
 export interface Outcome {
   decided: number;
   refused: { row: number | undefined; what: string; why: string }[];
+  /** there is more to see of the project than the page shows, as another run */
+  isBehind: boolean;
 }
 
 const MOST_TOLD = 5;
@@ -27,11 +29,12 @@ export class DecideForm {
   private rows: ArrayLike<number> = [];
   private busy = false;
 
-  /** `decide` sends a decision about rows and throws an error whose message says why it could not. */
+  /** `decide` sends a decision about rows and throws an error whose message says why it could not; `nameOf` is how people call a row. */
   constructor(
     private readonly decisions: Decisions,
     by: string,
     private readonly decide: (rows: ArrayLike<number>, decision: Decision) => Promise<Outcome>,
+    private readonly nameOf: (row: number) => string,
   ) {
     const field = (label: string, control: HTMLElement): HTMLElement => h('div', { class: 'decide-field' }, h('label', { for: control.id }, label), control);
     this.element = h('form', { class: 'decide', 'aria-label': 'Decision', 'aria-describedby': 'decide-hint' },
@@ -100,7 +103,10 @@ export class DecideForm {
   }
 
   private async submit(): Promise<void> {
-    if (this.busy) return;
+    if (this.busy) {
+      fill(this.told, h('p', {}, 'What was saved before is still on its way: save this in a moment.'));
+      return;
+    }
     const decision = this.decision();
     if (Object.keys(decision).length === 0) {
       fill(this.told, h('p', {}, 'Nothing is changed: choose another status, or write something.'));
@@ -112,25 +118,36 @@ export class DecideForm {
     try {
       const outcome = await this.decide(rows, decision);
       if (this.rows === rows) this.tell(outcome);
+      else if (outcome.refused.length > 0) this.tellRefused(outcome, '');
     } catch (error) {
-      if (this.rows === rows) fill(this.told, h('p', { class: 'note', role: 'alert' }, `Nothing was saved. ${error instanceof Error ? error.message : String(error)}`));
+      const what = this.rows === rows ? '' : ` for ${rows.length === 1 ? this.nameOf(rows[0]!) : plural(rows.length, 'clash', 'clashes')}, chosen before`;
+      // Who does not answer may have taken it all the same.
+      const saved = error instanceof ApiError && error.kind === 'silent' ? 'It is not known whether it was saved' : 'Nothing was saved';
+      fill(this.told, h('p', { class: 'note', role: 'alert' }, `${saved}${what}. ${error instanceof Error ? error.message : String(error)}`));
     }
     this.busy = false;
     this.save.removeAttribute('aria-disabled');
   }
 
-  private tell({ decided, refused }: Outcome): void {
-    const saved = decided > 0 || refused.length === 0 ? `Saved for ${plural(decided, 'clash', 'clashes')}.` : '';
+  /** Tells what became of a decision about the rows that the form is about. */
+  private tell(outcome: Outcome): void {
+    const { decided, refused, isBehind } = outcome;
     if (refused.length === 0) {
       this.touched.clear();
       this.refresh();
-      fill(this.told, h('p', {}, saved));
+      fill(this.told, h('p', {}, `Saved for ${plural(decided, 'clash', 'clashes')}.`));
       return;
     }
     // Who looks at what it says now, and still means it, saves again.
     this.rows = Uint32Array.from(refused.flatMap((r) => (r.row === undefined ? [] : [r.row])));
     this.refresh();
-    const again = this.rows.length > 0 ? ' It shows what they say now; Save sets it all the same.' : '';
+    const again = isBehind ? ' It shows what they say now; what a later run found is decided about once its results are shown.' : ' It shows what they say now; Save sets it all the same.';
+    this.tellRefused(outcome, this.rows.length > 0 ? again : '');
+  }
+
+  /** Whoever has gone on to another clash is told, too: what they decided is not saved. */
+  private tellRefused({ decided, refused }: Outcome, again: string): void {
+    const saved = decided > 0 ? `Saved for ${plural(decided, 'clash', 'clashes')}.` : '';
     fill(this.told,
       h('div', { class: 'note', role: 'alert' },
         h('p', {}, `${saved} Not saved for ${plural(refused.length, 'clash that', 'clashes that')} changed meanwhile.${again}`.trim()),

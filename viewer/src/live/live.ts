@@ -51,7 +51,7 @@ export class Live {
     this.api = new Api(token);
     if (!this.decisions) return;
     this.marks = new Marks(events);
-    this.form = new DecideForm(this.decisions, shown(by).slice(0, 80), (rows, decision) => this.decide(rows, decision));
+    this.form = new DecideForm(this.decisions, shown(by).slice(0, 80), (rows, decision) => this.decide(rows, decision), (row) => this.nameOf(row));
   }
 
   /** Begins to follow the project. */
@@ -113,7 +113,8 @@ export class Live {
   }
 
   private take(state: ProjectState): void {
-    this.seen.event = state.event;
+    // What is not told is not seen: it is asked for again, and not decided about, until the page is loaded anew.
+    if (!state.tooMany) this.seen.event = state.event;
     const rows = this.decisions?.apply(state.clashes) ?? [];
     if (rows.length > 0) {
       this.form?.refresh();
@@ -130,22 +131,24 @@ export class Live {
     // What was seen when somebody pressed Save, whatever is told before it is their turn.
     const seen = { ...this.seen };
     return this.inTurn(async () => {
-      const outcome: Outcome = { decided: 0, refused: [] };
+      const outcome: Outcome = { decided: 0, refused: [], isBehind: false };
       for (let from = 0; from < keys.length; from += KEYS_AT_ONCE) {
         const part = keys.slice(from, from + KEYS_AT_ONCE);
         const state = await this.api!.decide(seen, part, decision);
         this.take(state);
         outcome.decided += part.length - state.refused.length;
-        for (const { key: of, why } of state.refused) outcome.refused.push({ row: this.decisions!.row(of), what: this.nameOf(of), why: shown(why).slice(0, 300) });
+        outcome.isBehind ||= state.tooMany || state.run !== this.seen.run;
+        for (const { key: of, why } of state.refused) {
+          const row = this.decisions!.row(of);
+          outcome.refused.push({ row, what: row === undefined ? of : this.nameOf(row), why: shown(why).slice(0, 300) });
+        }
       }
       return outcome;
     });
   }
 
   /** A clash by its objects. */
-  private nameOf(key: string): string {
-    const row = this.decisions!.row(key);
-    if (row === undefined) return key;
+  private nameOf(row: number): string {
     const { results, objects } = this.report;
     return [results!.a, results!.b].map((side) => objectName(objects!, side[row]!).slice(0, 60)).join(' and ');
   }

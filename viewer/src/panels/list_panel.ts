@@ -107,8 +107,13 @@ export class ListPanel {
     this.table.show(rows as Uint32Array<ArrayBuffer>, this.current);
     this.makePills();
     fill(this.holder, this.groupsShown && this.groupTable ? this.groupTable.element : this.table.element);
-    if (this.groupsShown) this.updateGroups(rows.length);
-    else this.say(rows.length, this.report.head.counts.results, 'result');
+    this.tellShown(rows.length);
+  }
+
+  /** Says how much is listed, and lists the groups where these are looked at. */
+  private tellShown(results: number): void {
+    if (this.groupsShown) this.updateGroups(results);
+    else this.say(results, this.report.head.counts.results, 'result');
   }
 
   /** What is listed now. */
@@ -130,12 +135,19 @@ export class ListPanel {
     else this.table.refresh();
   }
 
-  /** Shows other decisions: the list stays where it is, unless they change what is in it. */
+  /** Shows other decisions. What is listed keeps its order, for who goes through it: what the limits do not let through any more is left out. */
   redecided(): void {
-    const rows = this.rows.sort(this.rows.filter(this.filter), this.sort.column, this.sort.down);
+    const isLet = new Uint8Array(this.report.head.counts.results);
+    const rows = this.rows.filter(this.filter);
+    for (const row of rows) isLet[row] = 1;
     const { shown } = this.table;
-    if (rows.length === shown.length && rows.every((row, i) => row === shown[i])) this.refresh();
-    else this.update();
+    const kept = shown.filter((row) => isLet[row] === 1);
+    if (kept.length < rows.length) this.update();
+    else if (kept.length === shown.length) this.refresh();
+    else {
+      this.table.keep(kept);
+      this.tellShown(kept.length);
+    }
   }
 
   private say(shownRows: number, all: number, what: string): void {

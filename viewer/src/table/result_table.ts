@@ -34,6 +34,8 @@ export class ResultTable<Id extends string> {
   private readonly virtual: VirtualRows;
   private rows = new Uint32Array(0);
   private current = -1;
+  /** before which row steps go on while none is chosen */
+  private next = 0;
   private sort: { column: Id | undefined; down: boolean } = { column: undefined, down: false };
 
   constructor(
@@ -57,8 +59,23 @@ export class ResultTable<Id extends string> {
     this.rows = rows;
     this.element.setAttribute('aria-rowcount', String(rows.length + 1));
     this.current = keep < 0 ? -1 : rows.indexOf(keep);
+    this.next = 0;
     this.virtual.reset(rows.length);
     if (this.current >= 0) this.virtual.reveal(this.current);
+    this.activate();
+  }
+
+  /** Leaves rows out. Who goes through the table goes on where they are. */
+  keep(rows: Uint32Array<ArrayBuffer>): void {
+    const chosen = this.rows[this.current];
+    if (chosen !== undefined) {
+      const left = new Set(rows);
+      this.next = this.rows.subarray(0, this.current).filter((row) => left.has(row)).length;
+    }
+    this.rows = rows;
+    this.element.setAttribute('aria-rowcount', String(rows.length + 1));
+    this.current = chosen === undefined ? -1 : rows.indexOf(chosen);
+    this.virtual.reset(rows.length, false);
     this.activate();
   }
 
@@ -81,7 +98,9 @@ export class ResultTable<Id extends string> {
   /** Goes on by so many rows. */
   step(by: number): void {
     if (this.rows.length === 0) return;
-    this.goTo(Math.min(this.rows.length - 1, Math.max(0, this.current + by)));
+    // The one that was left out stood before the next.
+    const from = this.current >= 0 ? this.current : by > 0 ? this.next - 1 : this.next;
+    this.goTo(Math.min(this.rows.length - 1, Math.max(0, from + by)));
   }
 
   refresh(): void {
