@@ -94,6 +94,7 @@ set(manual
   examples/nightly.sh
   examples/ship_rules.toml
   examples/ship_notes.toml
+  examples/ship_set.toml
   examples/ship_sheet.toml
   python/README.md
   python/examples)
@@ -210,7 +211,7 @@ install(FILES ${PROJECT_BINARY_DIR}/strake.pc DESTINATION ${CMAKE_INSTALL_LIBDIR
 # For users of the program and of the library alike.
 install(DIRECTORY schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/strake COMPONENT program)
 install(DIRECTORY rules DESTINATION ${CMAKE_INSTALL_DATADIR}/strake COMPONENT program)
-install(FILES examples/ship_notes.toml examples/ship_rules.toml examples/ship_sheet.toml
+install(FILES examples/ship_notes.toml examples/ship_rules.toml examples/ship_set.toml examples/ship_sheet.toml
   DESTINATION ${CMAKE_INSTALL_DATADIR}/strake/examples COMPONENT program)
 install(PROGRAMS examples/nightly.sh
   DESTINATION ${CMAKE_INSTALL_DATADIR}/strake/examples COMPONENT program)

@@ -16,13 +16,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Python runs this. It says what to install where the package is not there.
+/// Python runs this. It says what to install where the package is not there. No module is taken
+/// from the folder of the run: what lies beside a model may be anybody's.
 constexpr const char* kStart = R"(import sys
+sys.path = [folder for folder in sys.path if folder]
 try:
     from strake.cluster_program import main
-except ImportError:
-    sys.stderr.write("strake: error: --scheduler: " + (sys.executable or "python3") + " lacks the package strake "
-                     "(pip install 'strake[cluster]', or let STRAKE_PYTHON name a Python that has it)\n")
+except ImportError as error:
+    sys.stderr.write("strake: error: --scheduler: " + (sys.executable or "python3")
+                     + " lacks the package strake, or what it needs: " + str(error)
+                     + " (pip install 'strake[cluster]', or let STRAKE_PYTHON name a Python "
+                     + "that has it)\n")
     sys.exit(2)
 sys.exit(main(sys.argv[1:]))
 )";

@@ -390,6 +390,15 @@ def test_what_the_program_refuses_by_tiles(tmp_path: Path, through_python: None,
     assert not out.exists()
 
 
+def test_no_module_comes_from_the_folder_of_the_run(
+    tmp_path: Path, through_python: None, ship_file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "numpy.py").write_text("raise SystemExit('taken from beside the model')\n")
+    monkeypatch.chdir(tmp_path)
+    done = strake.run_program(["clash", str(ship_file), "--scheduler", "local", "--quiet", "-o", "out.json"], check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
 def test_a_python_without_the_package(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, ship_file: Path) -> None:
     words = ["clash", str(ship_file), "--scheduler", "local", "-o", str(tmp_path / "out.json")]
     monkeypatch.setenv("STRAKE_PYTHON", str(tmp_path / "python9"))

@@ -249,6 +249,7 @@ class Composer {
       options.far_left_out = far_left_out_[v];
       for (const settings::Chooser& chooser : spec.uncut)
         options.uncut_selections.push_back(chooser.selection.text());
+      if (spec.single_line) options.single_line_mm = spec.single_line->largest_diameter_mm;
       auto laid_out = drawing::lay_out(drawings_[v], *scene_.model, options, context_);
       if (!laid_out) return laid_out.error();
       drawings_[v] = {};

@@ -232,7 +232,7 @@ Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool 
   if (!view) return view.error();
   const Result<hlr::Options> options = engine_options(given, keep_hidden);
   if (!options) return options.error();
-  const Result<drawing::LayoutOptions> layout = layout_options(given);
+  Result<drawing::LayoutOptions> layout = layout_options(given);
   if (!layout) return layout.error();
   const auto selections = parse_selections(given.select, "--select");
   if (!selections) return selections.error();
@@ -247,6 +247,7 @@ Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool 
           parse_option(given.single_line, "--single-line", model::parse_single_line, single_line);
       !status)
     return status.error();
+  if (single_line) layout->single_line_mm = single_line->largest_diameter_mm;
   return DrawRequest{*scene,      *view,
                      *options,    *layout,
                      *selections, *uncut,

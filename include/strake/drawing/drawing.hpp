@@ -117,6 +117,9 @@ struct LayoutOptions {
   std::vector<model::ObjectId> far_left_out = {};
   /// What the selections of hlr::Options::uncut are called; the drawing says so.
   std::vector<std::string> uncut_selections = {};
+  /// Pipes up to this outer diameter, mm, were made single lines before the lines were found (0:
+  /// none were); the drawing says so.
+  double single_line_mm = 0;
 };
 
 /// A drawing without a format: SVG and JSON are both written from it.
@@ -135,6 +138,7 @@ struct NeutralDrawing {
   bool flush_seams = true;  ///< false: left out, see hlr::Options::flush_seams
   bool uncut = false;       ///< sections leave objects whole: see hlr::Options::uncut
   std::vector<std::string> uncut_selections;  ///< as LayoutOptions has them, in order and each once
+  double single_line_mm = 0;                  ///< as LayoutOptions has it
   double contact_distance_mm = 0;
   double sag_mm = 0;    ///< the sag asked for of curved primitives; 0: unknown
   double weld_mm = -1;  ///< seams were closed within it; negative: the precision of each body

@@ -271,6 +271,7 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.flush_seams = drawing.options.flush_seams;
   out.uncut = !drawing.options.uncut.empty();
   if (out.uncut) out.uncut_selections = in_order_once(options.uncut_selections);
+  out.single_line_mm = options.single_line_mm;
   out.contact_distance_mm = drawing.contact_distance_mm;
   out.sag_mm = drawing.sag_mm;
   out.weld_mm = drawing.weld_mm;

@@ -81,6 +81,7 @@ void write_view(BufferedWriter& out, const NeutralDrawing& drawing) {
     out << ",\"own_polylines\":\"" << own_polylines_name(drawing.own_polylines) << "\"";
   if (!drawing.flush_seams) out << ",\"flush_seams\":\"off\"";
   write_uncut(out, drawing);
+  if (drawing.single_line_mm > 0) out << ",\"single_line_mm\":" << shortest(drawing.single_line_mm);
   out << ",\"contact_distance_mm\":" << shortest(drawing.contact_distance_mm);
   if (drawing.sag_mm > 0) out << ",\"sag_mm\":" << shortest(drawing.sag_mm);
   if (drawing.weld_mm >= 0) out << ",\"weld_mm\":" << shortest(drawing.weld_mm);

@@ -185,6 +185,8 @@ void read_view_settings(const std::map<std::string, std::string>& settings,
                                    hlr::OwnPolylines::visible);
   drawing.flush_seams = !of("settings.flush_seams").is_there();
   read_uncut(of("settings.uncut"), drawing);
+  if (const Setting diameter = of("settings.single_line_mm"); diameter.is_there())
+    drawing.single_line_mm = diameter.number();
   drawing.contact_distance_mm = of("settings.contact_distance_mm").number();
   if (const Setting sag = of("settings.sag_mm"); sag.is_there()) drawing.sag_mm = sag.number();
   if (const Setting weld = of("settings.weld_mm"); weld.is_there()) drawing.weld_mm = weld.number();

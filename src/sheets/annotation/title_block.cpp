@@ -273,6 +273,12 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+/// Returns where the fields of a sheet are given; sheets of a file may have them in common.
+std::string where_of_fields(const SheetSpec& what) {
+  const std::string where = what.fields_where.empty() ? what.file : what.fields_where;
+  return what.name.empty() ? where : where + ", sheet '" + what.name + "'";
+}
+
 /// The values of the fields of a sheet.
 class Fields {
  public:
@@ -310,7 +316,7 @@ class Fields {
       if (find(name) == nullptr) empty.push_back(name);
     for (const auto& field : what.fields)
       if (!contains(places, field.first)) idle.push_back(field.first);
-    const std::string where = what.fields_where.empty() ? what.file : what.fields_where;
+    const std::string where = where_of_fields(what);
     // Who gives no fields at all has not forgotten one.
     const bool meant = what.fields_where.empty() && !what.artwork;
     if (!empty.empty())
@@ -353,7 +359,7 @@ void fill_frame(const SheetSpec& what, std::optional<double> scale, Sheet& sheet
   if (!narrow.empty())
     sheet.diagnostics.add(Severity::warning, "field-too-long",
                           "texts are longer than their boxes: " + listed(narrow),
-                          what.fields_where);
+                          where_of_fields(what));
 }
 
 }  // namespace strake::sheets

@@ -97,6 +97,11 @@ class Conventions(Scenario):
         self.assertIn('--single-line', done.stderr)
         _, (again,) = self.drawn('x.view', outputs=('x.json',))
         self.assertEqual(again, made[3])
+        # Which pipes are lines is a setting that a comparison tells.
+        self.assertEqual(json.loads(made[3])['settings']['single_line_mm'], 105)
+        self.drawn(*run[:-2], outputs=('plain.json',))
+        done = self.run_strake('draw', 'diff', 'plain.json', 'x.json')
+        self.assertIn('settings.single_line_mm', done.stdout)
 
     def test_a_project_keeps_them(self):
         self.folder.joinpath('round.rvm').write_bytes(rvm(rvm_of_round_things()))

@@ -72,6 +72,9 @@ class SheetSet(Scenario):
         done = self.draw('s.pdf', 's.dxf', 's.html', 'of-{sheet}.svg')
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("sheet 'front', view 'v': ", done.stderr)
+        # Fields that sheets have in common are missing on each of them.
+        for sheet in ('plan', 'front'):
+            self.assertRegex(done.stderr, f"field-not-filled: s.toml, line \\d+: \\[fields\\], sheet '{sheet}': ")
         pages = tool('pdfinfo', '-l', 2, self.folder / 's.pdf').stdout.decode()
         self.assertEqual(re.findall(r'\((A\d)\)', pages), ['A4', 'A3'])
         outline = json.loads(tool('qpdf', '--json=2', '--json-key=outlines', self.folder / 's.pdf').stdout)['outlines']

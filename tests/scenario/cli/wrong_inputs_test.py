@@ -170,6 +170,10 @@ USAGE = [
     ('clash a.obj -o x.json -o ./x.json', '-o', 'twice'),
     ('clash a.obj --log-pairs x.json', '--log-pairs', '.csv'),
     ('clash a.obj --top-pictures 3', '--top-pictures', '--pictures'),
+    ('clash a.obj --bcf-history', '--bcf-history', 'add -o FILE.bcf'),
+    *((f'{verb} a.obj {option} {value}', option, 'add --scheduler') for verb in ('clash', 'draw')
+      for option, value in (('--worker-memory', '1GiB'), ('--worker-threads', '2'), ('--tile-folder', 't'))),
+    *((f"{verb} a.obj --scheduler ''", '--scheduler', 'the value is empty') for verb in ('clash', 'draw')),
     ('clash a.obj -o x.csv --log-pairs x.csv', '--log-pairs', 'its own name'),
     *behind(['clash diff c.json c.json --match-files', 'draw diff v.view v.view --match-files'], [
         ('a.obj', 'names no two files'), ('b.obj=a.obj', 'it has a.obj'), ("''", 'the value is empty')]),

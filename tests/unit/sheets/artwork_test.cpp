@@ -175,10 +175,13 @@ TEST(Artwork, TextsStandAtTheirAnchors) {
 TEST(Artwork, TellsWhatIsLeftOut) {
   const Artwork drawn(
       "<image href='data:image/png;base64,AA=='></image><rect width='1' height='1' "
-      "fill='url(#g)' opacity='0.5'></rect><g clip-path='url(#c)'></g>"
+      "fill='url(#g)' opacity='0.5'></rect><circle r='2'></circle><g clip-path='url(#c)'></g>"
       "<text><textPath href='#p'>along</textPath></text>");
   EXPECT_EQ(drawn.told.count("template-part-left-out"), 5U);
   EXPECT_TRUE(drawn.has("f\n")) << "the rest is drawn";
+  // A light gradient behind texts would be a black box that hides them.
+  EXPECT_EQ(Artwork("<rect width='1' height='1' fill='url(#g)'></rect>").operators, "");
+  EXPECT_TRUE(Artwork("<rect width='1' height='1' fill='url(#g) #f00'></rect>").has("1 0 0 rg\n"));
   // References that lead in a circle, which no template has that was read.
   EXPECT_EQ(Artwork("<g id='a'><use href='#a'></use></g>").told.counts().size(), 1U);
 }

@@ -31,7 +31,7 @@ TEST(SheetRow, ATextIsAStringWhateverItBeginsWith) {
   EXPECT_EQ(out,
             "<row r=\"7\"><c r=\"A7\" s=\"3\" t=\"inlineStr\"><is><t xml:space=\"preserve\">=1+1"
             "</t></is></c><c r=\"C7\" s=\"3\" t=\"inlineStr\"><is><t xml:space=\"preserve\">"
-            "&lt;&amp;&gt;\"</t></is></c></row>");
+            "&lt;&amp;&gt;&quot;</t></is></c></row>");
 }
 
 TEST(SheetRow, AValueIsANumberWhereNothingOfItGetsLost) {

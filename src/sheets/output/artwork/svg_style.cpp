@@ -111,6 +111,13 @@ class StyleReader {
       paint.reset();
       return true;
     }
+    if (fill && lowered(value).starts_with("url(")) {
+      // An area with a gradient is left out, or has the colour for those who know none.
+      const std::size_t end = value.find(')');
+      paint = end == std::string_view::npos ? std::nullopt
+                                            : paint_color(trimmed(value.substr(end + 1), kSpace));
+      return false;
+    }
     const auto color = paint_color(value);
     if (color) paint = *color;
     return color.has_value();
