@@ -162,7 +162,7 @@ std::vector<report::DecisionComment> said_of(const report::Decision& decision) {
 TopicComment topic_comment(const report::DecisionComment& said, const std::string& topic,
                            const report::BcfForm& form) {
   const auto author_of = [&](const std::string& by) {
-    std::string author = compared_text(by);
+    const std::string author = compared_text(by);
     return author.empty() ? form.author : author;
   };
   TopicComment comment;

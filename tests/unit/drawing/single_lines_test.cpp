@@ -26,7 +26,6 @@ using hlr::EdgeKind;
 
 const Mat3d kStraight{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
 const Mat3d kPipeAlongX{{{{0, 0, 1}, {0, 1, 0}, {-1, 0, 0}}}};  // local z lies along x
-const Mat3d kBendInXz{{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}}};    // local y lies along z
 
 class PipeModel {
  public:

@@ -123,8 +123,9 @@ TEST(Thinning, ObjectsDoNotThinEachOther) {
 
 // A short line within a wall: beside it the wall's own lines are inner ones, above it are none.
 TEST(Thinning, LinesAreCutWhereTheyAreDense) {
-  std::vector<Line> lines{thin_test_line({0, 0}, {0, 50}), thin_test_line({0.2, 0}, {0.2, 50}),
-                          thin_test_line({0.4, 30}, {0.4, 50})};
+  const std::vector<Line> lines{thin_test_line({0, 0}, {0, 50}),
+                                thin_test_line({0.2, 0}, {0.2, 50}),
+                                thin_test_line({0.4, 30}, {0.4, 50})};
   const Ink ink = thinned(lines);
   ASSERT_EQ(ink.lines.size(), 3U);
   EXPECT_EQ(ink.lines[1].a_paper, (PaperPoint{0.2, 0}));

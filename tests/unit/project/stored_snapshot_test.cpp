@@ -77,7 +77,7 @@ TEST_F(StoredSnapshotTest, ComesBackAsItWas) {
 TEST_F(StoredSnapshotTest, ElementsComeBackWithIt) {
   const Snapshot snapshot = of(9'000);
   std::vector<std::uint64_t> elements(snapshot.identities.size());
-  std::ranges::iota_view numbers(std::uint64_t{5}, std::uint64_t{5 + elements.size()});
+  const std::ranges::iota_view numbers(std::uint64_t{5}, std::uint64_t{5 + elements.size()});
   std::ranges::copy(numbers, elements.begin());
   ASSERT_TRUE(write_snapshot(*database_, 5, snapshot, elements, {}, context_));
   const StoredSnapshot stored = read().value();

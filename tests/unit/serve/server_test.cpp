@@ -128,7 +128,7 @@ TEST_F(ServerTest, what_is_no_request_does_no_harm) {
     std::string damaged = whole.substr(0, 1 + random() % whole.size());
     for (int change = 0; change < 4; ++change)
       damaged[random() % damaged.size()] = static_cast<char>(random() % 256);
-    Client client(served_->port());
+    const Client client(served_->port());
     client.send(damaged);
   }
   for (const std::string& strange :
@@ -160,7 +160,7 @@ TEST_F(ServerTest, slow_clients_keep_nobody_waiting_and_are_ended) {
 }
 
 TEST_F(ServerTest, many_read_at_once_and_one_that_stops_reading_stops_none) {
-  Client stuck(served_->port());
+  const Client stuck(served_->port());
   stuck.send(get("/large"));
   std::vector<std::jthread> readers;
   std::vector<std::size_t> sizes(8, 0);
@@ -177,7 +177,7 @@ TEST_F(ServerTest, clients_that_go_away_end_nothing) {
 }
 
 TEST_F(ServerTest, a_stop_ends_it_at_once_with_clients_on_it) {
-  Client silent(served_->port());
+  const Client silent(served_->port());
   silent.send("GET /");
   Client idle(served_->port());
   idle.ask(get("/a"));

@@ -117,7 +117,7 @@ TEST(TiledView, DrawsWhatIsDrawnOfTheWholeModel) {
   std::size_t tiles = 0;
   for (const hlr::View& view : views()) {
     for (const double sag_mm : {0.0, 0.02}) {
-      hlr::Options options{.sag_mm = sag_mm, .hidden = sag_mm == 0};
+      const hlr::Options options{.sag_mm = sag_mm, .hidden = sag_mm == 0};
       const hlr::Drawing whole = files.whole(view, options);
       ASSERT_GT(whole.pieces.size(), 300U);
       for (const std::uint64_t most : {std::uint64_t{1} << 40U, std::uint64_t{200'000}}) {
