@@ -122,7 +122,7 @@ Status decode_snapshot_part(std::span<const std::byte> bytes, PartOfObjects part
   const auto first = static_cast<std::ptrdiff_t>(part.first);
   std::ranges::copy(identities, stored.snapshot.identities.begin() + first);
   std::ranges::copy(signatures, stored.snapshot.signatures.begin() + first);
-  std::ranges::copy(elements, stored.elements.begin() + first);
+  if (!elements.empty()) std::ranges::copy(elements, stored.elements.begin() + first);
   return {};
 }
 

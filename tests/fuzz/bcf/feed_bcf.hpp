@@ -23,7 +23,8 @@ namespace strake::test {
 /// An archive of BCF with one topic.
 [[nodiscard]] inline std::string bcf_of(std::string_view markup) {
   std::string bytes;
-  report::ZipWriter zip([&](std::string_view piece) { bytes += piece; }, {});
+  const auto append = [&](std::string_view piece) { bytes += piece; };
+  report::ZipWriter zip(append, {});
   const bool written =
       zip.add_file("bcf.version", std::string_view(R"(<Version VersionId="2.1"/>)")) &&
       zip.add_file("a/markup.bcf", markup) && zip.finish();
