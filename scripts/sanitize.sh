@@ -4,6 +4,7 @@
 set -euo pipefail
 . scripts/common.sh
 need build test
+scripts/npm.sh
 say "address and undefined behaviour"
 configure_and_build asan strake_tests_fast
 ctest --test-dir build/asan -L fast -j "$jobs" --output-on-failure --no-tests=error
