@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "io/source/input_file.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/version.hpp"
+#include "strake/parallel/for_each.hpp"
 #include "strake/parallel/team.hpp"
 
 namespace strake::cli {
@@ -42,6 +44,22 @@ std::string value_of(const char* file, std::string_view key) {
 std::string hash_of_program() {
   const Result<io::FileContent> content = io::FileContent::read("/proc/self/exe");
   return content ? hash_bytes(content->bytes()).text() : std::string();
+}
+
+/// Sorts pseudo-random numbers.
+void sort_random(std::span<std::uint64_t> numbers, std::uint64_t seed) {
+  std::uint64_t state = seed;
+  for (std::uint64_t& number : numbers) {
+    state ^= state << 13U;  // xorshift64 (Marsaglia 2003)
+    state ^= state >> 7U;
+    state ^= state << 17U;
+    number = state;
+  }
+  std::ranges::sort(numbers);
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
@@ -85,15 +103,21 @@ double reference_seconds() {
   constexpr std::size_t kNumbers = 1U << 20U;
   const auto start = std::chrono::steady_clock::now();
   std::vector<std::uint64_t> numbers(kNumbers);
-  std::uint64_t state = 1;
-  for (std::uint64_t& number : numbers) {
-    state ^= state << 13U;  // xorshift64 (Marsaglia 2003)
-    state ^= state >> 7U;
-    state ^= state << 17U;
-    number = state;
-  }
-  std::ranges::sort(numbers);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  sort_random(numbers, 1);
+  return seconds_since(start);
+}
+
+double kernel_seconds(const parallel::Context& context) {
+  constexpr std::size_t kPieces = 512, kNumbers = 2048;
+  // They must be awake, as they are within a run.
+  const parallel::Region wake{.name = "kernel", .n = 64};
+  if (!parallel::for_each(context, wake, [](std::size_t) {})) return 0;
+  const auto start = std::chrono::steady_clock::now();
+  const Status done = parallel::for_each_with(
+      context, {.name = "kernel", .n = kPieces},
+      [] { return std::vector<std::uint64_t>(kNumbers); },
+      [](std::vector<std::uint64_t>& numbers, std::size_t i) { sort_random(numbers, i + 1); });
+  return done ? seconds_since(start) : 0;
 }
 
 }  // namespace strake::cli

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "cli/evaluate/record.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::cli {
 
@@ -19,5 +20,10 @@ bool reset_peak_memory();
 /// Does a fixed amount of work on one core, for ratios that another machine understands: sorts
 /// pseudo-random numbers. Returns the seconds that it took.
 [[nodiscard]] double reference_seconds();
+
+/// Does a fixed amount of work that any team shares perfectly: many pieces of equal length, each in
+/// a cache of its own, and nothing between them. Returns the wall seconds that it took; with
+/// another program on the same cores, or cores that are two threads of one, more than its part.
+[[nodiscard]] double kernel_seconds(const parallel::Context& context);
 
 }  // namespace strake::cli

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -21,15 +21,19 @@ namespace {
 
 constexpr double kLeastShownSeconds = 0.001;
 
-/// Notes of the regions of a run what is worth keeping.
-void keep_regions(const parallel::RunReport& report, ContenderRecord& record) {
+/// Notes of the regions of a run what is worth keeping. `caller_s`: all CPU time of the calling
+/// thread, which is the first worker.
+void keep_regions(const parallel::RunReport& report, double caller_s, ContenderRecord& record) {
   record.regions.clear();
   record.shared_wall_s = 0;
+  record.alone_s = caller_s;
   for (parallel::RegionReport& region : report.regions()) {
     if (region.runs > 0) record.shared_wall_s += region.wall_s;
+    if (region.runs > 0 && !region.busy_s.empty()) record.alone_s -= region.busy_s.front();
     if (region.wall_s + region.nested_cpu_s >= kLeastShownSeconds)
       record.regions.push_back(std::move(region));
   }
+  record.alone_s = std::max(0.0, record.alone_s);
 }
 
 /// Measures one stage.
@@ -79,8 +83,9 @@ class StageMeter {
                                     .stop = limit ? limit->token() : stop_,
                                     .progress = nullptr,
                                     .report = &report};
+    note_kernel(context, record);
     const bool has_peak = reset_peak_memory();
-    const double cpu = parallel::process_cpu_s();
+    const double cpu = parallel::process_cpu_s(), caller = parallel::thread_cpu_s();
     const auto start = std::chrono::steady_clock::now();
     const Result<Computed> computed = contender.compute(context);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
@@ -88,12 +93,20 @@ class StageMeter {
     record.seconds.push_back(took.count());
     record.cpu_s = parallel::process_cpu_s() - cpu;
     if (has_peak && publish) record.peak_bytes = peak_memory_since_reset();
-    keep_regions(report, record);
+    keep_regions(report, parallel::thread_cpu_s() - caller, record);
+    note_kernel(context, record);
     record.counters = computed->counters;
     parallel::Context publishing = context;
     publishing.report = nullptr;
     publishing.stop = stop_;
     return compare(contender, record, *computed, publish ? &publishing : nullptr);
+  }
+
+  /// Notes what the machine has to give now.
+  static void note_kernel(const parallel::Context& context, ContenderRecord& record) {
+    if (record.name != kOurs || context.team == nullptr) return;
+    record.kernel_alone_s.push_back(kernel_seconds({}));
+    record.kernel_s.push_back(kernel_seconds({.team = context.team}));
   }
 
   /// Takes it that a contender with a limit has no result.

@@ -43,6 +43,10 @@ struct ContenderRecord {
   std::string unfinished;  ///< why it has no result, such as "stopped after 60 s"; empty: it has
   std::vector<parallel::RegionReport> regions;  ///< of the last round, those above a millisecond
   double shared_wall_s = 0;                     ///< in regions of a whole team, in the last round
+  double alone_s = 0;  ///< CPU of the calling thread outside of these, in the last round
+  /// Of a team: what work that is perfectly shared took without it and with it, before and after
+  /// each round. Their ratio is what the machine has to give while ours runs.
+  std::vector<double> kernel_alone_s, kernel_s;
 };
 inline constexpr const char* kSequential = "sequential";
 inline constexpr const char* kAgain = "sequential, again";

@@ -21,7 +21,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Machine, processor, hardware_threads, memory_
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(EvaluationSettings, scale, threads, repeat, limit_s)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ContenderRecord, name, threads, seconds, cpu_s, peak_bytes,
                                    counters, hash, published_hash, unfinished, shared_wall_s,
-                                   regions)
+                                   alone_s, kernel_alone_s, kernel_s, regions)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StageRecord, name, reference_s, differences, contenders)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CaseRecord, name, title, objects, bodies, triangles, stages)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BarChart::Series, name, values)
@@ -41,6 +41,18 @@ Error damaged(const std::string& name, const std::string& what) {
                "name a file evaluation.json that 'strake evaluate' wrote"};
 }
 
+/// Adds what counters that were kept by earlier versions lack.
+void complete(nlohmann::json& document) {
+  if (!document.contains("peers")) document["peers"] = nlohmann::json::array();
+  for (nlohmann::json& one : document.at("cases"))
+    for (nlohmann::json& stage : one.at("stages"))
+      for (nlohmann::json& run : stage.at("contenders")) {
+        if (!run.contains("alone_s")) run["alone_s"] = 0;
+        for (const char* const times : {"kernel_alone_s", "kernel_s"})
+          if (!run.contains(times)) run[times] = nlohmann::json::array();
+      }
+}
+
 }  // namespace
 
 std::string evaluation_json(const EvaluationRecord& record) {
@@ -55,8 +67,7 @@ Result<EvaluationRecord> parse_evaluation(std::string_view text, const std::stri
   try {
     if (document.at("schema_version") != kSchemaVersion)
       return damaged(name, "its schema_version is another");
-    // Counters that were kept before there were peers have none.
-    if (!document.contains("peers")) document["peers"] = nlohmann::json::array();
+    complete(document);
     return document.get<EvaluationRecord>();
   } catch (const nlohmann::json::exception& error) {
     return damaged(name, error.what());

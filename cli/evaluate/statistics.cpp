@@ -87,6 +87,15 @@ void add_bounds(const ContenderRecord& run, Speedup& result) {
   if (serial_s + least_s > 0) result.bound = result.sequential_s / (serial_s + least_s);
 }
 
+void add_by_cpu(const ContenderRecord& run, Speedup& result) {
+  result.alone_s = run.alone_s;
+  const double shared_s = std::max(0.0, run.cpu_s - run.alone_s);
+  const double least_s = run.alone_s + shared_s / static_cast<double>(run.threads);
+  if (least_s > 0) result.by_cpu = (run.alone_s + shared_s) / least_s;
+  const double kernel_s = median(run.kernel_s);
+  if (kernel_s > 0) result.machine = median(run.kernel_alone_s) / kernel_s;
+}
+
 }  // namespace
 
 std::optional<Speedup> speedup_of(const StageRecord& stage, unsigned threads) {
@@ -99,6 +108,7 @@ std::optional<Speedup> speedup_of(const StageRecord& stage, unsigned threads) {
   result.speedup = result.sequential_s / result.parallel_s;
   add_balance(*run, result);
   add_bounds(*run, result);
+  add_by_cpu(*run, result);
   return result;
 }
 

@@ -43,6 +43,12 @@ struct Speedup {
   std::string serial_region;
   /// The speed-up that the longest item of each region allows besides.
   double bound = 0;
+  /// CPU seconds of the calling thread outside of the regions of a team, and the speed-up that they
+  /// allow: CPU time of the parallel run over its part of it with the rest shared perfectly. Unlike
+  /// those by wall time these hold on a machine that others use.
+  double alone_s = 0, by_cpu = 0;
+  /// The speed-up of work that is shared perfectly, in the same rounds; 0: not measured.
+  double machine = 0;
 };
 
 /// Returns the speed-up of ours on so many threads; none where it was not measured.

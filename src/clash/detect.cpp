@@ -28,6 +28,7 @@
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/report.hpp"
+#include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::clash {
@@ -88,6 +89,9 @@ class Engine {
   }
 
  private:
+  // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
+  static constexpr std::size_t kGrain = 4096;
+
   [[nodiscard]] bool exact() const { return options_.engine.narrow_phase == NarrowPhase::exact; }
 
   [[nodiscard]] Report begin() const {
@@ -128,7 +132,9 @@ class Engine {
     auto objects = ObjectPairs::find(pairs_, list_, context_);
     if (!objects) return objects.error();
     objects_ = std::move(*objects);
-    candidates_.resize(unique_pairs_.first.size());
+    auto candidates = parallel::slots<Candidate>(unique_pairs_.first.size(), context_);
+    if (!candidates) return candidates.error();
+    candidates_ = std::move(*candidates);
     return true;
   }
 
@@ -229,7 +235,10 @@ class Engine {
     } else {
       // Where nothing asks for regions it would go on being the place of a pair's part results,
       // which a run that follows changes has others of.
-      for (Pair& pair : report.pairs) pair.first_region = 0;
+      const Status s = parallel::for_each(
+          context_, {.name = "no regions", .n = report.pairs.size(), .grain = kGrain},
+          [&](std::size_t i) { report.pairs[i].first_region = 0; });
+      if (!s) return s;
     }
     if (options_.engine.volumes == Volumes::on)
       return measure_volumes(results, cache_, context_, report);
@@ -254,7 +263,7 @@ class Engine {
     report.contact_distance_mm = *widest / geometry::kGridPerMm;
     report.weld_mm = scene_.weld_mm;
     describe_sets(report);
-    count_sheets(list_, report);
+    if (const Status s = count_sheets(list_, context_, report); !s) return s;
     auto unknown_sag = files_of_unknown_sag(list_, *scene_.model, context_);
     if (!unknown_sag) return unknown_sag.error();
     unknown_sag_ = std::move(*unknown_sag);
@@ -265,10 +274,10 @@ class Engine {
 
   /// Returns KeptForChanges::elements, without those of objects that the run does not ask about.
   [[nodiscard]] Result<std::vector<std::uint64_t>> hash_elements() const {
-    // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
-    constexpr std::size_t kGrain = 4096;
     const ElementHashes elements(*scene_.model);
-    std::vector<std::uint64_t> low(scene_.model->objects.size());
+    auto made = parallel::slots<std::uint64_t>(scene_.model->objects.size(), context_);
+    if (!made) return made.error();
+    std::vector<std::uint64_t>& low = *made;
     const std::size_t n = changed_ == nullptr ? low.size() : changed_->asked.size();
     const Status hashed = parallel::for_each(
         context_, {.name = "hashes of ids", .n = n, .grain = kGrain}, [&](std::size_t i) {
@@ -277,7 +286,7 @@ class Engine {
           low[o] = elements.of(o).low;
         });
     if (!hashed) return hashed.error();
-    return low;
+    return made;
   }
 
   const model::Scene& scene_;

@@ -2,7 +2,6 @@
 #include "strake/parallel/detail/first_touch.hpp"
 
 #include <algorithm>
-#include <cstdint>
 
 #include "strake/parallel/for_each.hpp"
 
@@ -10,21 +9,24 @@ namespace strake::parallel::detail {
 
 namespace {
 
-constexpr std::size_t kPage = 4096, kItem = std::size_t{2} << 20U;
-constexpr std::size_t kWorthIt = 4 * kItem;
+/// Bytes that a worker takes at once, and from which on a team is asked: one worker writes them in
+/// about 30 microseconds where the memory is there, and waking the others takes as long.
+constexpr std::size_t kBytesPerRun = std::size_t{256} << 10U, kBytesWorthIt = 4 * kBytesPerRun;
 
 }  // namespace
 
-Status provide_pages(const Context& context, void* memory, std::size_t bytes) {
-  if (bytes < kWorthIt || context.team == nullptr) return {};
-  // Wherever in a page the memory begins, a step of a page misses none but perhaps the last.
-  auto* const first = static_cast<char*>(memory);
-  return for_each(context, {.name = "pages of memory", .n = (bytes + kItem - 1) / kItem},
-                  [&](std::size_t i) {
-                    const std::size_t end = std::min(bytes, (i + 1) * kItem);
-                    for (std::size_t at = i * kItem; at < end; at += kPage)
-                      *static_cast<volatile char*>(first + at) = 0;
-                  });
+bool is_worth_a_team(const Context& context, std::size_t n, std::size_t size) {
+  return context.team != nullptr && n > kBytesWorthIt / size;
+}
+
+Status for_each_run_of_memory(const Context& context, std::size_t n, std::size_t size,
+                              FunctionRef<void(std::size_t, std::size_t)> make) {
+  Context whole = context;
+  whole.stop = {};
+  whole.progress = nullptr;
+  const std::size_t run = std::max<std::size_t>(kBytesPerRun / size, 1);
+  return for_each(whole, {.name = "memory for results", .n = (n - 1) / run + 1},
+                  [&](std::size_t i) { make(i * run, std::min(n, (i + 1) * run)); });
 }
 
 }  // namespace strake::parallel::detail

@@ -83,10 +83,14 @@ Section speedups(const EvaluationRecord& record, const std::string& stage) {
       "Sequential and parallel: median seconds. Balance: mean over maximum of the workers' busy "
       "time, of all regions together and of the worst above 50 ms. Serial: the part of the "
       "sequential time that no team shares, with the speed-up that it allows (Amdahl), and what "
-      "the longest item of each region allows besides. Noise: how far two sequential contenders "
-      "are apart.",
+      "the longest item of each region allows besides. Alone: CPU time of the calling thread while "
+      "no team works, and the speed-up that it allows (By CPU), which holds on a busy machine, "
+      "too. "
+      "Machine: the speed-up of work that is shared perfectly, in the same rounds. Noise: how far "
+      "two sequential contenders are apart.",
       {"Case", "Objects", "Sequential s", fmt::format("{} threads s", threads), "Speed-up",
-       "Balance", "Worst balance", "Serial", "Amdahl", "Bound", "Noise", "Equal"},
+       "Machine", "Balance", "Worst balance", "Serial", "Amdahl", "Bound", "Alone ms", "By CPU",
+       "Noise", "Equal"},
       {}};
   BarChart chart{
       title_of(stage) + ": speed-up", "x", {}, {{fmt::format("{} threads", threads), {}}}};
@@ -95,14 +99,15 @@ Section speedups(const EvaluationRecord& record, const std::string& stage) {
     if (!s) return;
     section.table.rows.push_back(
         {one.title, std::to_string(one.objects), number(s->sequential_s, 3),
-         number(s->parallel_s, 3), number(s->speedup), number(s->load_balance),
+         number(s->parallel_s, 3), number(s->speedup),
+         s->machine > 0 ? number(s->machine) : std::string("-"), number(s->load_balance),
          s->worst_region.empty() ? "-"
                                  : fmt::format("{:.2f} {}", s->worst_balance, s->worst_region),
          s->serial_region.empty()
              ? percent(s->serial_share)
              : fmt::format("{} {}", percent(s->serial_share), s->serial_region),
-         number(s->amdahl), number(s->bound), percent(noise_of(measured)),
-         measured.differences.empty() ? "yes" : "NO"});
+         number(s->amdahl), number(s->bound), number(1000 * s->alone_s, 1), number(s->by_cpu),
+         percent(noise_of(measured)), measured.differences.empty() ? "yes" : "NO"});
     chart.names.push_back(one.name);
     chart.series.front().values.push_back(s->speedup);
   });

@@ -37,7 +37,7 @@ inline constexpr std::size_t kChunkBytes = std::size_t{4} << 20U;
 template <class T>
 Result<std::vector<T>> put_together(const Context& context, std::span<Chunk<T>> chunks,
                                     std::span<const std::size_t> first) {
-  Result<std::vector<T>> all = slots<T>(first.back(), context);
+  Result<std::vector<T>> all = unset_slots<T>(first.back(), context);
   if (!all) return all;
   const auto move_chunk = [&](std::size_t c) {
     Chunk<T> chunk = std::exchange(chunks[c], {});

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <new>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -49,26 +49,11 @@ struct LotFault {
 struct HashLots {
   std::array<std::size_t, kDistinctLots + 1> begin{};
   std::vector<std::uint32_t> order;
-
-  explicit HashLots(const std::vector<std::uint64_t>& hashes) : order(hashes.size()) {
-    for (const std::uint64_t h : hashes) ++begin[of(h) + 1];
-    for (std::size_t lot = 0; lot < kDistinctLots; ++lot) begin[lot + 1] += begin[lot];
-    std::array<std::size_t, kDistinctLots + 1> next = begin;
-    for (std::size_t i = 0; i < hashes.size(); ++i)
-      order[next[of(hashes[i])]++] = static_cast<std::uint32_t>(i);
-  }
-
-  static std::size_t of(std::uint64_t hash) { return hash >> 58U; }
 };
 
-/// Errors: out of memory.
-[[nodiscard]] inline Result<HashLots> hash_lots(const std::vector<std::uint64_t>& hashes) {
-  try {
-    return HashLots(hashes);
-  } catch (const std::bad_alloc&) {
-    return out_of_memory();
-  }
-}
+/// Deals items out to lots, run by run. Errors as in for_each.
+[[nodiscard]] Result<HashLots> hash_lots(const Context& context, std::string_view name,
+                                         std::span<const std::uint64_t> hashes);
 
 }  // namespace detail
 
@@ -95,9 +80,9 @@ template <class Hash, class Same>
       .name = name, .n = n, .grain = std::clamp<std::size_t>(n / 256, 1, detail::kDistinctGrain)};
   auto hashes = transform(context, items, [&](std::size_t i) -> std::uint64_t { return hash(i); });
   if (!hashes) return std::move(hashes).error();
-  Result<detail::HashLots> lots = detail::hash_lots(*hashes);
+  Result<detail::HashLots> lots = detail::hash_lots(context, name, *hashes);
   if (!lots) return std::move(lots).error();
-  Result<std::vector<std::uint32_t>> first_of = slots<std::uint32_t>(n);
+  Result<std::vector<std::uint32_t>> first_of = unset_slots<std::uint32_t>(n);
   if (!first_of) return std::move(first_of).error();
   std::vector<std::uint32_t>& first = *first_of;
   auto faults = slots<detail::LotFault>(detail::kDistinctLots);
@@ -130,11 +115,14 @@ template <class Hash, class Same>
         if (first[i] == i) out.push_back(first[i]);
       });
   if (!kinds) return std::move(kinds).error();
-  Result<std::vector<std::uint32_t>> of = slots<std::uint32_t>(n);
+  Result<std::vector<std::uint32_t>> of = unset_slots<std::uint32_t>(n);
   if (!of) return std::move(of).error();
   Distinct result{std::move(*of), std::move(*kinds)};
-  for (std::size_t k = 0; k < result.first.size(); ++k)
+  const Region all_kinds{.name = name, .n = result.first.size(), .grain = detail::kDistinctGrain};
+  status = for_each(context, all_kinds, [&](std::size_t k) {
     result.of[result.first[k]] = static_cast<std::uint32_t>(k);
+  });
+  if (!status) return std::move(status).error();
   status = for_each(context, items, [&](std::size_t i) {
     if (first[i] != i) result.of[i] = result.of[first[i]];
   });

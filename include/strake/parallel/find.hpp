@@ -111,7 +111,7 @@ template <class Body, class IsLast>
   detail::require_shareable<Body, std::size_t>();
   detail::require_test<IsLast, const T&>();
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: return uint8_t");
-  Result<std::vector<T>> results = slots<T>(region.n, context);
+  Result<std::vector<T>> results = unset_slots<T>(region.n, context);
   if (!results) return results;
   std::vector<T>& slot = *results;
   Result<std::size_t> last = detail::run_until(

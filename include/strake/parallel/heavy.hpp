@@ -34,6 +34,18 @@ struct HeavySplit {
                                                                  const Region& others) const;
 };
 
+/// Calls put(i), which keeps what item i of the region costs, for all of them.
+template <class Put>
+Status estimate(const Context& context, const Region& region, Put&& put) {
+  // Costs are read off, mostly: a few thousand are not worth a team.
+  constexpr std::size_t kGrain = 4096;
+  Context silent = context;
+  silent.progress = nullptr;  // it counts items that are done
+  return for_each(
+      silent, {.name = "costs of items", .n = region.n, .grain = kGrain, .alone_below = 2 * kGrain},
+      [&](std::size_t i) { return status_of(region.name, i, [&] { put(i); }); });
+}
+
 [[nodiscard]] Result<HeavySplit> split_off_heavy(std::span<const double> costs, double least,
                                                  unsigned workers, const Region& region);
 
@@ -50,7 +62,8 @@ struct HeavySplit {
 /// team is free for the regions that they open; then the others as blocks, those that cost most
 /// first. A region that one of those opens finds the team busy and runs alone. `cost(i)` is an
 /// estimate in any unit; `least` is a cost, in the same unit, that is worth a team. Region::order
-/// must be empty. Results go to slots; values by key are made by Precomputed::fill_by_weight.
+/// must be empty. Results go to slots; values by key are made by Precomputed::fill_by_weight. Costs
+/// are asked for by all workers.
 ///
 /// 1. Which items are apart depends on the size of the team, and must not show in a result: what an
 ///    item does may depend on its own size only.
@@ -61,16 +74,16 @@ template <class Cost, class Body>
 [[nodiscard]] Status for_each_by_weight(const Context& context, const Region& region, double least,
                                         Cost&& cost, Body&& body) {
   detail::require_shareable<Body, std::size_t>();
+  detail::require_shareable<Cost, std::size_t>();
   if (!region.order.empty()) return detail::order_given(region);
   if (region.is_short()) return for_each(context, region, body);
   if (context.stop.stop_requested()) return detail::cancelled_error();
-  auto costs = slots<double>(region.n);
+  auto costs = unset_slots<double>(region.n);
   if (!costs) return std::move(costs).error();
-  for (std::size_t i = 0; i < region.n; ++i) {
-    Status status =
-        detail::status_of(region.name, i, [&] { (*costs)[i] = static_cast<double>(cost(i)); });
-    if (!status) return status;
-  }
+  if (Status status = detail::estimate(
+          context, region, [&](std::size_t i) { (*costs)[i] = static_cast<double>(cost(i)); });
+      !status)
+    return status;
   const bool alike = context.team == nullptr || context.distribution == Distribution::equal_ranges;
   const unsigned workers = alike ? 1 : context.team->size();
   auto apart = detail::split_off_heavy(*costs, least, workers, region);

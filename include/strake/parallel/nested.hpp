@@ -18,15 +18,15 @@ namespace detail {
 /// Where each row of a ragged table begins in one flat range, and the end. Errors: out of memory,
 /// more elements than can be counted, an exception of length.
 template <class Length>
-Result<std::vector<std::size_t>> row_starts(std::string_view region, std::size_t rows,
-                                            Length&& length) {
+Result<std::vector<std::size_t>> row_starts(const Context& context, std::string_view region,
+                                            std::size_t rows, Length&& length) {
   Result<std::vector<std::size_t>> start = offsets(rows);
   if (!start) return start;
   for (std::size_t r = 0; r < rows; ++r) {
     Status status = status_of(region, r, [&] { (*start)[r + 1] = length(r); });
     if (!status) return std::move(status).error();
   }
-  if (Status summed = sum_up(*start); !summed) return std::move(summed).error();
+  if (Status summed = sum_up(context, *start); !summed) return std::move(summed).error();
   return start;
 }
 
@@ -65,7 +65,7 @@ template <class Length, class Body>
 [[nodiscard]] Status for_each_nested(const Context& context, Region region, std::size_t rows,
                                      Length&& length, Body&& body) {
   detail::require_shareable<Body, std::size_t, std::size_t>();
-  auto start = detail::row_starts(region.name, rows, length);
+  auto start = detail::row_starts(context, region.name, rows, length);
   if (!start && context.stop.stop_requested()) return detail::cancelled_error();
   if (!start) return std::move(start).error();
   region.n = start->back();

@@ -48,7 +48,7 @@ template <class Make, class Body>
   detail::require_value<Returned>();
   using T = detail::unwrapped_t<Returned>;
   static_assert(!std::is_same_v<T, bool>, "bits cannot be written concurrently: return uint8_t");
-  Result<std::vector<T>> results = slots<T>(region.n, context);
+  Result<std::vector<T>> results = unset_slots<T>(region.n, context);
   if (!results) return results;
   std::vector<T>& slot = *results;
   Status status = for_each_with(context, region, make, [&](Local& local, std::size_t i) -> Status {

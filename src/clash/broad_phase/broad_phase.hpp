@@ -153,13 +153,11 @@ template <class List, class Same>
                                                          const parallel::Context& context) {
   /// Only shares the work out: between 4096 and 65'536 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 16384;
-  auto begin =
-      parallel::collect<std::size_t>(context, {.name = name, .n = list.size(), .grain = kGrain},
-                                     [&](std::size_t i, std::vector<std::size_t>& out) {
-                                       if (i == 0 || !same(list[i - 1], list[i])) out.push_back(i);
-                                     });
-  if (begin) begin->push_back(list.size());
-  return begin;
+  return parallel::collect<std::size_t>(
+      context, {.name = name, .n = list.size() + 1, .grain = kGrain},
+      [&](std::size_t i, std::vector<std::size_t>& out) {
+        if (i == 0 || i == list.size() || !same(list[i - 1], list[i])) out.push_back(i);
+      });
 }
 
 }  // namespace strake::clash

@@ -13,6 +13,7 @@
 #include "clash/rules/options.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/lowest.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::clash {
@@ -66,13 +67,21 @@ constexpr std::uint32_t kNoBody = std::numeric_limits<std::uint32_t>::max();
 Result<SourceErrors> SourceErrors::measure(const model::Model& model,
                                            std::span<const std::uint32_t> bodies,
                                            const parallel::Context& context) {
+  // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
+  constexpr std::size_t kBodiesPerBlock = 4096;
   SourceErrors errors(model);
+  parallel::Lowest lowest(model.shapes.size());
+  const Status found = parallel::for_each(
+      context, {.name = "first bodies", .n = bodies.size(), .grain = kBodiesPerBlock},
+      [&](std::size_t i) {
+        const std::size_t shape = index(model.bodies[bodies[i]].shape);
+        if (shape < lowest.size()) lowest.offer(shape, i);
+      });
+  if (!found) return found.error();
   std::vector<std::uint32_t>& first = errors.first_;
   first.assign(model.shapes.size(), kNoBody);
-  for (const std::uint32_t b : bodies) {
-    const std::size_t shape = index(model.bodies[b].shape);
-    if (shape < first.size() && first[shape] == kNoBody) first[shape] = b;
-  }
+  for (std::size_t s = 0; s < first.size(); ++s)
+    if (lowest[s] != parallel::Lowest::kNone) first[s] = bodies[lowest[s]];
   // Only shares the work out: between 16 and 256 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 64;
   auto all = parallel::transform(
@@ -98,13 +107,14 @@ float SourceErrors::moved_by_snap(const model::Body& body) const {
 
 Status set_source_errors(const model::Scene& scene, const Options& options, ScenePartList& list,
                          const parallel::Context& context) {
-  std::vector<std::uint32_t> bodies;
-  bodies.reserve(list.parts.size());
-  for (const ScenePart& part : list.parts) bodies.push_back(part.body);
-  const auto errors = SourceErrors::measure(*scene.model, bodies, context);
-  if (!errors) return errors.error();
   // Only shares the work out: between 256 and 4096 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 1024;
+  const auto bodies = parallel::transform(
+      context, {.name = "bodies of parts", .n = list.parts.size(), .grain = kGrain},
+      [&](std::size_t i) { return list.parts[i].body; });
+  if (!bodies) return bodies.error();
+  const auto errors = SourceErrors::measure(*scene.model, *bodies, context);
+  if (!errors) return errors.error();
   return parallel::for_each(context,
                             {.name = "errors of sources", .n = list.parts.size(), .grain = kGrain},
                             [&](std::size_t i) {

@@ -83,13 +83,20 @@ void tell_not_compared(const model::Model& model, Report& report) {
                              model.object(pair.a).id + " and " + model.object(*pair.b).id);
 }
 
-void count_sheets(const ScenePartList& list, Report& report) {
+Status count_sheets(const ScenePartList& list, const parallel::Context& context, Report& report) {
   constexpr std::uint8_t kMost = 255;
   report.sheets.assign(report.in_a.size(), 0);
-  for (const ScenePart& part : list.parts)
-    if (std::uint8_t& sheets = report.sheets[part.object];
-        part.placed.part->kind == geometry::PartKind::sheet && sheets < kMost)
-      ++sheets;
+  // Parts are by object: the first one counts for all.
+  return parallel::for_each(
+      context, {.name = "sheets", .n = list.parts.size(), .grain = kResultsPerBlock},
+      [&](std::size_t first) {
+        const std::uint32_t object = list.parts[first].object;
+        if (first > 0 && list.parts[first - 1].object == object) return;
+        std::uint8_t& sheets = report.sheets[object];
+        for (std::size_t i = first; i < list.parts.size() && list.parts[i].object == object; ++i)
+          if (list.parts[i].placed.part->kind == geometry::PartKind::sheet && sheets < kMost)
+            ++sheets;
+      });
 }
 
 Result<std::vector<std::uint8_t>> files_of_unknown_sag(const ScenePartList& list,

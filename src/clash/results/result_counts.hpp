@@ -24,8 +24,9 @@ namespace strake::clash {
 /// Adds the messages about pairs in Report::not_compared.
 void tell_not_compared(const model::Model& model, Report& report);
 
-/// Fills Report::sheets.
-void count_sheets(const ScenePartList& list, Report& report);
+/// Fills Report::sheets. Errors: cancelled.
+[[nodiscard]] Status count_sheets(const ScenePartList& list, const parallel::Context& context,
+                                  Report& report);
 
 /// Returns an entry for each file: other than 0 where it has parts of unknown sag.
 [[nodiscard]] Result<std::vector<std::uint8_t>> files_of_unknown_sag(

@@ -206,9 +206,16 @@ Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
   ink.pens = options.pens ? *options.pens : choose_pens(drawing);
   ink.split_hidden = options.split_hidden;
   ink.styles = options.styles;
-  for (const Line& line : drawing.lines)
-    if (line.state == LineState::visible || (options.hidden && may_be_dashed(line)))
-      ink.lines.push_back(line);
+  constexpr std::size_t kGrain = 16384;
+  auto lines = parallel::collect<Line>(
+      context, {.name = "lines on paper", .n = drawing.lines.size(), .grain = kGrain},
+      [&](std::size_t i, std::vector<Line>& out) {
+        const Line& line = drawing.lines[i];
+        if (line.state == LineState::visible || (options.hidden && may_be_dashed(line)))
+          out.push_back(line);
+      });
+  if (!lines) return lines.error();
+  ink.lines = std::move(*lines);
   const auto axes = paper_axes(drawing.view);
   if (options.hidden && options.clean_up && axes)
     if (const Status status = clean_up(ink, drawing, *axes, context); !status)

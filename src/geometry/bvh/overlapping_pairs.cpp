@@ -15,6 +15,7 @@
 #include "strake/parallel/allowance.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
+#include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::geometry {
@@ -44,7 +45,9 @@ class PairSorter {
       for (std::array<std::size_t, kLots>& of : *counts) at += std::exchange(of[lot], at);
     }
     begin_[kLots] = at;
-    sorted_.resize(pairs_.size());
+    auto sorted = parallel::unset_slots<IndexPair>(pairs_.size(), context);
+    if (!sorted) return sorted.error();
+    sorted_ = std::move(*sorted);
     Status status = parallel::for_each(context, {.name = "deal pairs", .n = pieces_},
                                        [&](std::size_t piece) { deal(piece, (*counts)[piece]); });
     if (!status) return status;

@@ -14,6 +14,7 @@
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
+#include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::geometry {
@@ -224,15 +225,19 @@ Result<std::vector<Task>> top(std::vector<Node>& nodes, std::span<Ref> refs,
 }
 
 /// Puts each subtree in place of its root task; children move behind the nodes there are.
-Status attach(std::vector<Node>& nodes, const std::vector<Task>& tasks,
+Status attach(std::vector<Node>& top, const std::vector<Task>& tasks,
               const std::vector<std::vector<Node>>& pieces, const parallel::Context& context) {
   std::vector<std::size_t> begin(pieces.size());  // where the nodes below the root go
-  std::size_t size = nodes.size();
+  std::size_t size = top.size();
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     begin[i] = size;
     size += pieces[i].size() - 1;
   }
-  nodes.resize(size);
+  auto made = parallel::unset_slots<Node>(size, context);
+  if (!made) return made.error();
+  std::vector<Node> nodes = std::move(*made);
+  std::ranges::copy(top, nodes.begin());
+  top.swap(nodes);
   return parallel::for_each(
       context, {.name = "box tree, joined", .n = pieces.size()}, [&](std::size_t i) {
         const auto moved = [shift = static_cast<std::uint32_t>(begin[i]) - 1](Node n) {
@@ -240,8 +245,8 @@ Status attach(std::vector<Node>& nodes, const std::vector<Task>& tasks,
           return n;
         };
         const std::vector<Node>& piece = pieces[i];
-        nodes[tasks[i].node] = moved(piece[0]);
-        for (std::size_t k = 1; k < piece.size(); ++k) nodes[begin[i] + k - 1] = moved(piece[k]);
+        top[tasks[i].node] = moved(piece[0]);
+        for (std::size_t k = 1; k < piece.size(); ++k) top[begin[i] + k - 1] = moved(piece[k]);
       });
 }
 
@@ -277,7 +282,6 @@ Result<SceneBvh> SceneBvh::build(std::span<const BoxItem> items, const parallel:
   if (!made) return made.error();
   std::vector<Ref>& refs = *made;
   if (refs.empty()) return tree;
-  tree.nodes_.reserve(refs.size());
   tree.nodes_.resize(1);
   const auto tasks = top(tree.nodes_, refs, context);
   if (!tasks) return tasks.error();
@@ -287,8 +291,12 @@ Result<SceneBvh> SceneBvh::build(std::span<const BoxItem> items, const parallel:
   const std::size_t inner = tree.nodes_.size();
   if (const Status s = attach(tree.nodes_, *tasks, *pieces, context); !s) return s.error();
   fill_inner(std::span(tree.nodes_).first(inner));
-  tree.items_.resize(refs.size());
-  tree.order_.resize(refs.size());
+  auto in_leaves = parallel::unset_slots<BoxItem>(refs.size(), context);
+  if (!in_leaves) return in_leaves.error();
+  tree.items_ = std::move(*in_leaves);
+  auto order = parallel::unset_slots<std::uint32_t>(refs.size(), context);
+  if (!order) return order.error();
+  tree.order_ = std::move(*order);
   const Status status = parallel::for_each(
       context, {.name = "box tree items", .n = refs.size(), .grain = kSubtree}, [&](std::size_t i) {
         tree.items_[i] = items[refs[i].item];

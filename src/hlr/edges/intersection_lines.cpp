@@ -263,15 +263,19 @@ class Finder {
     if (!tree) return tree.error();
     const auto met = geometry::overlapping_box_pairs(*tree, context_);
     if (!met) return met.error();
-    pairs_.clear();
-    for (const IndexPair& pair : *met) {
-      if (only_touch((*items)[pair.first].box, (*items)[pair.second].box)) continue;
-      for (const std::uint32_t x : stacks->of(pair.first))
-        for (const std::uint32_t y : stacks->of(pair.second))
-          if (owner(x) != owner(y) && is_requested(surfaces_.placed[x], surfaces_.placed[y]) &&
-              is_asked(std::min(x, y)))
-            pairs_.push_back({std::min(x, y), std::max(x, y)});
-    }
+    auto pairs = parallel::collect<IndexPair>(
+        context_, {.name = "intersections: pairs", .n = met->size(), .grain = kGrain},
+        [&](std::size_t i, std::vector<IndexPair>& out) {
+          const IndexPair& pair = (*met)[i];
+          if (only_touch((*items)[pair.first].box, (*items)[pair.second].box)) return;
+          for (const std::uint32_t x : stacks->of(pair.first))
+            for (const std::uint32_t y : stacks->of(pair.second))
+              if (owner(x) != owner(y) && is_requested(surfaces_.placed[x], surfaces_.placed[y]) &&
+                  is_asked(std::min(x, y)))
+                out.push_back({std::min(x, y), std::max(x, y)});
+        });
+    if (!pairs) return pairs.error();
+    pairs_ = std::move(*pairs);
     if (stacks->size() < surfaces_.placed.size()) std::ranges::sort(pairs_);
     return {};
   }
