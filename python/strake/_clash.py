@@ -470,7 +470,8 @@ def clash(
         curves: check lines, too.
         regions: how many separate places of a pair are listed in files.
         group_by, group_distance, group_contacts: the groups of `Clashes.groups`, which are then saved, too.
-        sort: what comes first in tables and groups: the deepest, the largest common volume, or the largest group.
+        sort: what comes first in tables and groups: the deepest, the largest common volume (measured then, as by `volumes`),
+            or the largest group.
         classes: results of these alone: "hit", "contact", "clearance".
         list_exempted: list the pairs that rules exempt in what is saved.
         log_pairs: keep what Clashes.save_pair_log() writes.
@@ -569,7 +570,9 @@ def request_of(
     request.volumes, request.curves = truth(volumes, "volumes"), truth(curves, "curves")
     if not isinstance(contacts, str) or contacts not in ("list", "count", "off"):
         raise UsageError(f"there is no way {shown(contacts)}", "contacts", "write list, count or off")
-    if truth(group_contacts, "group_contacts") and contacts != "list":
+    request.classes = texts(classes, "classes")
+    listed = contacts == "list" and (not request.classes or "contact" in request.classes)
+    if truth(group_contacts, "group_contacts") and not listed:
         raise UsageError("contacts that are not listed cannot be put into groups", "group_contacts")
     if (group_distance is not None or group_contacts) and group_by is None:
         raise UsageError("there are no groups", "group_contacts" if group_distance is None else "group_distance", "give group_by")
@@ -581,7 +584,7 @@ def request_of(
     request.sort = one_of(sort, ("depth", "volume", "size"), "sort")
     if sort == "size" and group_by is None:
         raise UsageError("only groups have a size", "sort", "give group_by")
-    request.classes = texts(classes, "classes")
+    request.volumes = request.volumes or sort == "volume"
     request.list_exempted, request.log_pairs = truth(list_exempted, "list_exempted"), truth(log_pairs, "log_pairs")
     request.sag_mm = None if sag is None else sag_of(sag, "sag")
     request.weld_mm = weld_of(weld, "weld")

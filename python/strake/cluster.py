@@ -192,6 +192,8 @@ def clash(
     for name in test:
         if name not in inspect.signature(request_of).parameters:
             raise TypeError(f"clash() has no argument {name!r}")
+    if test.get("log_pairs"):
+        raise UsageError("the pairs of tiles are not kept", "log_pairs", "leave it out, or test on one machine: strake.clash()")
     request = request_of(0, a, b, **test)
     read = _read_arguments(files, unit, up_axis, georeference)
     job = _Job(

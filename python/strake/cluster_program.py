@@ -17,7 +17,7 @@ from strake._errors import Error, UsageError
 # Exit codes of the program.
 _CODES = {"usage": 2, "input": 3, "output": 3, "internal": 5, "memory": 6, "cancelled": 130}
 
-_Value = str | bool | float | list[float]
+_Value = str | bool | float | list[float] | list[str]
 
 
 def _switch(word: str) -> bool:
@@ -51,6 +51,10 @@ def _whole(word: str) -> int:
         raise UsageError(f"{word!r} is no whole number") from None
 
 
+def _words_of(word: str) -> list[str]:
+    return [one.strip() for one in word.split(",")]
+
+
 @dataclass(frozen=True)
 class _Option:
     """An option of the program, and the argument of the package that it is."""
@@ -69,6 +73,10 @@ _INPUT = {
     "--worker-memory": _Option("memory"),
     "--worker-threads": _Option("worker_threads", _whole),
     "--tile-folder": _Option("folder"),
+    "--sag": _Option("sag"),
+    "--weld": _Option("weld"),
+    "--obstructions": _Option("obstructions", None),
+    "--insulation": _Option("insulation", None),
 }
 _CLASH = _INPUT | {
     "--a": _Option("a", repeats=True),
@@ -88,6 +96,9 @@ _CLASH = _INPUT | {
     "--group-by": _Option("group_by"),
     "--group-distance": _Option("group_distance"),
     "--group-contacts": _Option("group_contacts", None),
+    "--sort": _Option("sort"),
+    "--class": _Option("classes", _words_of),
+    "--list-exempted": _Option("list_exempted", None),
 }
 _VIEW = {
     "--view": _Option("view"),

@@ -377,8 +377,8 @@ def test_what_the_program_refuses_by_tiles(tmp_path: Path, through_python: None,
     out = tmp_path / "out.json"
     code, told = ended("clash", ship_file, "--scheduler", "local")
     assert code == 2 and "no file is named" in told
-    code, told = ended("clash", ship_file, "--scheduler", "local", "-o", out, "--sort", "size")
-    assert code == 2 and "--sort: strake clash has it on one machine only" in told
+    code, told = ended("clash", ship_file, "--scheduler", "local", "-o", out, "--fail-on", "hit")
+    assert code == 2 and "--fail-on: strake clash has it on one machine only" in told
     code, told = ended("draw", ship_file, "--scheduler", "local", "-o", out, "--flush-seams", "off")
     assert code == 2 and "flush seams" in told
     code, told = ended("draw", ship_file, "--scheduler", "local", "-o", out, "--near", "much", "--eye", "1,2,3", "--target", "9,9,9")

@@ -161,6 +161,95 @@ def moved(x: float) -> Any:
     return TopLoc_Location(move)
 
 
+CORNERS = [(x, y, z) for x in (0.0, 10.0) for y in (0.0, 20.0) for z in (0.0, 30.0)]
+SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+
+
+def bare_face(sides: list[tuple[int, ...]]) -> Any:
+    """A face of triangles without a surface."""
+    from OCP.BRep import BRep_Builder
+    from OCP.gp import gp_Pnt
+    from OCP.Poly import Poly_Triangle, Poly_Triangulation
+    from OCP.TopoDS import TopoDS_Face
+
+    used = sorted({corner for side in sides for corner in side})
+    triangles = [corners for a, b, c, d in sides for corners in ((a, b, c), (a, c, d))]
+    made = Poly_Triangulation(len(used), len(triangles), False)
+    for i, corner in enumerate(used, 1):
+        made.SetNode(i, gp_Pnt(*CORNERS[corner]))
+    for i, corners in enumerate(triangles, 1):
+        made.SetTriangle(i, Poly_Triangle(*(used.index(corner) + 1 for corner in corners)))
+    face = TopoDS_Face()
+    BRep_Builder().MakeFace(face, made)
+    return face
+
+
+def tessellated_box(kind: str) -> Any:
+    """A box of triangles: a solid of one face or of six, a shell, or faces one beside the other."""
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Compound, TopoDS_Shell, TopoDS_Solid
+
+    faces = [bare_face(SIDES)] if kind == "solid of one face" else [bare_face([side]) for side in SIDES]
+    builder, shell, box, loose = BRep_Builder(), TopoDS_Shell(), TopoDS_Solid(), TopoDS_Compound()
+    builder.MakeShell(shell)
+    builder.MakeSolid(box)
+    builder.MakeCompound(loose)
+    for face in faces:
+        builder.Add(loose if kind == "faces" else shell, face)
+    if kind != "faces":
+        shell.Closed(True)
+        builder.Add(box, shell)
+    return {"faces": loose, "shell": shell}.get(kind, box)
+
+
+def write_with_triangles(draft: Draft, file: Path) -> Path:
+    from OCP.Interface import Interface_Static
+    from OCP.STEPCAFControl import STEPCAFControl_Writer
+
+    STEPCAFControl_Writer()  # it has the settings made
+    Interface_Static.SetIVal_s("write.step.schema", 5)
+    Interface_Static.SetIVal_s("write.step.tessellated", 1)
+    try:
+        return draft.write(file)
+    finally:
+        Interface_Static.SetIVal_s("write.step.schema", 4)
+        Interface_Static.SetIVal_s("write.step.tessellated", 2)
+
+
+@pytest.mark.parametrize("kind", ["solid of one face", "solid of six faces", "shell", "faces"])
+def test_triangles_of_ap242_are_read(tmp_path: Path, kind: str) -> None:
+    draft = Draft()
+    box = draft.part(tessellated_box(kind), "Box")
+    whole = draft.assembly("Rig")
+    draft.place(whole, box, 0, "left")
+    draft.place(whole, box, 100, "right")
+    draft.place(whole, draft.part(solid("Box", 5.0, 5.0, 5.0), "Plate"), 50, "Plate")
+    file = write_with_triangles(draft, tmp_path / "rig.step")
+    assert "TRIANGULATED_" in file.read_text()
+    outcome = convert(file, module=STEP)
+    assert outcome.told("warning") == outcome.told("skipped") == []
+    assert outcome.lines[-1]["format"] == "STEP AP242"
+    assert sorted(outcome.glb.ids) == ["Rig/Plate", "Rig/left", "Rig/right"]
+    assert outcome.glb.volume("Rig/left") == pytest.approx(6000, rel=1e-6)
+    assert outcome.glb.box("Rig/right")[1] == pytest.approx([110, 20, 30])
+    # What the triangles stand for is not in the file.
+    stated = {name: outcome.glb.json["meshes"][outcome.glb.node(name)["mesh"]].get("extras") for name in ("Rig/left", "Rig/Plate")}
+    assert stated == {"Rig/left": None, "Rig/Plate": {"sag_mm": 0}}
+
+
+def test_triangles_beside_surfaces_are_not_taken_for_them(tmp_path: Path) -> None:
+    from OCP.BRepMesh import BRepMesh_IncrementalMesh
+
+    draft, ball = Draft(), solid("Sphere", 20.0)
+    BRepMesh_IncrementalMesh(ball, 3.0)
+    draft.part(ball, "Ball")
+    file = write_with_triangles(draft, tmp_path / "ball.step")
+    assert "TESSELLATED_SOLID" in file.read_text() and "MANIFOLD_SOLID_BREP" in file.read_text()
+    outcome = convert(file, module=STEP)
+    assert outcome.told("warning") == [] and outcome.glb.ids == ["Ball"]
+    assert outcome.glb.volume("Ball") == pytest.approx(4 / 3 * math.pi * 8000, rel=0.01)
+
+
 def test_bytes_are_the_same_each_time(tmp_path: Path) -> None:
     (tmp_path / "a").mkdir()
     first = rig(tmp_path / "rig.step").output.read_bytes()

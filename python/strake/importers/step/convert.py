@@ -161,10 +161,12 @@ class _Builder:
         own = "" if instance is None else instance_name(instance, product.name)
         name = own or product.name or self._file
         color = self._color_of_instance(instance, place)
-        parts, sag = [], 0.0
+        parts, known = [], []
         for mesh, of_part in product.parts:
             parts.append(Part(mesh.points, mesh.triangles, color or of_part or place.color or _GREY))
-            sag = max(sag, mesh.sag_mm)
+            if mesh.sag_mm is not None:
+                known.append(mesh.sag_mm)
+        sag = max(known) if len(known) == len(parts) else None
         attributes = {**product.attributes, **({"Instance": own} if own else {})}
         if instance is not None and (layers := self._labels.layers_of(instance)):
             attributes["Layer"] = layers

@@ -140,8 +140,8 @@ def read_document(file: Path, is_step: bool, report: Report) -> Labels:
     Interface_Static.SetCVal_s("xstep.cascade.unit", "MM")
     for name, value in (("read.stepcaf.subshapes.name", 1), ("read.step.ideas", 1), ("read.iges.bspline.continuity", 1)):
         Interface_Static.SetIVal_s(name, value)
-    # Triangles that an AP242 file has in place of surfaces.
-    Interface_Static.SetIVal_s("read.step.tessellated", 1)
+    # Triangles that an AP242 file has in place of surfaces; those that it has beside them (1) would be taken for them.
+    Interface_Static.SetIVal_s("read.step.tessellated", 2)
     reader.SetColorMode(True)
     reader.SetNameMode(True)
     reader.SetLayerMode(True)

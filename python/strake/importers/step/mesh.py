@@ -20,6 +20,8 @@ from OCP.TopLoc import TopLoc_Location
 from OCP.TopoDS import TopoDS
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
+from strake.importers.step.pieces import found, has_surface
+
 # No farther from the true surface than this, or than such a part of the diagonal of what is smaller than 200 mm.
 SAG_MM = 0.1
 _SHARE_OF_DIAGONAL = 1 / 2000
@@ -28,19 +30,21 @@ _LARGEST_TURN = 0.5
 
 @dataclass(frozen=True)
 class Mesh:
-    """Triangles, the number of the face that each is of, and how exact they are."""
+    """Triangles, the number of the face that each is of, and how exact they are: None is not known."""
 
     points: NDArray[np.float64]
     triangles: NDArray[np.int64]
     faces: NDArray[np.int64]
     faces_without: int
     is_closed: bool
-    sag_mm: float
+    sag_mm: float | None
 
 
 def mesh_of(shape: Any, sag_mm: float | None) -> Mesh:
     """Returns the triangles of a shape; `sag_mm` is how far they may lie from it, None for the usual."""
-    exact = _is_flat(shape)
+    faces = found(shape, TopAbs_ShapeEnum.TopAbs_FACE)
+    is_known = all(has_surface(face) for face in faces)
+    is_exact = is_known and _is_flat(shape)
     sag = _sag_of(shape) if sag_mm is None else sag_mm
     # Open CASCADE makes some faces, as whole balls, twice as coarse as it is asked for.
     BRepMesh_IncrementalMesh(shape, sag / 2, False, _LARGEST_TURN, True)
@@ -49,11 +53,14 @@ def mesh_of(shape: Any, sag_mm: float | None) -> Mesh:
     while explorer.More():
         collected.add(TopoDS.Face_s(explorer.Current()))
         explorer.Next()
-    return collected.mesh(0.0 if exact else sag)
+    return collected.mesh((0.0 if is_exact else sag) if is_known else None)
 
 
 class _Collector:
-    """Points and triangles of faces. Points on a common edge, and those of a common vertex, become one."""
+    """Points and triangles of faces. Points on a common edge, and those of a common vertex, become one.
+
+    Faces without surfaces have no edges: of these, points with the same coordinates become one.
+    """
 
     def __init__(self) -> None:
         self._points: list[tuple[float, float, float]] = []
@@ -65,6 +72,7 @@ class _Collector:
         self._edges, self._vertices = TopTools_IndexedMapOfShape(), TopTools_IndexedMapOfShape()
         self._of_edge: dict[int, list[int]] = {}
         self._of_vertex: dict[int, int] = {}
+        self._at: dict[tuple[float, float, float], int] = {}
 
     def add(self, face: Any) -> None:
         """Adds a face; what has no triangles is counted."""
@@ -74,11 +82,13 @@ class _Collector:
         if triangulation is None:
             self._without += 1
             return
-        base, place = len(self._points), location.Transformation()
+        base, place, is_bare = len(self._points), location.Transformation(), not has_surface(face)
         for i in range(1, triangulation.NbNodes() + 1):
             point = triangulation.Node(i).Transformed(place)
             self._points.append((point.X(), point.Y(), point.Z()))
             self._same.append(len(self._same))
+            if is_bare:
+                self._unite(self._at.setdefault(self._points[-1], len(self._points) - 1), len(self._points) - 1)
         turned = face.Orientation() == TopAbs_Orientation.TopAbs_REVERSED
         for i in range(1, triangulation.NbTriangles() + 1):
             one = triangulation.Triangle(i)
@@ -113,7 +123,7 @@ class _Collector:
         one, other = self._root(one), self._root(other)
         self._same[max(one, other)] = min(one, other)
 
-    def mesh(self, sag_mm: float) -> Mesh:
+    def mesh(self, sag_mm: float | None) -> Mesh:
         """Returns what was added, without triangles that common points leave no area."""
         roots = np.array([self._root(i) for i in range(len(self._same))], dtype=np.int64)
         triangles = np.array(self._triangles, dtype=np.int64).reshape(-1, 3)

@@ -6,12 +6,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from OCP.BRep import BRep_Builder, BRep_Tool
 from OCP.BRepBuilderAPI import BRepBuilderAPI_Sewing
 from OCP.BRepGProp import BRepGProp
 from OCP.GProp import GProp_GProps
 from OCP.Quantity import Quantity_TypeOfColor
 from OCP.TopAbs import TopAbs_ShapeEnum
 from OCP.TopExp import TopExp_Explorer
+from OCP.TopoDS import TopoDS, TopoDS_Compound
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
 from strake.importers.shapes import Color
@@ -54,9 +56,34 @@ def pieces_of(product: Any, styles: Any) -> list[Piece]:
     loose: list[tuple[Any, Color | None]] = []
     for shell in found(product, kinds.TopAbs_SHELL, kinds.TopAbs_SOLID):
         of_shell = color_of_shape(shell, styles) or whole
-        loose += [(face, color_of_shape(face, styles) or of_shell) for face in found(shell, kinds.TopAbs_FACE)]
-    loose += [(face, color_of_shape(face, styles) or whole) for face in found(product, kinds.TopAbs_FACE, kinds.TopAbs_SHELL)]
+        pieces += _tessellated(found(shell, kinds.TopAbs_FACE), of_shell, styles)
+        loose += _with_colors(found(shell, kinds.TopAbs_FACE), of_shell, styles)
+    alone = found(product, kinds.TopAbs_FACE, kinds.TopAbs_SHELL)
+    pieces += _tessellated(alone, whole, styles)
+    loose += _with_colors(alone, whole, styles)
     return pieces + (_sewn(loose) if loose else [])
+
+
+def has_surface(face: Any) -> bool:
+    """Whether a face is one of a surface; AP242 files have some that are triangles and nothing else."""
+    return BRep_Tool.Surface_s(TopoDS.Face_s(face)) is not None
+
+
+def _with_colors(faces: list[Any], whole: Color | None, styles: Any) -> list[tuple[Any, Color | None]]:
+    """Returns those of the faces that have surfaces, each with its colour."""
+    return [(face, color_of_shape(face, styles) or whole) for face in faces if has_surface(face)]
+
+
+def _tessellated(faces: list[Any], whole: Color | None, styles: Any) -> list[Piece]:
+    """Returns those of the faces that are triangles alone as one piece: sewing would drop them."""
+    bare = [face for face in faces if not has_surface(face)]
+    if not bare:
+        return []
+    together, builder = TopoDS_Compound(), BRep_Builder()
+    builder.MakeCompound(together)
+    for face in bare:
+        builder.Add(together, face)
+    return [Piece(together, False, _largest(bare, whole, styles))]
 
 
 def _sewn(faces: list[tuple[Any, Color | None]]) -> list[Piece]:
