@@ -172,14 +172,15 @@ Result<model::Model> Reading::read(std::span<const FileToRead> files) {
   for (const auto& [name, of_file] : diagnostics) all.diagnostics.append(of_file);
   std::ranges::sort(places, {}, &FilePlace::file);
   all.diagnostics.append(tell_of_places(places, on_map));
-  model::finish(all);
+  if (const Status finished = model::finish(all, context_); !finished) return finished.error();
   return all;
 }
 
 Result<ReadFile> Reading::read_alone(const FileToRead& file) {
   Result<ImportedModel> read = read_one(file);
   if (!read) return read.error();
-  model::finish(read->model);
+  if (const Status finished = model::finish(read->model, context_); !finished)
+    return finished.error();
   return ReadFile{std::move(read->model), std::move(read->map)};
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <new>
 #include <numeric>
 #include <span>
 #include <string_view>
@@ -15,11 +16,18 @@
 #include "core/seeded_hash.hpp"
 #include "model/file_labels.hpp"
 #include "model/string_sort.hpp"
+#include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/slots.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::model {
 namespace {
 
 using BodyOrder = std::vector<std::uint32_t>;
+
+// Only shares the work out.
+constexpr std::size_t kObjectsPerBlock = 4096;
 
 BodyOrder identity(std::size_t count) {
   BodyOrder order(count);
@@ -29,20 +37,23 @@ BodyOrder identity(std::size_t count) {
 
 /// Puts the indices of all objects in the order of (file, id), equal ones as the source has them.
 /// Returns true when no two objects of a file have one id.
-bool sort_objects(const Model& model, BodyOrder& order) {
+Result<bool> sort_objects(const Model& model, BodyOrder& order, const parallel::Context& context) {
   const auto file_of = [&](std::uint32_t i) { return model.objects[i].file; };
   const auto by_file = [&](std::uint32_t a, std::uint32_t b) {
     return file_of(a) != file_of(b) ? file_of(a) < file_of(b) : a < b;
   };
   if (!std::is_sorted(order.begin(), order.end(), by_file))
     std::sort(order.begin(), order.end(), by_file);
-  std::vector<std::string_view> ids;
-  ids.reserve(model.objects.size());
-  for (const Object& o : model.objects) ids.emplace_back(o.id);
+  const auto ids = parallel::transform(
+      context, {.name = "ids of objects", .n = model.objects.size(), .grain = kObjectsPerBlock},
+      [&](std::size_t i) { return std::string_view(model.objects[i].id); });
+  if (!ids) return ids.error();
   bool distinct = true;
   for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
     for (end = i + 1; end < order.size() && file_of(order[end]) == file_of(order[i]);) ++end;
-    distinct = sort_strings(ids, std::span(order).subspan(i, end - i)) && distinct;
+    const auto sorted = sort_strings(*ids, std::span(order).subspan(i, end - i), context);
+    if (!sorted) return sorted.error();
+    distinct = *sorted && distinct;
   }
   return distinct;
 }
@@ -100,23 +111,32 @@ void separate_ids(Model& model, const BodyOrder& order) {
 }
 
 /// Puts the objects in the given order and their bodies behind each other in the same order.
-void reorder(Model& model, const BodyOrder& order) {
-  std::vector<Object> objects;
-  std::vector<Body> bodies;
-  objects.reserve(model.objects.size());
-  bodies.reserve(model.bodies.size());
-  for (const std::uint32_t old : order) {
-    Object object = std::move(model.objects[old]);
-    const std::size_t begin = std::min<std::size_t>(object.first_body, model.bodies.size());
-    const std::size_t count = std::min<std::size_t>(object.body_count, model.bodies.size() - begin);
-    object.first_body = static_cast<std::uint32_t>(bodies.size());
-    object.body_count = static_cast<std::uint32_t>(count);
-    const auto from = model.bodies.begin() + static_cast<std::ptrdiff_t>(begin);
-    bodies.insert(bodies.end(), from, from + static_cast<std::ptrdiff_t>(count));
-    objects.push_back(std::move(object));
-  }
-  model.objects = std::move(objects);
-  model.bodies = std::move(bodies);
+Status reorder(Model& model, const BodyOrder& order, const parallel::Context& context) {
+  const auto bodies_of = [&](std::size_t i) {
+    const Object& object = model.objects[order[i]];
+    const std::size_t first = std::min<std::size_t>(object.first_body, model.bodies.size());
+    return std::span(model.bodies)
+        .subspan(first, std::min<std::size_t>(object.body_count, model.bodies.size() - first));
+  };
+  auto bodies = parallel::count_fill<Body>(
+      context, {.name = "bodies in order", .n = order.size(), .grain = kObjectsPerBlock},
+      [&](std::size_t i) { return bodies_of(i).size(); },
+      [&](std::size_t i, std::span<Body> out) { std::ranges::copy(bodies_of(i), out.begin()); });
+  if (!bodies) return bodies.error();
+  auto objects = parallel::slots<Object>(order.size(), context);
+  if (!objects) return objects.error();
+  const Status moved = parallel::for_each(
+      context, {.name = "objects in order", .n = order.size(), .grain = kObjectsPerBlock},
+      [&](std::size_t i) {
+        Object& object = (*objects)[i];
+        object = std::move(model.objects[order[i]]);
+        object.first_body = static_cast<std::uint32_t>(bodies->offsets[i]);
+        object.body_count = static_cast<std::uint32_t>((*bodies)[i].size());
+      });
+  if (!moved) return moved;
+  model.objects = std::move(*objects);
+  model.bodies = std::move(bodies->values);
+  return {};
 }
 
 /// Whether reorder() would change nothing. Many programs write objects in the order of their ids,
@@ -140,24 +160,33 @@ void number_by_source(Model& model) {
 }
 
 /// Puts the objects of a numbered model in order, and separates ids that repeat.
-void arrange_objects(Model& model) {
+Status arrange_objects(Model& model, const parallel::Context& context) {
   BodyOrder order = identity(model.objects.size());
-  // These have a diagnostic of their own.
-  if (!sort_objects(model, order)) {
+  auto distinct = sort_objects(model, order, context);
+  if (!distinct) return distinct.error();
+  if (!*distinct) {
     separate_ids(model, order);
-    static_cast<void>(sort_objects(model, order));
+    distinct = sort_objects(model, order, context);
+    if (!distinct) return distinct.error();
   }
-  if (!is_in_order(model, order)) reorder(model, order);
+  return is_in_order(model, order) ? Status{} : reorder(model, order, context);
 }
 
 /// Puts the objects of a finished model as the source has them, and takes folders off its labels.
-void take_up_again(Model& model) {
+Status take_up_again(Model& model) {
   BodyOrder order = identity(model.objects.size());
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return model.objects[a].place < model.objects[b].place;
   });
-  if (!is_in_order(model, order)) reorder(model, order);
+  if (!is_in_order(model, order))
+    if (Status status = reorder(model, order, {}); !status) return status;
   for (SourceFile& file : model.files) file.label.erase(0, file.label.rfind('/') + 1);
+  return {};
+}
+
+/// For functions that have no other way to say so: without a team and a token nothing else fails.
+void throw_unless(const Status& status) {
+  if (!status) throw std::bad_alloc();
 }
 
 }  // namespace
@@ -230,11 +259,13 @@ void Model::set_attributes(GroupId group, Attributes attributes) {
   group_attributes.push_back(std::move(attributes));
 }
 
-void finish(Model& model) {
+Status finish(Model& model, const parallel::Context& context) {
   number_by_source(model);
   note_positional_ids(model);
-  arrange_objects(model);
+  return arrange_objects(model, context);
 }
+
+void finish(Model& model) { throw_unless(finish(model, {})); }
 
 void append(Model& model, Model&& other) {
   const auto files = static_cast<std::uint32_t>(model.files.size());
@@ -275,12 +306,12 @@ void append(Model& model, Model&& other) {
 Model join(std::span<Model> models) {
   Model all;
   for (Model& model : models) {
-    take_up_again(model);
+    throw_unless(take_up_again(model));
     append(all, std::move(model));
   }
   // What finish() notes has been noted of each.
   number_by_source(all);
-  arrange_objects(all);
+  throw_unless(arrange_objects(all, {}));
   return all;
 }
 

@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "strake/core/diagnostics.hpp"
+#include "strake/core/result.hpp"
 #include "strake/geometry/mesh.hpp"
 #include "strake/geometry/primitive.hpp"
 #include "strake/geometry/vec.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::model {
 
@@ -153,6 +155,9 @@ struct Model {
 /// all that share it have positional ids), counts positional ids, sets the objects' places, and
 /// orders objects by (file label, id) and bodies by object. What a reader returns is not a finished
 /// Model until this ran; io::read_models() calls it.
+/// All workers sort. Errors: cancelled, out of memory; then the model is of no use.
+[[nodiscard]] Status finish(Model& model, const parallel::Context& context);
+/// The same by the calling thread alone.
 void finish(Model& model);
 
 /// Appends the files, groups, shapes, objects, bodies and diagnostics of `other`.

@@ -52,24 +52,30 @@ struct SurfaceList {
   std::vector<PlacedSurface> placed;          ///< by body
 };
 
-SurfaceList list_surfaces(const model::Scene& scene, const std::vector<bool>& drawn,
-                          const std::vector<std::int64_t>& contact) {
+Result<SurfaceList> list_surfaces(const model::Scene& scene, const std::vector<bool>& drawn,
+                                  const std::vector<std::int64_t>& contact,
+                                  const parallel::Context& context) {
   SurfaceList surfaces;
   std::vector<std::uint32_t> first;
   for (const model::GridShape& shape : scene.shapes) {
     first.push_back(static_cast<std::uint32_t>(surfaces.unique.size()));
     for (const geometry::Part& part : shape.parts) surfaces.unique.push_back(&part);
   }
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    const model::GridBody& body = scene.bodies[b];
-    if (!drawn[model::index(body.object)]) continue;
-    std::uint32_t number = first[body.grid_shape];
-    for (const geometry::Part& part : scene.shapes[body.grid_shape].parts) {
-      if (!part.triangles.empty())
-        surfaces.placed.push_back({{&part, body.origin}, number, b, contact[b]});
-      ++number;
-    }
-  }
+  auto placed = parallel::collect<PlacedSurface>(
+      context, {.name = "intersections: surfaces", .n = scene.bodies.size(), .grain = kGrain},
+      [&](std::size_t b, std::vector<PlacedSurface>& out) {
+        const model::GridBody& body = scene.bodies[b];
+        if (!drawn[model::index(body.object)]) return;
+        std::uint32_t number = first[body.grid_shape];
+        for (const geometry::Part& part : scene.shapes[body.grid_shape].parts) {
+          if (!part.triangles.empty())
+            out.push_back(
+                {{&part, body.origin}, number, static_cast<std::uint32_t>(b), contact[b]});
+          ++number;
+        }
+      });
+  if (!placed) return placed.error();
+  surfaces.placed = std::move(*placed);
   return surfaces;
 }
 
@@ -417,8 +423,9 @@ Result<IntersectionLines> find_intersection_lines(const model::Scene& scene,
                                                   const IntersectionRule& rule,
                                                   const parallel::Context& context) {
   if (rule.which == Intersections::off) return IntersectionLines{};
-  const SurfaceList surfaces = list_surfaces(scene, drawn, contact);
-  return Finder(scene, surfaces, rule, context).run();
+  const Result<SurfaceList> surfaces = list_surfaces(scene, drawn, contact, context);
+  if (!surfaces) return surfaces.error();
+  return Finder(scene, *surfaces, rule, context).run();
 }
 
 }  // namespace strake::hlr

@@ -17,6 +17,8 @@
 #include "hlr/view/projection.hpp"
 #include "hlr/view/view_frustum.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -81,7 +83,7 @@ Result<Lines> derive_lines(const ViewJob& job, std::span<const IntersectionLine>
   const auto crossed = lines_with_uncut(job, context);
   if (!crossed) return crossed.error();
   for (const IntersectionLine& crossing : *crossed) add_crossing(lines, scene, crossing, {});
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b)
+  for (std::uint32_t b = 0; !planes.empty() && b < scene.bodies.size(); ++b)
     if (const ShapeCut* cut = job.sectioned_shape_of(b).cut.get())
       add_section(lines, scene, b, *cut);
   const auto hatch = hatch_lines(job, planes, context);
@@ -127,37 +129,65 @@ Status check(const View& view, const Options& options) {
   return check_perspective(view);
 }
 
-void fill_bodies(ViewJob& job) {
+// Only shares the work out. Blocks of bodies have whole words of bits to themselves.
+constexpr std::size_t kBodiesPerBlock = 4096;
+
+Status fill_bodies(ViewJob& job, const parallel::Context& context) {
   const model::Scene& scene = *job.scene;
   job.opaque.resize(scene.bodies.size());
   job.contact.resize(scene.bodies.size());
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const model::GridBody& body = scene.bodies[b];
-    if (!job.drawn[model::index(body.object)]) continue;
-    const model::Body& placed = scene.model->bodies[body.body];
-    job.opaque[b] = placed.color.alpha == 255;
-    job.contact[b] = contact_of(placed, job.options);
-  }
+  return parallel::for_each(
+      context, {.name = "view: bodies", .n = scene.bodies.size(), .grain = kBodiesPerBlock},
+      [&](std::size_t b) {
+        const model::GridBody& body = scene.bodies[b];
+        if (!job.drawn[model::index(body.object)]) return;
+        const model::Body& placed = scene.model->bodies[body.body];
+        job.opaque[b] = placed.color.alpha == 255;
+        job.contact[b] = contact_of(placed, job.options);
+      });
 }
 
 // Adds the rounding of sections to the contact distances.
-void widen_contact(ViewJob& job) {
-  std::int64_t largest = 0;
-  for (std::uint32_t b = 0; b < job.contact.size(); ++b) {
-    if (!job.drawn[model::index(job.scene->bodies[b].object)]) continue;
-    job.contact[b] = std::max(job.contact[b], job.sectioned_shape_of(b).within);
-    largest = std::max(largest, job.contact[b]);
-  }
-  job.contact_distance_mm = static_cast<double>(largest) * geometry::kMmPerGrid;
+Status widen_contact(ViewJob& job, const parallel::Context& context) {
+  const auto largest = parallel::reduce(
+      context, {.name = "view: contacts", .n = job.contact.size(), .grain = kBodiesPerBlock},
+      std::int64_t{0},
+      [&](std::int64_t& most, std::size_t index) {
+        const auto b = static_cast<std::uint32_t>(index);
+        if (!job.drawn[model::index(job.scene->bodies[b].object)]) return;
+        job.contact[b] = std::max(job.contact[b], job.sectioned_shape_of(b).within);
+        most = std::max(most, job.contact[b]);
+      },
+      [](std::int64_t& into, std::int64_t most) { into = std::max(into, most); });
+  if (!largest) return largest.error();
+  job.contact_distance_mm = static_cast<double>(*largest) * geometry::kMmPerGrid;
+  return {};
 }
 
-Box3l drawn_box(const ViewJob& job) {
+/// What is drawn: its box, and the longest side of a shape.
+struct DrawnExtent {
   Box3l box = geometry::empty_box<std::int64_t>();
-  for (const model::GridBody& body : job.scene->bodies) {
-    const model::GridShape& shape = job.scene->shapes[body.grid_shape];
-    if (job.drawn[model::index(body.object)] && !shape.box.empty()) box.include(body.box(shape));
-  }
-  return box;
+  std::int64_t longest_side = 0;
+};
+
+Result<DrawnExtent> drawn_extent(const ViewJob& job, const parallel::Context& context) {
+  return parallel::reduce(
+      context, {.name = "view: extent", .n = job.scene->bodies.size(), .grain = kBodiesPerBlock},
+      DrawnExtent{},
+      [&](DrawnExtent& extent, std::size_t b) {
+        const model::GridBody& body = job.scene->bodies[b];
+        const model::GridShape& shape = job.scene->shapes[body.grid_shape];
+        const geometry::Box3i& box = shape.box;
+        if (!job.drawn[model::index(body.object)] || box.empty()) return;
+        extent.box.include(body.box(shape));
+        for (int k = 0; k < 3; ++k)
+          extent.longest_side =
+              std::max(extent.longest_side, std::int64_t{box.hi[k]} - std::int64_t{box.lo[k]});
+      },
+      [](DrawnExtent& into, const DrawnExtent& extent) {
+        into.box.include(extent.box);
+        into.longest_side = std::max(into.longest_side, extent.longest_side);
+      });
 }
 
 // Clips the limits to one unit beyond what is drawn, which keeps the numbers small and changes no
@@ -170,17 +200,6 @@ void place_limits(ViewJob& job, const Box3l& box) {
     limits.hi[k] = std::clamp(limits.hi[k], box.lo[k] - 1, box.hi[k] + 1) - job.origin[k];
   }
   job.limits = limits;
-}
-
-double longest_side_of(const ViewJob& job) {
-  std::int64_t side = 0;
-  for (const model::GridBody& body : job.scene->bodies) {
-    const geometry::Box3i& box = job.scene->shapes[body.grid_shape].box;
-    if (!job.drawn[model::index(body.object)] || box.empty()) continue;
-    for (int k = 0; k < 3; ++k)
-      side = std::max(side, std::int64_t{box.hi[k]} - std::int64_t{box.lo[k]});
-  }
-  return static_cast<double>(side);
 }
 
 Status place_eye(ViewJob& job, const Box3l& box, double longest_side) {
@@ -212,10 +231,19 @@ Status place_middle(ViewJob& job, const Box3l& box) {
   return {};
 }
 
-Status place(ViewJob& job, const WholeView* whole) {
-  const Box3l box = whole != nullptr ? whole->box : drawn_box(job);
+Status place(ViewJob& job, const WholeView* whole, const parallel::Context& context) {
+  Box3l box;
+  double longest_side = 0;
+  if (whole != nullptr) {
+    box = whole->box;
+    longest_side = whole->longest_side;
+  } else {
+    const auto extent = drawn_extent(job, context);
+    if (!extent) return extent.error();
+    box = extent->box;
+    longest_side = static_cast<double>(extent->longest_side);
+  }
   if (box.empty()) return {};
-  const double longest_side = whole != nullptr ? whole->longest_side : longest_side_of(job);
   const Status placed =
       job.view.perspective ? place_eye(job, box, longest_side) : place_middle(job, box);
   if (placed) place_limits(job, box);
@@ -274,8 +302,8 @@ Result<ViewJob> begin_job(const ViewInput& input, const parallel::Context& conte
   if (!own) return own.error();
   if (*own) job.own = std::make_unique<model::Scene>(std::move(**own));
   job.scene = job.own ? job.own.get() : &scene;
-  fill_bodies(job);
-  if (const Status status = place(job, whole); !status) return status.error();
+  if (const Status status = fill_bodies(job, context); !status) return status.error();
+  if (const Status status = place(job, whole, context); !status) return status.error();
   return job;
 }
 
@@ -287,7 +315,7 @@ Status cut_bodies(ViewJob& job, std::span<const SectionPlane> planes, const Whol
   auto seen = make_sectioned_shapes(*job.scene, job.drawn, job.uncut, planes, context);
   if (!seen) return seen.error();
   job.seen = std::move(*seen);
-  widen_contact(job);
+  if (const Status status = widen_contact(job, context); !status) return status;
   if (whole != nullptr) {
     job.hatches.assign(whole->hatches.begin(), whole->hatches.end());
     return {};

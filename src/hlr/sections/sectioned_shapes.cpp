@@ -164,7 +164,11 @@ Result<SectionedShapes> make_sectioned_shapes(const model::Scene& scene,
   if (planes.empty()) {
     for (const model::GridShape& shape : scene.shapes)
       seen.all.push_back({&shape, {}, {}, false, nullptr, 0});
-    for (const model::GridBody& body : scene.bodies) seen.of.push_back(body.grid_shape);
+    auto of = parallel::transform(
+        context, {.name = "sections: none", .n = scene.bodies.size(), .grain = 4096},
+        [&](std::size_t b) { return scene.bodies[b].grid_shape; });
+    if (!of) return of.error();
+    seen.of = std::move(*of);
     return seen;
   }
   const auto sights = parallel::transform(

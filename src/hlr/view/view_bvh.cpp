@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
@@ -109,7 +110,7 @@ class ViewBvh::Builder {
       v1 = std::max(v1, b.v0 + b.v1);
     }
     Node& node = bvh_.nodes_[subtree.node];
-    node.box = box;
+    node = {.box = box};
     if (subtree.size() <= kLeafSize) {
       node.first = subtree.first;
       node.count = subtree.size();
@@ -176,7 +177,9 @@ Result<ViewBvh> ViewBvh::of(std::span<const ViewBox> boxes, const parallel::Cont
     if (!boxes[i].empty()) bvh.order_.push_back(i);
   if (bvh.order_.empty()) return bvh;
   const auto size = static_cast<std::uint32_t>(bvh.order_.size());
-  bvh.nodes_.resize(1 + nodes_below(size));
+  auto nodes = parallel::unset_slots<Node>(1 + nodes_below(size), context);
+  if (!nodes) return nodes.error();
+  bvh.nodes_ = std::move(*nodes);
   const Builder builder(bvh, *loose);
   // Level by level, until the parts are many and small.
   std::vector<Subtree> level{{0, 0, size, 1}};

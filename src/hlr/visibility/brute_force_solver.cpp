@@ -423,7 +423,9 @@ Result<BruteForceWork> count_brute_force_work(const ViewJob& job,
 
 Status solve_brute_force(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
   const std::size_t objects = job.scene->model->objects.size();
-  const SpeckRule rule(job);
+  const Result<SpeckRule> made_rule = SpeckRule::of(job, context);
+  if (!made_rule) return made_rule.error();
+  const SpeckRule& rule = *made_rule;
   const auto lines =
       parallel::transform(context, {.name = "hidden lines (brute force)", .n = objects},
                           [&](std::size_t i) -> Result<ObjectLines> {

@@ -17,6 +17,7 @@
 #include "strake/hlr/steps.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/report.hpp"
 #include "strake/parallel/slots.hpp"
 
@@ -555,6 +556,40 @@ Status compute_self_occlusion(VisibilityScene& visibility, const parallel::Conte
   return {};
 }
 
+/// Counts the work on items for their objects, and returns that on all.
+Result<SolverWork> sum_up(const VisibilityScene& visibility, std::span<const SolverWork> work,
+                          const parallel::Context& context, Drawing& drawing) {
+  constexpr std::size_t kGrain = 4096;
+  const auto object_of = [&](std::size_t i) {
+    return visibility.placed[visibility.items[i].body].object;
+  };
+  return parallel::reduce(
+      context, {.name = "hidden lines: work", .n = work.size(), .grain = kGrain}, SolverWork{},
+      [&](SolverWork& sum, std::size_t i) {
+        const SolverWork& done = work[i];
+        sum.covered += done.covered;
+        sum.tests += done.tests;
+        sum.wide_tests += done.wide_tests;
+        sum.own_s += done.own_s;
+        sum.timed_s += done.timed_s;
+        // Items are by object: the first one counts for all.
+        const std::uint32_t object = object_of(i);
+        if (i > 0 && object_of(i - 1) == object) return;
+        for (std::size_t k = i; k < work.size() && object_of(k) == object; ++k) {
+          add(drawing.counted[object], work[k]);
+          if (work[k].left_out > 0)
+            drawing.left_out[object] += static_cast<std::uint32_t>(work[k].left_out);
+        }
+      },
+      [](SolverWork& into, const SolverWork& sum) {
+        into.covered += sum.covered;
+        into.tests += sum.tests;
+        into.wide_tests += sum.wide_tests;
+        into.own_s += sum.own_s;
+        into.timed_s += sum.timed_s;
+      });
+}
+
 }  // namespace
 
 Status solve_gather(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
@@ -563,7 +598,9 @@ Status solve_gather(const ViewJob& job, const parallel::Context& context, Drawin
   if (const Status status = compute_self_occlusion(*made, context, drawing.counters); !status)
     return status;
   const VisibilityScene& visibility = *made;
-  const SpeckRule rule(job);
+  const Result<SpeckRule> made_rule = SpeckRule::of(job, context);
+  if (!made_rule) return made_rule.error();
+  const SpeckRule& rule = *made_rule;
   Result<std::vector<SolverWork>> work =
       parallel::slots<SolverWork>(visibility.items.size(), context);
   if (!work) return work.error();
@@ -576,17 +613,10 @@ Status solve_gather(const ViewJob& job, const parallel::Context& context, Drawin
       });
   if (!pieces) return pieces.error();
   drawing.pieces = std::move(pieces).value();
-  double own_s = 0, timed_s = 0;
-  for (std::size_t i = 0; i < work->size(); ++i) {
-    const SolverWork& done = (*work)[i];
-    own_s += done.own_s;
-    timed_s += done.timed_s;
-    const std::uint32_t object = visibility.placed[visibility.items[i].body].object;
-    add(drawing.counters, done);
-    add(drawing.counted[object], done);
-    if (done.left_out > 0) drawing.left_out[object] += static_cast<std::uint32_t>(done.left_out);
-  }
-  shares.report(own_s, timed_s);
+  const Result<SolverWork> sum = sum_up(visibility, *work, context, drawing);
+  if (!sum) return sum.error();
+  add(drawing.counters, *sum);
+  shares.report(sum->own_s, sum->timed_s);
   return {};
 }
 

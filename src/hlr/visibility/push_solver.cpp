@@ -187,7 +187,9 @@ Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing&
   const Result<VisibilityScene> made = make_visibility_scene(job, context);
   if (!made) return made.error();
   const VisibilityScene& visibility = *made;
-  const SpeckRule rule(job);
+  const Result<SpeckRule> made_rule = SpeckRule::of(job, context);
+  if (!made_rule) return made_rule.error();
+  const SpeckRule& rule = *made_rule;
   std::vector<TargetObject> objects(job.drawn.size());
   std::vector<SolverWork> work(objects.size() + visibility.placed.size());
   struct Local {

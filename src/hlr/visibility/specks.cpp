@@ -9,6 +9,7 @@
 
 #include "geometry/numeric/vector_math.hpp"
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/for_each.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -257,12 +258,21 @@ SpeckRule::SpeckRule(const ViewJob& job)
       origin_(job.origin),
       direction_length_(geometry::length(job.direction().as<double>())),
       keeps_hidden_(job.options.hidden),
-      longest_(job.drawn.size()) {
-  if (job.options.keep_specks) return;
-  for (std::size_t b = 0; b < job.contact.size(); ++b) {
-    std::int64_t& longest = longest_[model::index(job.scene->bodies[b].object)];
-    longest = std::max(longest, kContactsPerSpeck * job.contact[b]);
-  }
+      longest_(job.drawn.size()) {}
+
+Result<SpeckRule> SpeckRule::of(const ViewJob& job, const parallel::Context& context) {
+  SpeckRule rule(job);
+  if (job.options.keep_specks) return rule;
+  const std::vector<std::uint32_t>& first_body = job.scene->first_body;
+  const Status status = parallel::for_each(
+      context, {.name = "hidden lines: longest specks", .n = job.drawn.size(), .grain = 4096},
+      [&](std::size_t object) {
+        for (std::size_t b = first_body[object]; b < first_body[object + 1]; ++b)
+          rule.longest_[object] =
+              std::max(rule.longest_[object], kContactsPerSpeck * job.contact[b]);
+      });
+  if (!status) return status.error();
+  return rule;
 }
 
 std::int64_t SpeckRule::longest(model::ObjectId object, model::ObjectId other) const {
@@ -310,7 +320,9 @@ bool leave_out_unwanted(const Options& options, std::size_t first, std::vector<E
 
 Status dot_lone_specks(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
   if (job.options.keep_specks) return {};
-  const SpeckRule rule(job);
+  const auto made = SpeckRule::of(job, context);
+  if (!made) return made.error();
+  const SpeckRule& rule = *made;
   const std::span<EdgePiece> pieces = drawing.pieces;
   const auto specks = parallel::collect<std::size_t>(
       context, {.name = "hidden lines: specks", .n = pieces.size(), .grain = 16384},

@@ -24,7 +24,8 @@ namespace strake::hlr {
 /// the grid adds. The exact solvers do not know of this rule; it is applied to their results.
 class SpeckRule {
  public:
-  explicit SpeckRule(const ViewJob& job);
+  /// Errors: cancelled.
+  [[nodiscard]] static Result<SpeckRule> of(const ViewJob& job, const parallel::Context& context);
 
   /// Returns the greatest length of a speck, grid units, on lines of an object or, at
   /// intersections, of two; 0: none.
@@ -42,6 +43,8 @@ class SpeckRule {
   [[nodiscard]] bool keeps_hidden() const { return keeps_hidden_; }
 
  private:
+  explicit SpeckRule(const ViewJob& job);
+
   Viewer viewer_;
   geometry::Vec3l origin_;
   double direction_length_ = 1;

@@ -12,10 +12,16 @@
 #include "hlr/edges/element_loop.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/hlr/steps.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/count_fill.hpp"
 #include "strake/parallel/distinct.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/lowest.hpp"
+#include "strake/parallel/marks.hpp"
 #include "strake/parallel/pieces.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/report.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -24,6 +30,7 @@ using geometry::Box3l;
 
 // Only shares the work out: between 8 and 128 no difference can be seen (decision 0073).
 constexpr std::uint32_t kEdgesPerItem = 32;
+constexpr std::size_t kBodiesPerItem = 1024;
 /// For the occlusion buffer: with more tiles painting them costs more than it saves. With so many,
 /// 0.4 faces are tested per edge of 20,000 boxes about 100 deep, 3 to 6 in a ship (docs/hlr.md).
 constexpr std::size_t kEdgesPerTile = 16;
@@ -57,14 +64,18 @@ Status project_shapes(VisibilityScene& visibility, const parallel::Context& cont
   const ViewJob& job = visibility.job;
   const model::Scene& scene = *job.scene;
   const std::size_t shapes = visibility.perspective_map ? scene.bodies.size() : job.seen.all.size();
-  std::vector<std::uint32_t> body_of(shapes);
-  std::vector<bool> wanted(shapes);
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    if (!job.drawn[model::index(scene.bodies[b].object)]) continue;
-    const std::uint32_t shape = visibility.shape_number(b);
-    if (!wanted[shape]) body_of[shape] = b;
-    wanted[shape] = true;
-  }
+  parallel::Lowest body_of(shapes);
+  const Status found = parallel::for_each(
+      context,
+      {.name = "hidden lines: shapes of bodies", .n = scene.bodies.size(), .grain = kBodiesPerItem},
+      [&](std::size_t b) {
+        if (job.drawn[model::index(scene.bodies[b].object)])
+          body_of.offer(visibility.shape_number(static_cast<std::uint32_t>(b)), b);
+      });
+  if (!found) return found;
+  std::vector<std::uint32_t> wanted;
+  for (std::uint32_t shape = 0; shape < shapes; ++shape)
+    if (body_of[shape] != parallel::Lowest::kNone) wanted.push_back(shape);
   const auto edges = [&](std::size_t shape) {
     std::size_t sum = 0;
     for (const geometry::Part& part : job.sectioned_shape_of(body_of[shape]).source->parts)
@@ -75,8 +86,7 @@ Status project_shapes(VisibilityScene& visibility, const parallel::Context& cont
   const PerspectiveMap* const perspective_map =
       visibility.perspective_map ? &*visibility.perspective_map : nullptr;
   return visibility.shapes.fill_by_weight(
-      context, {.name = "hidden lines: shapes"}, kBigShape, parallel::keys_of(wanted), edges,
-      [&](std::size_t shape) {
+      context, {.name = "hidden lines: shapes"}, kBigShape, wanted, edges, [&](std::size_t shape) {
         const std::uint32_t body = body_of[shape];
         return project_shape(
             job.sectioned_shape_of(body),
@@ -129,9 +139,13 @@ void mark_repeated(VisibilityScene& visibility, std::span<const std::uint32_t> c
 /// Puts the bodies that may hide, those with a box, into columns and a tree over these.
 Status make_columns(VisibilityScene& visibility, std::span<const ViewBox> boxes,
                     const parallel::Context& context) {
-  std::vector<std::uint32_t> some;
-  for (std::uint32_t b = 0; b < boxes.size(); ++b)
-    if (!boxes[b].empty()) some.push_back(b);
+  const auto hiding = parallel::collect<std::uint32_t>(
+      context, {.name = "hidden lines: hiding bodies", .n = boxes.size(), .grain = kBodiesPerItem},
+      [&](std::size_t b, std::vector<std::uint32_t>& out) {
+        if (!boxes[b].empty()) out.push_back(static_cast<std::uint32_t>(b));
+      });
+  if (!hiding) return hiding.error();
+  const std::vector<std::uint32_t>& some = *hiding;
   const auto found = find_columns(visibility, some, context);
   if (!found) return found.error();
   BodyColumns& columns = visibility.columns;
@@ -139,25 +153,31 @@ Status make_columns(VisibilityScene& visibility, std::span<const ViewBox> boxes,
   std::vector<std::uint32_t> end(count + 1);
   for (const std::uint32_t c : found->of) ++end[c + 1];
   std::partial_sum(end.begin(), end.end(), end.begin());
-  columns.bodies.resize(some.size());
+  std::vector<std::uint32_t> all(some.size());
   std::vector<std::uint32_t> next = end;
-  for (std::size_t i = 0; i < some.size(); ++i) columns.bodies[next[found->of[i]]++] = some[i];
+  for (std::size_t i = 0; i < some.size(); ++i) all[next[found->of[i]]++] = some[i];
   std::vector<ViewBox> nearest(count);
-  std::uint32_t kept = 0;
-  for (std::uint32_t c = 0; c < count; ++c) {
-    const auto column = std::span(columns.bodies).subspan(end[c], end[c + 1] - end[c]);
-    std::ranges::sort(column, [&](std::uint32_t x, std::uint32_t y) {
-      const std::int64_t at_x = visibility.placed[x].at.w, at_y = visibility.placed[y].at.w;
-      return at_x != at_y ? at_x > at_y : x < y;
-    });
-    nearest[c] = boxes[column.front()];
-    if (visibility.job.options.culling) mark_repeated(visibility, column);
-    columns.first.push_back(kept);
-    for (const std::uint32_t b : column)
-      if (!visibility.placed[b].repeated) columns.bodies[kept++] = b;
-  }
-  columns.first.push_back(kept);
-  columns.bodies.resize(kept);
+  const auto column = [&](std::size_t c) {
+    return std::span(all).subspan(end[c], end[c + 1] - end[c]);
+  };
+  const auto stays = [&](std::uint32_t b) { return !visibility.placed[b].repeated; };
+  auto kept = parallel::count_fill<std::uint32_t>(
+      context, {.name = "hidden lines: columns", .n = count, .grain = kBodiesPerItem},
+      [&](std::size_t c) {
+        std::ranges::sort(column(c), [&](std::uint32_t x, std::uint32_t y) {
+          const std::int64_t at_x = visibility.placed[x].at.w, at_y = visibility.placed[y].at.w;
+          return at_x != at_y ? at_x > at_y : x < y;
+        });
+        nearest[c] = boxes[column(c).front()];
+        if (visibility.job.options.culling) mark_repeated(visibility, column(c));
+        return static_cast<std::size_t>(std::ranges::count_if(column(c), stays));
+      },
+      [&](std::size_t c, std::span<std::uint32_t> out) {
+        std::ranges::copy_if(column(c), out.begin(), stays);
+      });
+  if (!kept) return kept.error();
+  columns.bodies = std::move(kept->values);
+  columns.first.assign(kept->offsets.begin(), kept->offsets.end());
   auto tree = ViewBvh::of(nearest, context);
   if (!tree) return tree.error();
   visibility.tree = std::move(*tree);
@@ -167,8 +187,12 @@ Status make_columns(VisibilityScene& visibility, std::span<const ViewBox> boxes,
 Status place_bodies(VisibilityScene& visibility, const parallel::Context& context) {
   const ViewJob& job = visibility.job;
   const model::Scene& scene = *job.scene;
-  visibility.placed.resize(scene.bodies.size());
-  std::vector<ViewBox> boxes(scene.bodies.size());
+  auto placed_bodies = parallel::slots<BodyInstance>(scene.bodies.size(), context);
+  if (!placed_bodies) return placed_bodies.error();
+  visibility.placed = std::move(*placed_bodies);
+  auto made = parallel::slots<ViewBox>(scene.bodies.size(), context);
+  if (!made) return made.error();
+  std::vector<ViewBox>& boxes = *made;
   const auto place = [&](std::size_t index) {
     const auto b = static_cast<std::uint32_t>(index);
     const model::GridBody& body = scene.bodies[b];
@@ -207,64 +231,95 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
 
 /// Marks whole bodies of one shape that hide and have the same contact distance between their
 /// parts.
-void mark_shared_self_occlusion(VisibilityScene& visibility) {
+Status mark_shared_self_occlusion(VisibilityScene& visibility, const parallel::Context& context) {
   const SectionedShapes& shapes = visibility.job.seen;
-  constexpr std::uint32_t kNoShape = 0xffffffffU;
-  std::vector<std::uint32_t> first(shapes.all.size(), kNoShape);
-  for (std::uint32_t b = 0; b < visibility.placed.size(); ++b) {
+  parallel::Lowest first(shapes.all.size());
+  parallel::Marks shared(shapes.all.size());
+  const auto may_share = [&](const BodyInstance& placed) {
+    return placed.shape != nullptr && placed.opaque && !placed.cut &&
+           visibility.job.asks_for(placed.object);
+  };
+  const parallel::Region bodies{.name = "hidden lines: bodies of a shape",
+                                .n = visibility.placed.size(),
+                                .grain = kBodiesPerItem};
+  Status status = parallel::for_each(context, bodies, [&](std::size_t b) {
+    if (may_share(visibility.placed[b])) first.offer(shapes.of[b], b);
+  });
+  if (!status) return status;
+  // The first body of a shape shares with any other, which is not to write to it.
+  status = parallel::for_each(context, bodies, [&](std::size_t b) {
     BodyInstance& placed = visibility.placed[b];
-    if (placed.shape == nullptr || !placed.opaque || placed.cut ||
-        !visibility.job.asks_for(placed.object))
-      continue;
-    std::uint32_t& one = first[shapes.of[b]];
-    if (one == kNoShape) {
-      one = b;
-    } else if (placed.contact == visibility.placed[one].contact) {
-      placed.shares_self_occlusion = visibility.placed[one].shares_self_occlusion = true;
-    }
-  }
+    const std::uint32_t one = first[shapes.of[b]];
+    if (one == b || !may_share(placed) || placed.contact != visibility.placed[one].contact) return;
+    placed.shares_self_occlusion = true;
+    shared.set(shapes.of[b]);
+  });
+  if (!status) return status;
+  for (std::size_t s = 0; s < first.size(); ++s)
+    if (shared.is_set(s)) visibility.placed[first[s]].shares_self_occlusion = true;
+  return {};
 }
 
 Status make_occlusion_buffer(VisibilityScene& visibility, const parallel::Context& context) {
   const ViewJob& job = visibility.job;
   if (!job.options.culling || job.options.stage != Stage::global || visibility.perspective_map)
     return {};
-  std::size_t edges = 0;
-  for (const BodyInstance& placed : visibility.placed)
-    if (placed.shape != nullptr) edges += placed.shape->edges.size();
+  const auto edges = parallel::reduce(
+      context,
+      {.name = "hidden lines: number of edges",
+       .n = visibility.placed.size(),
+       .grain = kBodiesPerItem},
+      std::size_t{0},
+      [&](std::size_t& sum, std::size_t b) {
+        const BodyInstance& placed = visibility.placed[b];
+        if (placed.shape != nullptr) sum += placed.shape->edges.size();
+      },
+      [](std::size_t& into, std::size_t sum) { into += sum; });
+  if (!edges) return edges.error();
   std::int64_t contact = job.lines.contact;
   for (const std::int64_t c : job.contact) contact = std::max(contact, c);
   auto occlusion_buffer = OcclusionBuffer::of(visibility.placed, visibility.projection, contact,
-                                              edges / kEdgesPerTile, context);
+                                              *edges / kEdgesPerTile, context);
   if (!occlusion_buffer) return occlusion_buffer.error();
   visibility.occlusion_buffer = std::move(*occlusion_buffer);
   return {};
 }
 
-void make_items(VisibilityScene& visibility) {
-  const model::Scene& scene = *visibility.job.scene;
+/// Appends the work items of an object.
+void append_items(const VisibilityScene& visibility, std::uint32_t object,
+                  std::vector<EdgeRange>& items) {
+  const std::vector<std::uint32_t>& first_body = visibility.job.scene->first_body;
+  if (!visibility.job.asks_for(object)) return;
+  const std::size_t first_item = items.size();
   std::uint32_t number = 0;
   const auto add = [&](std::uint32_t body, std::size_t size, bool lines) {
     const auto edges = static_cast<std::uint32_t>(size);
     parallel::cut_evenly(edges, kEdgesPerItem, [&](std::uint32_t first, std::uint32_t last) {
-      visibility.items.push_back({body, first, last, number + first, lines});
+      items.push_back({body, first, last, number + first, lines});
     });
     number += edges;
   };
-  std::size_t first_item = 0;
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    const std::uint32_t object = visibility.placed[b].object;
-    if (visibility.placed[b].shape == nullptr || !visibility.job.asks_for(object)) continue;
-    if (b == scene.first_body[object]) {
-      number = 0;
-      first_item = visibility.items.size();
-    }
+  for (std::uint32_t b = first_body[object]; b < first_body[object + 1]; ++b) {
+    if (visibility.placed[b].shape == nullptr) continue;
     add(b, visibility.placed[b].shape->edges.size(), false);
-    if (b + 1 != scene.first_body[object + 1]) continue;
+    if (b + 1 != first_body[object + 1]) continue;
     add(b, visibility.job.lines.of(object).size(), true);
-    if (visibility.items.size() == first_item + 1)
-      visibility.items.back().whole = !visibility.items.back().lines;
+    if (items.size() == first_item + 1) items.back().whole = !items.back().lines;
   }
+}
+
+Status make_items(VisibilityScene& visibility, const parallel::Context& context) {
+  auto items = parallel::collect<EdgeRange>(context,
+                                            {.name = "hidden lines: work items",
+                                             .n = visibility.job.drawn.size(),
+                                             .grain = kBodiesPerItem},
+                                            [&](std::size_t object, std::vector<EdgeRange>& out) {
+                                              append_items(visibility,
+                                                           static_cast<std::uint32_t>(object), out);
+                                            });
+  if (!items) return items.error();
+  visibility.items = std::move(*items);
+  return {};
 }
 
 }  // namespace
@@ -293,10 +348,11 @@ Result<VisibilityScene> make_visibility_scene(const ViewJob& job,
                                    job.options.stage == Stage::global ? kGlobalStep : kLocalStep);
   if (const Status status = place_bodies(visibility, context); !status) return status.error();
   if (job.options.culling && job.options.stage != Stage::none && !visibility.perspective_map)
-    mark_shared_self_occlusion(visibility);
+    if (const Status status = mark_shared_self_occlusion(visibility, context); !status)
+      return status.error();
   if (const Status status = make_occlusion_buffer(visibility, context); !status)
     return status.error();
-  make_items(visibility);
+  if (const Status status = make_items(visibility, context); !status) return status.error();
   return visibility;
 }
 

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
+
+#include "strake/parallel/team.hpp"
 
 namespace strake::model {
 namespace {
@@ -84,6 +87,40 @@ TEST(Model, FinishKeepsBodiesWithTheirObjects) {
   EXPECT_EQ(m.bodies[m.objects[0].first_body].color.red, 2);
   EXPECT_EQ(m.bodies[m.objects[2].first_body].color.red, 0);
   for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(m.objects[i].first_body, i);
+}
+
+TEST(Model, FinishIsTheSameForAnyTeam) {
+  constexpr std::uint32_t kMany = 100'000;
+  Model source;
+  source.files.push_back({"a.obj", "OBJ", "mm", "z", 1, 0});
+  source.bodies.resize(2 * kMany);
+  for (std::uint32_t b = 0; b < source.bodies.size(); ++b)
+    source.bodies[b].placement.translation.x = b;
+  for (std::uint32_t i = 0; i < kMany; ++i) {
+    Object o;
+    o.id = "/SHIP/" + std::to_string(i * std::uint64_t{7919} % kMany);
+    o.name = std::to_string(i);
+    // From none to two bodies, those of one object before those of another that comes after it.
+    o.first_body = 2 * (kMany - 1 - i);
+    o.body_count = i % 3;
+    source.objects.push_back(o);
+  }
+  Model alone = source;
+  finish(alone);
+  ASSERT_TRUE(std::ranges::is_sorted(alone.objects, {}, &Object::id));
+  for (const unsigned workers : {2U, 3U, 8U}) {
+    parallel::Team team(workers);
+    Model shared = source;
+    ASSERT_TRUE(finish(shared, {.team = &team}));
+    ASSERT_EQ(shared.bodies.size(), alone.bodies.size());
+    for (std::size_t i = 0; i < alone.objects.size(); ++i) {
+      const Object &x = shared.objects[i], &y = alone.objects[i];
+      ASSERT_EQ(std::tie(x.id, x.name, x.place, x.first_body, x.body_count),
+                std::tie(y.id, y.name, y.place, y.first_body, y.body_count));
+      for (std::uint32_t b = x.first_body; b < x.first_body + x.body_count; ++b)
+        ASSERT_EQ(shared.bodies[b].placement.translation, alone.bodies[b].placement.translation);
+    }
+  }
 }
 
 TEST(Model, RepeatedIdsGainNumbersThatAreFree) {
