@@ -84,7 +84,8 @@ class StageMeter {
                                     .progress = nullptr,
                                     .report = &report};
     note_kernel(context, record);
-    const bool has_peak = reset_peak_memory();
+    // It gives memory back, which the run then has to take again.
+    const bool has_peak = publish && reset_peak_memory();
     const double cpu = parallel::process_cpu_s(), caller = parallel::thread_cpu_s();
     const auto start = std::chrono::steady_clock::now();
     const Result<Computed> computed = contender.compute(context);
@@ -92,7 +93,7 @@ class StageMeter {
     if (!computed) return without_result(contender, record, computed.error());
     record.seconds.push_back(took.count());
     record.cpu_s = parallel::process_cpu_s() - cpu;
-    if (has_peak && publish) record.peak_bytes = peak_memory_since_reset();
+    if (has_peak) record.peak_bytes = peak_memory_since_reset();
     keep_regions(report, parallel::thread_cpu_s() - caller, record);
     note_kernel(context, record);
     record.counters = computed->counters;
