@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "cli/evaluate/machine.hpp"
@@ -125,20 +126,27 @@ class StageMeter {
                  const parallel::Context* publishing) {
     const ContenderRecord& first = stage_.contenders.front();
     record.hash = computed.hash();
-    if (publishing != nullptr && contender.must_equal == MustEqual::bytes) {
-      const Result<std::string> published = computed.published_hash(*publishing);
-      if (!published) return published.error();
-      record.published_hash = *published;
-    }
     if (contender.must_equal != MustEqual::bytes) return {};
-    const auto differs = [&](const char* what) {
+    std::string what_differs = "the published document";
+    if (publishing != nullptr) {
+      Result<Published> published = computed.publish(*publishing);
+      if (!published) return published.error();
+      record.published_hash = published->hash;
+      // Equal bytes are equal pixels; of others it is said how much of it anybody could see.
+      if (&record == &first)
+        first_pixels_ = std::move(published->pixels);
+      else if (published->pixels && first_pixels_ && record.published_hash != first.published_hash)
+        what_differs += fmt::format(" ({})", published->pixels->difference_text(*first_pixels_));
+    }
+    const auto differs = [&](const std::string& what) {
       std::string line = fmt::format("{} of '{}' on {} threads is not that of the {} run", what,
                                      contender.name, contender.threads, first.name);
       if (std::ranges::find(stage_.differences, line) == stage_.differences.end())
         stage_.differences.push_back(std::move(line));
     };
     if (record.hash != first.hash) differs("the result");
-    if (record.published_hash != first.published_hash) differs("the published document");
+    if (publishing != nullptr && record.published_hash != first.published_hash)
+      differs(what_differs);
     return {};
   }
 
@@ -147,6 +155,7 @@ class StageMeter {
   std::stop_token stop_;
   StageRecord stage_;
   std::vector<double> references_;
+  std::optional<SheetPixels> first_pixels_;  ///< of the first contender's sheet
 };
 
 }  // namespace
