@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/evaluate/sheet_pixels.hpp"
+#include "cli/evaluate/published/sheet_pixels.hpp"
 #include "strake/clash/options.hpp"
 #include "strake/core/result.hpp"
 #include "strake/hlr/hlr.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/evaluate/sheet_pixels.hpp"
+#include "cli/evaluate/published/sheet_pixels.hpp"
 
 #include <fmt/format.h>
 
