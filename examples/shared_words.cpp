@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What workers may share while they run: a flag that is only ever set, an allowance, a lock per
-// item, a lock that is none on one thread. And the form that shares nothing, with the same result.
+// What workers may share while they run: a flag that is only ever set, an allowance, the lowest
+// item of a key, a lock per item, a lock that is none on one thread. And the form that shares
+// nothing, with the same result.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include "strake/parallel/allowance.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/item_locks.hpp"
+#include "strake/parallel/lowest.hpp"
 #include "strake/parallel/marks.hpp"
 #include "strake/parallel/optional_lock.hpp"
 #include "strake/parallel/team.hpp"
@@ -32,10 +34,13 @@ int main() {
   using namespace strake;
   using namespace strake::parallel;
   constexpr std::uint32_t kBright = 40'000;
-  std::vector<std::uint32_t> expected(kWalls, 0);
+  std::vector<std::uint32_t> expected(kWalls, 0), first_lamp(kWalls, Lowest::kNone);
   for (std::size_t lamp = 0; lamp < kLamps; ++lamp)
-    for (std::size_t wall = 0; wall < kWalls; ++wall)
+    for (std::size_t wall = 0; wall < kWalls; ++wall) {
       expected[wall] = std::min(kBright, expected[wall] + light(lamp, wall));
+      if (first_lamp[wall] == Lowest::kNone && light(lamp, wall) > 0)
+        first_lamp[wall] = static_cast<std::uint32_t>(lamp);
+    }
 
   for (const unsigned workers : {1U, 2U, 3U, 8U, 64U}) {
     Team team(workers);
@@ -65,6 +70,17 @@ int main() {
           return {};
         });
     if (!status || scattered != expected || lamps != kLamps) return 1;
+
+    // The first lamp of each wall: lamps offer in any order.
+    Lowest first(kWalls);
+    const Status offered =
+        for_each(context, {.name = "first lamps", .n = kLamps}, [&](std::size_t lamp) {
+          for (std::size_t wall = 0; wall < kWalls; ++wall)
+            if (light(lamp, wall) > 0) first.offer(wall, lamp);
+        });
+    if (!offered) return 1;
+    for (std::size_t wall = 0; wall < kWalls; ++wall)
+      if (first[wall] != first_lamp[wall]) return 1;
 
     // Gather: each wall asks the lamps. Nothing is shared, and it stops when it knows enough.
     const auto gathered = transform(context, {.name = "walls", .n = kWalls}, [&](std::size_t wall) {

@@ -33,9 +33,9 @@ std::string hash_of(const hlr::Drawing& drawing) {
   return hasher.value().text();
 }
 
-/// Returns the hash of a sheet with all of the drawing's lines on it, as SVG.
-Result<std::string> published(const hlr::Drawing& drawing, const model::Model& model,
-                              const parallel::Context& context) {
+/// Makes a sheet with all of the drawing's lines on it, as SVG.
+Result<Published> published(const hlr::Drawing& drawing, const model::Model& model,
+                            const parallel::Context& context) {
   const Result<drawing::NeutralDrawing> sheet = drawing::lay_out(drawing, model, {}, context);
   if (!sheet) return sheet.error();
   const Result<drawing::Ink> ink =
@@ -43,7 +43,7 @@ Result<std::string> published(const hlr::Drawing& drawing, const model::Model& m
   if (!ink) return ink.error();
   Checksum hash;
   drawing::write_svg(*sheet, *ink, model, [&](std::string_view text) { hash.add(text); });
-  return hash.value().text();
+  return Published{hash.value().text(), SheetPixels(*sheet, *ink)};
 }
 
 std::map<std::string, std::uint64_t> counters_of(const hlr::Drawing& drawing) {
@@ -66,14 +66,14 @@ std::map<std::string, std::uint64_t> counters_of(const clash::Report& report) {
       {"contacts", report.count_contact},        {"clearance violations", report.count_clearance}};
 }
 
-/// Returns the hash of the result as JSON.
-Result<std::string> published(const clash::Findings& findings, const model::Model& model,
-                              const parallel::Context& context) {
+/// Makes the result as JSON.
+Result<Published> published(const clash::Findings& findings, const model::Model& model,
+                            const parallel::Context& context) {
   Checksum hash;
   const Status status = report::write_clash_json(
       {findings, model}, [&](std::string_view text) { hash.add(text); }, context);
   if (!status) return status.error();
-  return hash.value().text();
+  return Published{hash.value().text()};
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/evaluate/published/sheet_pixels.hpp"
 #include "strake/clash/options.hpp"
 #include "strake/core/result.hpp"
 #include "strake/hlr/hlr.hpp"
@@ -15,12 +17,17 @@
 
 namespace strake::cli {
 
+/// The document that a user would get.
+struct Published {
+  std::string hash;                        ///< of its bytes
+  std::optional<SheetPixels> pixels = {};  ///< of a drawing
+};
+
 /// What a contender came to. The functions refer to the scene.
 struct Computed {
   std::map<std::string, std::uint64_t> counters;  ///< of its work
   std::function<std::string()> hash;              ///< of the result
-  /// Makes the document that a user would get and returns the hash of its bytes.
-  std::function<Result<std::string>(const parallel::Context&)> published_hash;
+  std::function<Result<Published>(const parallel::Context&)> publish;
 };
 
 /// How a contender must compare with the sequential run.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "cli/evaluate/machine.hpp"
@@ -84,7 +85,8 @@ class StageMeter {
                                     .progress = nullptr,
                                     .report = &report};
     note_kernel(context, record);
-    const bool has_peak = reset_peak_memory();
+    // It gives memory back, which the run then has to take again.
+    const bool has_peak = publish && reset_peak_memory();
     const double cpu = parallel::process_cpu_s(), caller = parallel::thread_cpu_s();
     const auto start = std::chrono::steady_clock::now();
     const Result<Computed> computed = contender.compute(context);
@@ -92,7 +94,7 @@ class StageMeter {
     if (!computed) return without_result(contender, record, computed.error());
     record.seconds.push_back(took.count());
     record.cpu_s = parallel::process_cpu_s() - cpu;
-    if (has_peak && publish) record.peak_bytes = peak_memory_since_reset();
+    if (has_peak) record.peak_bytes = peak_memory_since_reset();
     keep_regions(report, parallel::thread_cpu_s() - caller, record);
     note_kernel(context, record);
     record.counters = computed->counters;
@@ -124,20 +126,27 @@ class StageMeter {
                  const parallel::Context* publishing) {
     const ContenderRecord& first = stage_.contenders.front();
     record.hash = computed.hash();
-    if (publishing != nullptr && contender.must_equal == MustEqual::bytes) {
-      const Result<std::string> published = computed.published_hash(*publishing);
-      if (!published) return published.error();
-      record.published_hash = *published;
-    }
     if (contender.must_equal != MustEqual::bytes) return {};
-    const auto differs = [&](const char* what) {
+    std::string what_differs = "the published document";
+    if (publishing != nullptr) {
+      Result<Published> published = computed.publish(*publishing);
+      if (!published) return published.error();
+      record.published_hash = published->hash;
+      // Equal bytes are equal pixels; of others it is said how much of it anybody could see.
+      if (&record == &first)
+        first_pixels_ = std::move(published->pixels);
+      else if (published->pixels && first_pixels_ && record.published_hash != first.published_hash)
+        what_differs += fmt::format(" ({})", published->pixels->difference_text(*first_pixels_));
+    }
+    const auto differs = [&](const std::string& what) {
       std::string line = fmt::format("{} of '{}' on {} threads is not that of the {} run", what,
                                      contender.name, contender.threads, first.name);
       if (std::ranges::find(stage_.differences, line) == stage_.differences.end())
         stage_.differences.push_back(std::move(line));
     };
     if (record.hash != first.hash) differs("the result");
-    if (record.published_hash != first.published_hash) differs("the published document");
+    if (publishing != nullptr && record.published_hash != first.published_hash)
+      differs(what_differs);
     return {};
   }
 
@@ -146,6 +155,7 @@ class StageMeter {
   std::stop_token stop_;
   StageRecord stage_;
   std::vector<double> references_;
+  std::optional<SheetPixels> first_pixels_;  ///< of the first contender's sheet
 };
 
 }  // namespace

@@ -8,22 +8,12 @@
 #include <vector>
 
 #include "hlr/view/view_bvh.hpp"
+#include "hlr/visibility/solver_work.hpp"
 #include "hlr/visibility/visibility_intervals.hpp"
 #include "hlr/visibility/visibility_scene.hpp"
 #include "strake/hlr/hlr.hpp"
 
 namespace strake::hlr {
-
-struct SolverWork {
-  std::uint64_t edges = 0, covered = 0, tests = 0, wide_tests = 0, left_out = 0, specks = 0;
-  double own_s = 0, timed_s = 0;  ///< of timed items: in tests against their own objects, and all
-};
-
-/// Adds the work to the counters that are no sums over objects (sum_up_lines()).
-void add(Counters& counters, const SolverWork& work);
-
-/// Adds the lines that a work counted to those of an object.
-void add(LineCount& lines, const SolverWork& work);
 
 /// Gathers the intervals that occluders hide of one edge after another: front to back, until
 /// nothing visible is left. For one worker; it keeps its memory from edge to edge.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <set>
 #include <span>
@@ -19,6 +20,7 @@
 #include "cli/evaluate/pages/bar_chart.hpp"
 #include "cli/evaluate/pages/pages.hpp"
 #include "cli/evaluate/pages/tables.hpp"
+#include "cli/evaluate/published/sheet_pixels.hpp"
 #include "cli/evaluate/record_json.hpp"
 #include "cli/evaluate/statistics.hpp"
 #include "cli/evaluate/studies/loose_octree.hpp"
@@ -29,6 +31,7 @@
 #include "strake/clash/clash.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/report.hpp"
 
 namespace strake::cli {
 namespace {
@@ -87,9 +90,10 @@ Contender fake(std::string name, const std::string& hash) {
   Contender one;
   one.name = std::move(name);
   one.compute = [hash](const parallel::Context&) -> Result<Computed> {
-    return Computed{{},
-                    [hash] { return hash; },
-                    [hash](const parallel::Context&) -> Result<std::string> { return hash; }};
+    return Computed{
+        {},
+        [hash] { return hash; },
+        [hash](const parallel::Context&) -> Result<Published> { return Published{hash}; }};
   };
   return one;
 }
@@ -107,6 +111,73 @@ TEST(Evaluate, SpeedupBalanceAndSerialShareAreThoseOfTheRuns) {
   EXPECT_NEAR(s->amdahl, 1 / (0.05 + 0.95 / 2), 1e-12);
   EXPECT_NEAR(s->bound, 2.0 / (0.1 + 0.95), 1e-12);
   EXPECT_FALSE(speedup_of(record.cases[0].stages[0], 4).has_value());
+}
+
+TEST(Evaluate, TimeAloneBoundsTheSpeedupOnABusyMachineToo) {
+  EvaluationRecord record = example();
+  ContenderRecord& ours = record.cases[0].stages[0].contenders.back();
+  ours.cpu_s = 2;
+  ours.alone_s = 0.2;
+  ours.kernel_alone_s = {1.9, 2.0, 2.1};
+  ours.kernel_s = {1.3, 1.25, 1.2};
+  const auto s = speedup_of(record.cases[0].stages[0], 2);
+  ASSERT_TRUE(s.has_value());
+  EXPECT_DOUBLE_EQ(s->alone_s, 0.2);
+  EXPECT_NEAR(s->by_cpu, 2 / (0.2 + 1.8 / 2), 1e-12);
+  EXPECT_NEAR(s->machine, 2 / 1.25, 1e-12);
+  const std::string text = evaluation_markdown(record);
+  EXPECT_NE(text.find("| Machine |"), std::string::npos);
+  EXPECT_NE(text.find("| 1.82 | 1.60 |"), std::string::npos) << text;
+  // Nothing was measured, or nothing of it noted.
+  EXPECT_EQ(speedup_of(record.cases[1].stages[0], 2)->machine, 0);
+  EXPECT_EQ(speedup_of(record.cases[1].stages[0], 2)->by_cpu, 0);
+}
+
+TEST(Evaluate, ATeamIsMeasuredBesideWorkThatIsSharedPerfectly) {
+  EvaluationSettings settings;
+  settings.threads = {1, 2};
+  settings.repeat = 2;
+  std::vector<Contender> contenders{fake(kSequential, "a"), fake(kAgain, "a"), fake(kOurs, "a")};
+  contenders.back().threads = 2;
+  contenders.back().compute = [](const parallel::Context& context) -> Result<Computed> {
+    // So much is the calling thread's alone.
+    volatile double sum = 0;
+    for (const double start = parallel::thread_cpu_s(); parallel::thread_cpu_s() < start + 0.02;)
+      sum = sum + 1;
+    const Status status = parallel::for_each(context, {.name = "loop", .n = 1000}, [](std::size_t) {
+      for (const double start = parallel::thread_cpu_s();
+           parallel::thread_cpu_s() < start + 0.0001;)
+        continue;
+    });
+    if (!status) return status.error();
+    return Computed{{},
+                    [] { return std::string("a"); },
+                    [](const parallel::Context&) -> Result<Published> { return Published{"a"}; }};
+  };
+  const auto stage = measure_stage("global", contenders, settings, {}, [](const std::string&) {});
+  ASSERT_TRUE(stage.has_value()) << stage.error().text();
+  const ContenderRecord& ours = stage->contenders.back();
+  EXPECT_EQ(ours.kernel_s.size(), 2 * ours.seconds.size()) << "before and after each round";
+  EXPECT_EQ(ours.kernel_alone_s.size(), ours.kernel_s.size());
+  EXPECT_GT(*std::ranges::min_element(ours.kernel_s), 0);
+  EXPECT_GE(ours.alone_s, 0.0199);
+  EXPECT_LT(ours.alone_s, 0.02 + 0.04) << "of 0.1 s in the loop at most a part is the caller's";
+  for (const ContenderRecord& one : stage->contenders)
+    if (one.threads == 1) {
+      EXPECT_TRUE(one.kernel_s.empty()) << one.name;
+    }
+}
+
+TEST(Evaluate, ARecordOfBeforeLacksWhatCameLater) {
+  nlohmann::json document = nlohmann::json::parse(evaluation_json(example()));
+  for (nlohmann::json& one : document["cases"])
+    for (nlohmann::json& stage : one["stages"])
+      for (nlohmann::json& run : stage["contenders"])
+        for (const char* const name : {"alone_s", "kernel_alone_s", "kernel_s"}) run.erase(name);
+  document.erase("peers");
+  const auto read = parse_evaluation(document.dump(), "x");
+  ASSERT_TRUE(read.has_value()) << read.error().text();
+  EXPECT_EQ(evaluation_json(*read), evaluation_json(example()));
 }
 
 TEST(Evaluate, SpreadIsThatOfASample) {
@@ -349,6 +420,63 @@ TEST(Evaluate, AResultThatDiffersIsTold) {
   const auto different = measure_stage("global", other, settings, {}, narrate);
   ASSERT_TRUE(different.has_value());
   EXPECT_EQ(different->differences.size(), 2U) << "the result, and what is published";
+}
+
+/// Returns a sheet of A4 with two lines, one of them hidden, that end so far to the right.
+SheetPixels sheet_of_lines(double right_mm) {
+  drawing::NeutralDrawing sheet;
+  sheet.sheet.width_mm = 297;
+  sheet.sheet.height_mm = 210;
+  drawing::Ink ink;
+  drawing::Line line;
+  line.a_paper = {20, 30};
+  line.b_paper = {right_mm, 30};
+  ink.lines.push_back(line);
+  line.a_paper = {20, 100};
+  line.b_paper = {right_mm, 100};
+  line.state = drawing::LineState::hidden_by_other;
+  ink.lines.push_back(line);
+  return {sheet, ink};
+}
+
+TEST(Evaluate, PixelsTellWhatOfADifferenceAnybodyCouldSee) {
+  const SheetPixels sheet = sheet_of_lines(120);
+  // 100 mm at 4096 pixels for 297 mm, and each line's first pixel.
+  EXPECT_NEAR(static_cast<double>(sheet.inked()), 2 * 100 * 4096.0 / 297 + 2, 4);
+  EXPECT_EQ(sheet.different(sheet_of_lines(120)), 0U);
+  EXPECT_EQ(sheet.different(sheet_of_lines(120.001)), 0U) << "a micrometre is none";
+  EXPECT_NEAR(static_cast<double>(sheet.different(sheet_of_lines(130))), 2 * 10 * 4096.0 / 297, 4);
+  EXPECT_EQ(sheet.difference_text(sheet_of_lines(120)), "0 of 11862016 pixels differ");
+  EXPECT_EQ(SheetPixels().inked(), 0U);
+  EXPECT_GT(sheet.different(SheetPixels()), 0U) << "another size";
+}
+
+TEST(Evaluate, ADrawingThatDiffersIsComparedPixelByPixel) {
+  EvaluationSettings settings;
+  settings.threads = {1};
+  settings.repeat = 1;
+  const auto drawn = [](std::string name, double right_mm) {
+    Contender one = fake(std::move(name), "a");
+    one.compute = [right_mm](const parallel::Context&) -> Result<Computed> {
+      return Computed{{},
+                      [] { return std::string("a"); },
+                      [right_mm](const parallel::Context&) -> Result<Published> {
+                        return Published{std::to_string(right_mm), sheet_of_lines(right_mm)};
+                      }};
+    };
+    return one;
+  };
+  const std::vector<Contender> contenders{drawn(kSequential, 120), drawn("seen", 130),
+                                          drawn("not seen", 120.001)};
+  const auto stage = measure_stage("global", contenders, settings, {}, [](const std::string&) {});
+  ASSERT_TRUE(stage.has_value());
+  ASSERT_EQ(stage->differences.size(), 2U);
+  EXPECT_EQ(stage->differences[0].find("(0 of"), std::string::npos) << stage->differences[0];
+  EXPECT_NE(stage->differences[0].find("pixels differ) of 'seen'"), std::string::npos)
+      << stage->differences[0];
+  EXPECT_NE(stage->differences[1].find("(0 of 11862016 pixels differ) of 'not seen'"),
+            std::string::npos)
+      << stage->differences[1];
 }
 
 TEST(Evaluate, AContenderWithALimitIsStoppedAndSaidToBe) {

@@ -9,7 +9,7 @@
 
 namespace strake::parallel::detail {
 
-#if defined(__GLIBCXX__) && !defined(_GLIBCXX_DEBUG)
+#if defined(__GLIBCXX__) && !defined(_GLIBCXX_DEBUG) && !defined(_GLIBCXX_SANITIZE_VECTOR)
 
 /// Whether a vector can be made longer without the calling thread writing each element.
 inline constexpr bool kCanLeaveUnset = true;

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hlr/visibility/solver_work.hpp"
+
+#include <cstddef>
+#include <cstdint>
+
+#include "strake/parallel/reduce.hpp"
+
+namespace strake::hlr {
+
+void add(Counters& counters, const SolverWork& work) {
+  counters.covered_edges += work.covered;
+  counters.face_tests += work.tests;
+  counters.exact_fallbacks += work.wide_tests;
+}
+
+void add(LineCount& lines, const SolverWork& work) {
+  lines.edges += static_cast<std::uint32_t>(work.edges);
+  lines.specks += static_cast<std::uint32_t>(work.specks);
+}
+
+Result<SolverWork> sum_up_work(const VisibilityScene& visibility, std::span<const SolverWork> work,
+                               const parallel::Context& context, Drawing& drawing) {
+  constexpr std::size_t kGrain = 4096;
+  const auto object_of = [&](std::size_t i) {
+    return visibility.placed[visibility.items[i].body].object;
+  };
+  return parallel::reduce(
+      context, {.name = "hidden lines: work", .n = work.size(), .grain = kGrain}, SolverWork{},
+      [&](SolverWork& sum, std::size_t i) {
+        const SolverWork& done = work[i];
+        sum.covered += done.covered;
+        sum.tests += done.tests;
+        sum.wide_tests += done.wide_tests;
+        sum.own_s += done.own_s;
+        sum.timed_s += done.timed_s;
+        // Items are by object: the first one counts for all.
+        const std::uint32_t object = object_of(i);
+        if (i > 0 && object_of(i - 1) == object) return;
+        for (std::size_t k = i; k < work.size() && object_of(k) == object; ++k) {
+          add(drawing.counted[object], work[k]);
+          if (work[k].left_out > 0)
+            drawing.left_out[object] += static_cast<std::uint32_t>(work[k].left_out);
+        }
+      },
+      [](SolverWork& into, const SolverWork& sum) {
+        into.covered += sum.covered;
+        into.tests += sum.tests;
+        into.wide_tests += sum.wide_tests;
+        into.own_s += sum.own_s;
+        into.timed_s += sum.timed_s;
+      });
+}
+
+}  // namespace strake::hlr
