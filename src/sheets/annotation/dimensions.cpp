@@ -11,7 +11,7 @@
 
 #include "core/number.hpp"
 #include "geometry/numeric/trig.hpp"
-#include "sheets/annotation/paper_segments.hpp"
+#include "sheets/spec/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 
 namespace strake::sheets {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "drawing/layout/view_plane.hpp"
-#include "sheets/annotation/paper_segments.hpp"
 #include "sheets/arrangement/view_margins.hpp"
+#include "sheets/spec/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/geometry/grid.hpp"
 

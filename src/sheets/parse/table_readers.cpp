@@ -12,7 +12,7 @@
 #include "core/number.hpp"
 #include "core/units.hpp"
 #include "hlr/view/view_frustum.hpp"
-#include "sheets/annotation/tags.hpp"
+#include "sheets/labels/tags.hpp"
 #include "sheets/spec/template.hpp"
 #include "strake/drawing/object_styles.hpp"
 #include "strake/drawing/view.hpp"

@@ -111,12 +111,23 @@ struct NorthSpec {
   std::optional<PaperPoint> position;  ///< of its middle
 };
 
+/// The balloons of a list: its numbers in circles, with leaders to objects of its rows.
+struct BalloonSpec {
+  /// Beside the lines of the view; `anywhere`: on the nearest free paper.
+  enum class Side : std::uint8_t { anywhere, left, right, top, bottom };
+
+  std::vector<std::string> views;  ///< in this order; empty: all, in their order
+  double diameter_mm = 8;
+  Side side = Side::anywhere;
+};
+
 /// A list of objects, those with equal texts on one line with their number.
 struct PartsListSpec {
   std::string where, title;
   std::optional<settings::Chooser> select;
   std::vector<std::string> headings, columns;  ///< a column is a text with names, as tags have
   std::optional<PaperPoint> position;          ///< of its upper left corner
+  std::optional<BalloonSpec> balloons = std::nullopt;
 };
 
 /// An end of a dimension: a point of the model, or a side of an object as a view shows it.
