@@ -68,10 +68,25 @@ class LabelTeller {
     tell_of(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
             "have nothing to be tagged with");
     tell_of(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
+    const std::string& text = count.first_too_short;
+    note_of(count.too_short, "tag-not-along",
+            "has its tag '" + text + "' at a leader: no straight part of it has room for the text",
+            "have their tags, as '" + text +
+                "', at leaders: no straight part of them has room for the text",
+            where);
     tell_of(count.crowded, "tag-no-room",
             "is without its tag '" + count.first_crowded + "': there is no room for it" + kRoomMend,
             "are without their tags, as '" + count.first_crowded + "': there is no room for them" +
                 kRoomMend);
+  }
+
+  /// Tells of what is as good as what was asked for.
+  void note_of(std::size_t number, const char* code, const std::string& one,
+               const std::string& many, const std::string& where) {
+    if (number == 0) return;
+    sheet_.diagnostics.add(
+        Severity::note, code,
+        number == 1 ? "1 object " + one : std::to_string(number) + " objects " + many, where);
   }
 
   /// Tells of rows of a list that have no balloon, and why: of one, or of several.
@@ -110,7 +125,8 @@ Status compose_labels(const SheetSpec& what, const model::Model& model,
     if (what.parts_lists[l].balloons)
       labels.balloons.push_back(
           balloons_of(what.parts_lists[l], notes.listed[l], model.objects.size(), sheet));
-  if (const Status status = write_labels(labels, room, sheet, context.stop); !status) return status;
+  if (const Status status = write_labels(labels, model, room, sheet, context.stop); !status)
+    return status;
   LabelTeller teller(what, picked, sheet);
   teller.tell(labels.tags);
   for (const BalloonList& list : labels.balloons) teller.tell(list);

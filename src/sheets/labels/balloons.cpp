@@ -32,11 +32,11 @@ std::vector<std::size_t> views_of(const BalloonSpec& spec, const Sheet& sheet) {
 
 /// Returns the height at which the widest of the numbers fits its circle, no larger than is usual.
 double letters_in(double diameter_mm, std::size_t rows) {
-  constexpr double kUsual = 0.4375, kApartMm = 0.5;
+  constexpr double kUsual = 0.4375, kRimMm = 0.5;
   double widest = 0;
   for (std::size_t row = 1; row <= rows; ++row)
     widest = std::max(widest, text_width(std::to_string(row)));
-  const double most = (diameter_mm - 2 * kApartMm) / std::sqrt(widest * widest + 1);
+  const double most = (diameter_mm - 2 * kRimMm) / std::sqrt(widest * widest + 1);
   return drawing::rounded_paper(std::min(kUsual * diameter_mm, most));
 }
 

@@ -49,7 +49,7 @@ std::vector<TaggedObject> with_texts(const std::vector<SeenObject>& all,
       continue;
     }
     if (lacking > 0) ++count.partly;
-    texts.push_back({seen, std::move(text)});
+    texts.push_back({seen, std::move(text), false});
   }
   return texts;
 }

@@ -23,17 +23,20 @@ namespace strake::sheets {
 
 /// What became of the tags of one table in one view.
 struct TagCount {
-  std::size_t unseen = 0;     ///< objects without a visible line
-  std::size_t blank = 0;      ///< objects that lack every value that the text names
-  std::size_t partly = 0;     ///< objects that lack some of the values
-  std::size_t crowded = 0;    ///< tags that found no room
-  std::string first_crowded;  ///< the text of the first of them
+  std::size_t unseen = 0;       ///< objects without a visible line
+  std::size_t blank = 0;        ///< objects that lack every value that the text names
+  std::size_t partly = 0;       ///< objects that lack some of the values
+  std::size_t crowded = 0;      ///< tags that found no room
+  std::string first_crowded;    ///< the text of the first of them
+  std::size_t too_short = 0;    ///< objects with a leader, along which their tags had no place
+  std::string first_too_short;  ///< the text of the first of them
 };
 
 /// An object that gets a tag.
 struct TaggedObject {
   SeenObject seen;
   std::string text;
+  bool placed = false;  ///< it stands along the object already
 };
 
 /// The tags of one table in one view.

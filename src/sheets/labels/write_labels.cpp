@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sheets/labels/write_labels.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "drawing/layout/view_plane.hpp"
+#include "sheets/labels/along_tags.hpp"
 #include "sheets/labels/label_placement.hpp"
 #include "sheets/labels/paper/occupancy_grid.hpp"
+#include "sheets/labels/paper/sheet_lines.hpp"
 #include "sheets/spec/text_metrics.hpp"
 
 namespace strake::sheets {
 
 namespace {
 
-using drawing::Line;
 using drawing::rounded_paper;
 
 /// How long the arrow of a balloon is.
@@ -26,34 +30,45 @@ LabelRequest request_of(const TagList& list, const TaggedObject& tagged) {
           .height_mm = list.spec->height_mm,
           .anchors = anchors_of(tagged.seen.longest),
           .object = tagged.seen.box,
-          .on_object = !list.spec->leader,
+          .on_object = list.spec->style == TagSpec::Style::plain,
           .view = list.view};
 }
 
-/// Returns the paper that views, their captions, frames and grid lines take.
-OccupancyGrid occupied_paper(const Sheet& sheet) {
-  OccupancyGrid occupied(sheet.width_mm, sheet.height_mm);
-  for (const PlacedView& view : sheet.views) {
-    for (const Line& line : view.ink.lines) occupied.add_line(line.a_paper, line.b_paper);
-    for (const drawing::CentreLine& line : view.ink.centre_lines)
-      for (std::size_t i = 1; i < line.points.size(); ++i)
-        occupied.add_line(line.points[i - 1], line.points[i]);
-    for (const drawing::BreakLine& line : view.ink.break_lines)
-      for (std::size_t i = 1; i < line.points.size(); ++i)
-        occupied.add_line(line.points[i - 1], line.points[i]);
-    for (const Marks* marks : {&view.caption, &view.grid, &view.frame, &view.notes}) {
-      for (const Path& path : marks->paths)
-        for (std::size_t i = 1; i < path.points.size(); ++i)
-          occupied.add_line(path.points[i - 1], path.points[i]);
+/// Takes the paper of views, their captions, frames and grid lines.
+void occupy(const Sheet& sheet, OccupancyGrid& occupied) {
+  each_line(sheet, [&](const PaperPoint& a, const PaperPoint& b) { occupied.add_line(a, b); });
+  for (const PlacedView& view : sheet.views)
+    for (const Marks* marks : marks_beside_lines(view)) {
       for (const Text& text : marks->texts)
         for (const PaperBox& box : boxes_of(text)) occupied.block(box);
       for (const Circle& c : marks->circles)
         occupied.block({c.center.x - c.radius_mm, c.center.y - c.radius_mm,
                         c.center.x + c.radius_mm, c.center.y + c.radius_mm});
     }
+}
+
+/// Writes the tags that find a place along their objects, and counts those that get a leader.
+Status write_along(std::span<TagList> lists, const model::Model& model, const SheetArea& room,
+                   OccupancyGrid& occupied, Sheet& sheet, const std::stop_token& stop) {
+  const auto lies_along = [](const TagList& list) {
+    return list.spec->style == TagSpec::Style::along && !list.objects.empty();
+  };
+  if (std::ranges::none_of(lists, lies_along)) return {};
+  AlongTags placer(sheet, model, room, occupied);
+  for (TagList& list : lists) {
+    if (!lies_along(list)) continue;
+    PlacedView& view = sheet.views[list.view];
+    for (TaggedObject& tagged : list.objects) {
+      if (stop.stop_requested()) return Error{ErrorCode::cancelled, "cancelled", {}, {}};
+      auto text = placer.place(view, tagged.seen.object, tagged.text, list.spec->height_mm);
+      tagged.placed = text.has_value();
+      if (text)
+        view.tags.texts.push_back(std::move(*text));
+      else if (list.count.too_short++ == 0)
+        list.count.first_too_short = tagged.text;
+    }
   }
-  occupied.finish();
-  return occupied;
+  return {};
 }
 
 /// Returns the arrow head at the end of a leader: as long as the letters are high, a third as wide.
@@ -102,14 +117,19 @@ void write_balloon(const BalloonList& list, const std::string& number, const Lab
 
 }  // namespace
 
-Status write_labels(SheetLabels& labels, const SheetArea& room, Sheet& sheet,
-                    const std::stop_token& stop) {
+Status write_labels(SheetLabels& labels, const model::Model& model, const SheetArea& room,
+                    Sheet& sheet, const std::stop_token& stop) {
+  OccupancyGrid occupied(sheet.width_mm, sheet.height_mm);
+  occupy(sheet, occupied);
+  if (const Status status = write_along(labels.tags, model, room, occupied, sheet, stop); !status)
+    return status;
+  occupied.finish();
   std::vector<LabelRequest> requests;
   for (const TagList& list : labels.tags)
-    for (const TaggedObject& tagged : list.objects) requests.push_back(request_of(list, tagged));
+    for (const TaggedObject& tagged : list.objects)
+      if (!tagged.placed) requests.push_back(request_of(list, tagged));
   for (const BalloonList& list : labels.balloons)
     for (const Balloon& balloon : list.all) requests.push_back(request_of(list, balloon, sheet));
-  const OccupancyGrid occupied = occupied_paper(sheet);
   LabelGround ground{sheet.width_mm, sheet.height_mm, occupied, room, {}};
   for (const PlacedView& view : sheet.views) ground.views.push_back(view.box);
   const auto places = place_labels(requests, ground, stop);
@@ -117,6 +137,7 @@ Status write_labels(SheetLabels& labels, const SheetArea& room, Sheet& sheet,
   auto place = places.begin();
   for (TagList& list : labels.tags)
     for (const TaggedObject& tagged : list.objects) {
+      if (tagged.placed) continue;
       if (*place)
         write_tag(tagged.text, list.spec->height_mm, **place, sheet.views[list.view].tags);
       else if (list.count.crowded++ == 0)

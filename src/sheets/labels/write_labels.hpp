@@ -18,10 +18,11 @@ struct SheetLabels {
   std::vector<BalloonList> balloons;
 };
 
-/// Writes the labels of a sheet, all together: on free paper near their objects, with leaders, or
-/// plainly on their objects where nothing is covered there (label_placement.hpp). A label that
-/// finds no room is left out and counted. Errors: cancelled.
-[[nodiscard]] Status write_labels(SheetLabels& labels, const SheetArea& room, Sheet& sheet,
-                                  const std::stop_token& stop);
+/// Writes the labels of a sheet: first those that lie along their objects (along_tags.hpp), then
+/// the others, all together, on free paper near their objects, with leaders, or plainly on their
+/// objects where nothing is covered there (label_placement.hpp). A label that finds no room is left
+/// out and counted. Errors: cancelled.
+[[nodiscard]] Status write_labels(SheetLabels& labels, const model::Model& model,
+                                  const SheetArea& room, Sheet& sheet, const std::stop_token& stop);
 
 }  // namespace strake::sheets

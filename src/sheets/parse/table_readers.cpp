@@ -368,8 +368,9 @@ void MarkReader::tag(const Value& value) {
       reading_.fault(text->at, "'text' of [[tag]] has {{" + name + "}}",
                      "write {{name}}, {{id}}, {{path}}, {{file}}, {{type}} or {{@ATTRIBUTE}}");
   tag.views = views(table);
-  constexpr std::array<std::string_view, 2> kStyles{"leader", "plain"};
-  tag.leader = table.word("style", kStyles).value_or("leader") == "leader";
+  constexpr std::array<std::string_view, 3> kStyles{"leader", "plain", "along"};
+  const std::string style = table.word("style", kStyles).value_or("leader");
+  tag.style = static_cast<TagSpec::Style>(std::ranges::find(kStyles, style) - kStyles.begin());
   tag.once = table.flag("once").value_or(false);
   if (const auto height = table.tolerance_mm("height")) {
     tag.height_mm = *height;

@@ -65,11 +65,14 @@ struct ViewSpec {
 };
 
 struct TagSpec {
+  /// With a leader, plainly on the object, or along it with a leader where it is too short.
+  enum class Style : std::uint8_t { leader, plain, along };
+
   std::string where;
   std::optional<settings::Chooser> select;
   std::string text;
   std::vector<std::string> views;  ///< empty: all
-  bool leader = true;
+  Style style = Style::leader;
   bool once = false;  ///< tag one of the objects with equal texts
   double height_mm = 2.5;
 };
