@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "drawing/layout/expected_extent.hpp"
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/annotation/dimensions.hpp"
+#include "sheets/annotation/match_lines.hpp"
 #include "sheets/annotation/title_block.hpp"
 #include "sheets/annotation/view_marks.hpp"
 #include "sheets/arrangement/far_objects_of_views.hpp"
@@ -76,6 +78,7 @@ class Composer {
     check_section_marks();
     view_marks();
     dimensions();
+    match_lines();
     fill_frame(what_, scale, sheet_);
     draw_notes(notes_, what_, scale, sheet_);
     if (leaves_paper(sheet_.notes, 0, 0, paper()))
@@ -253,8 +256,17 @@ class Composer {
       auto laid_out = drawing::lay_out(drawings_[v], *scene_.model, options, context_);
       if (!laid_out) return laid_out.error();
       drawings_[v] = {};
-      sheet_.views.push_back(
-          {spec.name, spec.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}, {}, {}});
+      sheet_.views.push_back({spec.name,
+                              spec.title,
+                              std::move(*laid_out),
+                              {},
+                              places_[v].lines,
+                              {},
+                              {},
+                              {},
+                              {},
+                              {},
+                              {}});
       frame_view(sheet_.views.back());
       check_lines(spec, sheet_.views.back().drawing);
     }
@@ -485,6 +497,41 @@ class Composer {
         if (leaves_paper(marks, paths, texts, paper()))
           warn("note-off-the-sheet", "the dimension reaches beyond the paper", spec.where);
       }
+  }
+
+  void match_lines() {
+    const double letters = lettering_of(what_).scale_mm;
+    for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
+      const ViewSpec& spec = what_.views[v];
+      if (!spec.match_lines) continue;
+      const drawing::Placement place = placement(v);
+      PlacedView& view = sheet_.views[v];
+      bool any = false;
+      for (const NeighbourView& neighbour : spec.neighbours) {
+        std::vector<PaperBox> taken;
+        for (const Marks* marks : {&view.grid, &view.notes, &view.match_lines})
+          std::ranges::move(taken_boxes(*marks), std::back_inserter(taken));
+        any =
+            draw_match_line(neighbour, what_.number, {spec, place, places_[v].lines, labelled_[v]},
+                            letters, taken, view.match_lines) ||
+            any;
+      }
+      if (!any && spec.match_lines_own)
+        warn("match-line-nowhere",
+             "the view '" + spec.name + "' has no match line: " + why_no_match_line(spec),
+             spec.where);
+    }
+  }
+
+  static const char* why_no_match_line(const ViewSpec& spec) {
+    if (spec.view.perspective) return "it is in perspective";
+    if (!spec.view.limits)
+      return "it has no limits (write limits = { min = [...], max = [...] } that end where those "
+             "of "
+             "another view begin)";
+    return spec.neighbours.empty()
+               ? "its limits end where those of no other view of the same direction begin"
+               : "its lines end long before its limits";
   }
 
   /// Returns the box of what a view shows, mm of the model: its limits, or its visible lines.

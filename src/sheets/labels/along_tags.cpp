@@ -9,7 +9,6 @@
 
 #include "sheets/arrangement/view_paper.hpp"
 #include "sheets/labels/paper/sheet_lines.hpp"
-#include "sheets/labels/seen_objects.hpp"
 #include "sheets/labels/straight_runs.hpp"
 #include "sheets/spec/text_metrics.hpp"
 

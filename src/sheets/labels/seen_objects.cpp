@@ -2,16 +2,10 @@
 #include "sheets/labels/seen_objects.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "drawing/layout/view_plane.hpp"
 
 namespace strake::sheets {
-
-double length_of(const PaperSegment& segment) {
-  const double dx = segment.b.x - segment.a.x, dy = segment.b.y - segment.a.y;
-  return std::sqrt(dx * dx + dy * dy);
-}
 
 std::vector<SeenObject> seen_objects(const drawing::Ink& ink, const std::vector<bool>& picked) {
   std::vector<SeenObject> all;

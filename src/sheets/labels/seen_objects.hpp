@@ -19,8 +19,6 @@ struct SeenObject {
   double length = 0;     ///< length of all of them
 };
 
-[[nodiscard]] double length_of(const PaperSegment& segment);
-
 /// Returns the picked objects that have visible lines, in the order of the model.
 [[nodiscard]] std::vector<SeenObject> seen_objects(const drawing::Ink& ink,
                                                    const std::vector<bool>& picked);

@@ -12,7 +12,6 @@
 
 #include "drawing/centre/axes.hpp"
 #include "drawing/layout/view_plane.hpp"
-#include "sheets/labels/seen_objects.hpp"
 
 namespace strake::sheets {
 

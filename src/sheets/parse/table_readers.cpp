@@ -276,6 +276,8 @@ void ViewReader::conventions(TableReader& table, ViewSpec& view) {
   constexpr std::array<std::string_view, 2> kOnOff{"off", "on"};
   if (const auto word = table.word("break_lines", kOnOff))
     view.conventions.break_lines = *word == "on";
+  if (const auto word = table.word("match_lines", kOnOff))
+    view.match_lines = view.match_lines_own = *word == "on";
 }
 
 void ViewReader::content(TableReader& table, ViewSpec& view) {

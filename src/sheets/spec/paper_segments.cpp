@@ -24,6 +24,11 @@ bool separates(const PaperSegment& line, const PaperSegment& ends) {
 
 }  // namespace
 
+double length_of(const PaperSegment& segment) {
+  const double dx = segment.b.x - segment.a.x, dy = segment.b.y - segment.a.y;
+  return std::sqrt(dx * dx + dy * dy);
+}
+
 std::optional<PaperSegment> clipped(const PaperSegment& segment, const PaperBox& box) {
   const auto& [a, b] = segment;
   const double dx = b.x - a.x, dy = b.y - a.y;

@@ -13,6 +13,8 @@ struct PaperSegment {
   PaperPoint a, b;
 };
 
+[[nodiscard]] double length_of(const PaperSegment& segment);
+
 /// Returns the box with a rim of so many millimetres round it.
 [[nodiscard]] inline PaperBox widened(const PaperBox& box, double by_mm) {
   return {box.left - by_mm, box.top - by_mm, box.right + by_mm, box.bottom + by_mm};

@@ -41,6 +41,15 @@ struct SectionSpec {
   settings::SourcePosition at;
 };
 
+/// Where a view ends at its limits, and which other goes on there.
+struct NeighbourView {
+  std::uint8_t axis = 0;         ///< that the plane is across
+  bool upper = false;            ///< the view lies below the plane
+  geometry::Box3l side;          ///< what both limits have in common, in the plane
+  std::string title;             ///< of the other view, or its name
+  std::ptrdiff_t sheets_on = 0;  ///< by how many the number of its sheet is larger
+};
+
 struct ViewSpec {
   std::string name, title;
   bool own_title = false;  ///< the file says the title
@@ -62,6 +71,9 @@ struct ViewSpec {
   std::optional<geometry::Vec3l> anchor;
   std::string section_mark;             ///< the letter of its section in other views; empty: none
   std::vector<std::string> extents_of;  ///< views whose extents are outlined in this one
+  bool match_lines = false;             ///< it has match lines
+  bool match_lines_own = false;         ///< the view says so itself, not what it shares with others
+  std::vector<NeighbourView> neighbours = {};  ///< where it has match lines
 };
 
 struct TagSpec {

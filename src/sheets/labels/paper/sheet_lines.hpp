@@ -11,8 +11,8 @@
 namespace strake::sheets {
 
 /// Returns what is drawn in a view beside its lines, but for its labels.
-[[nodiscard]] inline std::array<const Marks*, 4> marks_beside_lines(const PlacedView& view) {
-  return {&view.caption, &view.grid, &view.frame, &view.notes};
+[[nodiscard]] inline std::array<const Marks*, 5> marks_beside_lines(const PlacedView& view) {
+  return {&view.caption, &view.grid, &view.frame, &view.notes, &view.match_lines};
 }
 
 /// Calls add(a, b) for each straight line of the views of a sheet, of their captions, frames, grid
