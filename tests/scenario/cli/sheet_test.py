@@ -78,10 +78,10 @@ class Sheet(Scenario):
         tags = [element for view in (1, 2) for element in layers[f'view-{view}-tags']]
         self.assertEqual(sorted(e.text for e in tags if e.tag == f'{SVG}text' and e.text.isdigit()), sorted(numbers))
         self.assertEqual([e.get('r') for e in tags if e.tag == f'{SVG}circle'], ['3.5'] * len(numbers))
-        # Of the pipes with names on the sheet at least half have no leader.
+        # Many pipes have their names along them, without leaders; the others have no room for them.
         pipes = [e.text for e in tags if e.tag == f'{SVG}text' and e.text.startswith('PIP')]
         leaders = [e for e in tags if e.tag == f'{SVG}path' and 'filled' in e.get('class')]
-        self.assertLess(2 * (len(leaders) - len(numbers)), len(pipes))
+        self.assertGreater(len(pipes) - (len(leaders) - len(numbers)), 20)
         for view, other in ((1, 'FRAMES 12 TO 24'), (2, 'FRAMES 0 TO 12')):
             texts = [text.text for text in layers[f'view-{view}-match-lines'].iter(f'{SVG}text')]
             self.assertEqual(texts, [f'MATCH LINE, SEE VIEW {other}'])
