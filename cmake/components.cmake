@@ -92,6 +92,7 @@ set(manual
   docs/statuses.md
   docs/view.md
   examples/nightly.sh
+  examples/ship_deck.toml
   examples/ship_rules.toml
   examples/ship_notes.toml
   examples/ship_set.toml
@@ -211,7 +212,8 @@ install(FILES ${PROJECT_BINARY_DIR}/strake.pc DESTINATION ${CMAKE_INSTALL_LIBDIR
 # For users of the program and of the library alike.
 install(DIRECTORY schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/strake COMPONENT program)
 install(DIRECTORY rules DESTINATION ${CMAKE_INSTALL_DATADIR}/strake COMPONENT program)
-install(FILES examples/ship_notes.toml examples/ship_rules.toml examples/ship_set.toml examples/ship_sheet.toml
+install(FILES examples/ship_deck.toml examples/ship_notes.toml examples/ship_rules.toml examples/ship_set.toml
+    examples/ship_sheet.toml
   DESTINATION ${CMAKE_INSTALL_DATADIR}/strake/examples COMPONENT program)
 install(PROGRAMS examples/nightly.sh
   DESTINATION ${CMAKE_INSTALL_DATADIR}/strake/examples COMPONENT program)

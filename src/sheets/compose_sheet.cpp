@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -15,7 +16,7 @@
 #include "drawing/layout/expected_extent.hpp"
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/annotation/dimensions.hpp"
-#include "sheets/annotation/tags.hpp"
+#include "sheets/annotation/match_lines.hpp"
 #include "sheets/annotation/title_block.hpp"
 #include "sheets/annotation/view_marks.hpp"
 #include "sheets/arrangement/far_objects_of_views.hpp"
@@ -23,6 +24,7 @@
 #include "sheets/arrangement/levels.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/arrangement/view_margins.hpp"
+#include "sheets/compose_labels.hpp"
 #include "sheets/output/line_styles.hpp"
 #include "sheets/pipe_scenes.hpp"
 #include "sheets/place_notes.hpp"
@@ -76,12 +78,13 @@ class Composer {
     check_section_marks();
     view_marks();
     dimensions();
+    match_lines();
     fill_frame(what_, scale, sheet_);
     draw_notes(notes_, what_, scale, sheet_);
     if (leaves_paper(sheet_.notes, 0, 0, paper()))
       warn("note-off-the-sheet", "a list, the scale bar or north reaches beyond the paper",
            what_.file);
-    if (const Status status = tags(); !status) return status.error();
+    if (const Status status = labels(); !status) return status.error();
     for (PlacedView& view : sheet_.views) view.drawing.lines = {};
     return std::move(sheet_);
   }
@@ -253,8 +256,17 @@ class Composer {
       auto laid_out = drawing::lay_out(drawings_[v], *scene_.model, options, context_);
       if (!laid_out) return laid_out.error();
       drawings_[v] = {};
-      sheet_.views.push_back(
-          {spec.name, spec.title, std::move(*laid_out), {}, places_[v].lines, {}, {}, {}, {}, {}});
+      sheet_.views.push_back({spec.name,
+                              spec.title,
+                              std::move(*laid_out),
+                              {},
+                              places_[v].lines,
+                              {},
+                              {},
+                              {},
+                              {},
+                              {},
+                              {}});
       frame_view(sheet_.views.back());
       check_lines(spec, sheet_.views.back().drawing);
     }
@@ -487,6 +499,41 @@ class Composer {
       }
   }
 
+  void match_lines() {
+    const double letters = lettering_of(what_).scale_mm;
+    for (std::size_t v = 0; v < sheet_.views.size(); ++v) {
+      const ViewSpec& spec = what_.views[v];
+      if (!spec.match_lines) continue;
+      const drawing::Placement place = placement(v);
+      PlacedView& view = sheet_.views[v];
+      bool any = false;
+      for (const NeighbourView& neighbour : spec.neighbours) {
+        std::vector<PaperBox> taken;
+        for (const Marks* marks : {&view.grid, &view.notes, &view.match_lines})
+          std::ranges::move(taken_boxes(*marks), std::back_inserter(taken));
+        any =
+            draw_match_line(neighbour, what_.number, {spec, place, places_[v].lines, labelled_[v]},
+                            letters, taken, view.match_lines) ||
+            any;
+      }
+      if (!any && spec.match_lines_own)
+        warn("match-line-nowhere",
+             "the view '" + spec.name + "' has no match line: " + why_no_match_line(spec),
+             spec.where);
+    }
+  }
+
+  static const char* why_no_match_line(const ViewSpec& spec) {
+    if (spec.view.perspective) return "it is in perspective";
+    if (!spec.view.limits)
+      return "it has no limits (write limits = { min = [...], max = [...] } that end where those "
+             "of "
+             "another view begin)";
+    return spec.neighbours.empty()
+               ? "its limits end where those of no other view of the same direction begin"
+               : "its lines end long before its limits";
+  }
+
   /// Returns the box of what a view shows, mm of the model: its limits, or its visible lines.
   [[nodiscard]] geometry::Box3d extent_of(std::size_t v) const {
     geometry::Box3d box{{1, 1, 1}, {0, 0, 0}};
@@ -503,54 +550,9 @@ class Composer {
     return box;
   }
 
-  Status tags() {
-    const std::size_t first = asked_;
-    std::vector<TagList> lists;
-    for (const TagSpec& tag : what_.tags) {
-      const std::vector<bool>& picked = picks_[asked_++];
-      for (std::size_t v = 0; v < sheet_.views.size(); ++v)
-        if (tag.views.empty() ||
-            std::ranges::find(tag.views, sheet_.views[v].name) != tag.views.end())
-          lists.push_back(tags_of(tag, picked, *scene_.model, sheet_, v));
-    }
-    if (const Status status = write_tags(lists, room_, sheet_, context_.stop); !status)
-      return status.error();
-    auto list = lists.begin();
-    for (std::size_t t = 0; t < what_.tags.size(); ++t) {
-      const TagSpec& tag = what_.tags[t];
-      const auto picked = static_cast<std::size_t>(std::ranges::count(picks_[first + t], true));
-      bool seen = false;
-      for (; list != lists.end() && list->spec == &tag; ++list) {
-        warn_of(*list);
-        seen = seen || list->count.unseen < picked;
-      }
-      if (!seen && picked > 0)
-        warn("tag-not-seen",
-             "none of the objects of '" + tag.select->selection.text() + "' is seen in a view",
-             tag.where);
-    }
-    return {};
-  }
-
-  /// Warns of the tags of a table that a view lacks.
-  void warn_of(const TagList& list) {
-    const TagCount& count = list.count;
-    const std::string where =
-        list.spec->where + ", the view '" + sheet_.views[list.view].name + "'";
-    const auto tell = [&](std::size_t number, const char* code, const std::string& one,
-                          const std::string& many) {
-      if (number == 1) warn(code, "1 object " + one, where);
-      if (number > 1) warn(code, std::to_string(number) + " objects " + many, where);
-    };
-    const std::string some = " some of what '" + list.spec->text + "' names";
-    tell(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
-         "have nothing to be tagged with");
-    tell(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
-    const std::string mend = " (smaller letters, fewer tags or a larger sheet make room)";
-    tell(count.crowded, "tag-no-room",
-         "is without its tag '" + count.first_crowded + "': there is no room for it" + mend,
-         "are without their tags, as '" + count.first_crowded + "': there is no room for them" +
-             mend);
+  Status labels() {
+    const auto picked = std::span(picks_).subspan(asked_, what_.tags.size());
+    return compose_labels(what_, *scene_.model, picked, notes_, room_, sheet_, context_);
   }
 
   const SheetSpec& what_;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "drawing/layout/view_plane.hpp"
-#include "sheets/annotation/paper_segments.hpp"
 #include "sheets/annotation/sheet_notes.hpp"
+#include "sheets/spec/paper_segments.hpp"
 
 namespace strake::sheets {
 
@@ -25,7 +25,8 @@ class NotePlanner {
     if (what.frame && !what.artwork && !room.keep_free.empty()) block_ = room.keep_free.front();
   }
 
-  void parts_list(const PartsListSpec& spec, NoteTable table) {
+  void parts_list(const PartsListSpec& spec, PartsList list) {
+    NoteTable& table = list.table;
     const double bottom = block_ ? block_->top : room_.area.bottom;
     const double top = spec.position ? spec.position->y : right_top_;
     table.fit(std::max(0.0, (spec.position ? what_.height_mm : bottom - kApartMm) - top));
@@ -35,6 +36,8 @@ class NotePlanner {
                            " rows are left out: there is no room for them (a larger sheet, or "
                            "fewer objects)",
                        spec.where);
+    list.objects.resize(table.rows.size());
+    notes_.listed.push_back(std::move(list.objects));
     const PaperBox size = sheets::extent_of(table);
     const PaperPoint at =
         spec.position.value_or(PaperPoint{room_.area.right - size.right, right_top_});

@@ -19,8 +19,10 @@ namespace strake::sheets {
 /// Where the notes of a sheet stand.
 struct Notes {
   std::vector<std::pair<NoteTable, PaperPoint>> tables;  ///< with their upper left corners
-  std::optional<PaperPoint> scale_bar;                   ///< its upper left corner
-  std::optional<PaperPoint> north;                       ///< its middle
+  /// Of each parts list the objects of the rows that it shows.
+  std::vector<std::vector<std::vector<model::ObjectId>>> listed;
+  std::optional<PaperPoint> scale_bar;  ///< its upper left corner
+  std::optional<PaperPoint> north;      ///< its middle
 };
 
 /// Places the notes before the views, and keeps their paper free of these: lists at the upper right

@@ -123,6 +123,29 @@ to = ["4m", 0, 0]
 place = "below"
 decimals = 1
 )toml"},
+          {"parts.toml", R"toml([defaults]
+match_lines = "on"
+break_lines = "on"
+[[view]]
+name = "aft"
+direction = "top"
+limits = { min = [0, 0, 0], max = ["2m", "2m", "2m"] }
+position = ["100mm", "100mm"]
+[[view]]
+name = "fore"
+direction = "top"
+limits = { min = ["2m", 0, 0], max = ["6m", "2m", "2m"] }
+match_lines = "off"
+position = ["250mm", "100mm"]
+[[tag]]
+select = "*"
+text = "{{name}}"
+style = "along"
+[[parts_list]]
+select = "*"
+columns = [["NAME", "{{name}}"]]
+balloons = { views = ["fore", "aft"], size = "7mm", side = "top" }
+)toml"},
           {"frame.svg", kSheetTemplate}};
 }
 

@@ -49,8 +49,9 @@ enum class LineClass : std::uint8_t {
   dimension,      ///< dimensions, with their extension lines
   single_line,    ///< pipes that are drawn as their axes
   break_line,     ///< break lines, which are in the ink of a view
+  match_line,     ///< where a view ends and another goes on, with its text
 };
-inline constexpr std::size_t kLineClasses = 24;
+inline constexpr std::size_t kLineClasses = 25;
 
 /// Returns the name of a class as files spell it: "frame_thin".
 [[nodiscard]] std::string_view class_name(LineClass line);
@@ -122,6 +123,7 @@ struct PlacedView {
   Marks caption, grid, tags;
   Marks frame;  ///< round a view in perspective
   Marks notes;  ///< levels, cutting planes and extents of other views
+  Marks match_lines;
 };
 
 struct Sheet {

@@ -162,7 +162,8 @@ class ObjectAxes {
                             first ? rim + over : 0,
                             last ? rim + over : 0,
                             object(),
-                            false});
+                            false,
+                            radius});
     }
   }
 
@@ -253,7 +254,8 @@ class ObjectAxes {
                               0,
                               0,
                               object(),
-                              false});
+                              false,
+                              tube});
   }
 
   LinesAcross lines_;

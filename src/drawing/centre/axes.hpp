@@ -20,6 +20,7 @@ struct AxisPart {
   double before_mm = 0, after_mm = 0;
   model::ObjectId object{};
   bool cross = false;  ///< an arm of a cross
+  double half_mm = 0;  ///< the radius of what it is the axis of; 0 of an arm
 };
 
 /// The middle of a bend on paper: points of its arc.

@@ -79,8 +79,8 @@ std::vector<SeenCircle> seen_circles(const NeutralDrawing& drawing, const Ink& i
 void add_cross(const SeenCircle& circle, std::vector<AxisPart>& parts) {
   const auto& [x, y] = circle.centre;
   const double r = circle.radius, over = overhang_mm(2 * r);
-  parts.push_back({{x - r, y}, {x + r, y}, over, over, circle.object, true});
-  parts.push_back({{x, y - r}, {x, y + r}, over, over, circle.object, true});
+  parts.push_back({{x - r, y}, {x + r, y}, over, over, circle.object, true, 0});
+  parts.push_back({{x, y - r}, {x, y + r}, over, over, circle.object, true, 0});
 }
 
 /// A part of an axis by the line on which it lies.

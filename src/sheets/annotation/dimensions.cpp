@@ -10,8 +10,7 @@
 #include <utility>
 
 #include "core/number.hpp"
-#include "geometry/numeric/trig.hpp"
-#include "sheets/annotation/paper_segments.hpp"
+#include "sheets/spec/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 
 namespace strake::sheets {
@@ -103,15 +102,6 @@ void draw_arrow(const PaperPoint& tip, const PaperPoint& from, Marks& marks) {
                          true});
 }
 
-/// Returns the direction in which the text along a line is read: from below, and along an upright
-/// line from the right.
-PaperPoint reading_way(const PaperPoint& way) {
-  constexpr double kLevel = 1e-9;
-  if (std::fabs(way.y) < kLevel) return {1, 0};
-  if (std::fabs(way.x) < kLevel) return {0, -1};
-  return way.x > 0 ? way : PaperPoint{-way.x, -way.y};
-}
-
 /// Returns the text of a dimension, which stands on its line (ISO 129-1), or on the line beyond an
 /// arrow where it is wider than what it measures. `beyond` is how far the line goes on behind its
 /// arrows.
@@ -124,16 +114,8 @@ Text text_of_dimension(const DimensionLine& line, const std::string& value, doub
     at = along(forward ? line.b : line.a, way, std::max(beyond, kStandOffMm));
     align = Align::start;
   }
-  // A millionth of a degree is less than a micrometre of any text.
-  const double turn =
-      std::round(geometry::arc_tan2(-way.y, way.x) * 180 / geometry::kPi * 1e6) / 1e6;
-  return {LineClass::dimension,
-          rounded(along(at, up, kStandOffMm)),
-          kValueMm,
-          align,
-          value,
-          true,
-          turn + 0.0};
+  return {LineClass::dimension, rounded(along(at, up, kStandOffMm)), kValueMm, align, value, true,
+          reading_turn(way)};
 }
 
 void draw_line(const DimensionLine& line, const std::string& value, Marks& marks) {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "drawing/layout/view_plane.hpp"
-#include "sheets/annotation/tags.hpp"
+#include "sheets/labels/tags.hpp"
 #include "sheets/spec/natural_order.hpp"
 #include "sheets/spec/template.hpp"
 #include "sheets/spec/text_metrics.hpp"
@@ -104,9 +104,10 @@ void draw_table(const NoteTable& table, const PaperPoint& upper_left, Marks& mar
   }
 }
 
-NoteTable parts_list(const PartsListSpec& spec, const std::vector<bool>& picked,
+PartsList parts_list(const PartsListSpec& spec, const std::vector<bool>& picked,
                      const model::Model& model) {
-  NoteTable table{on_one_line(spec.title), {"POS"}, {}, 0};
+  PartsList list{{on_one_line(spec.title), {"POS"}, {}, 0}, {}};
+  NoteTable& table = list.table;
   std::vector<std::vector<TextPiece>> columns;
   for (const std::string& column : spec.columns) {
     auto pieces = split_placeholders(column);
@@ -117,23 +118,24 @@ NoteTable parts_list(const PartsListSpec& spec, const std::vector<bool>& picked,
   const auto before = [](const std::vector<std::string>& a, const std::vector<std::string>& b) {
     return std::ranges::lexicographical_compare(a, b, natural_less);
   };
-  std::map<std::vector<std::string>, std::size_t, decltype(before)> count(before);
+  std::map<std::vector<std::string>, std::vector<model::ObjectId>, decltype(before)> rows(before);
   for (std::size_t o = 0; o < picked.size(); ++o) {
     if (!picked[o]) continue;
+    const model::ObjectId object{static_cast<std::uint32_t>(o)};
     std::vector<std::string> texts;
     for (const auto& column : columns)
-      texts.push_back(on_one_line(fill_placeholders(column, [&](const std::string& name) {
-        return value_of_name(model, model::ObjectId{static_cast<std::uint32_t>(o)}, name);
-      })));
-    ++count[std::move(texts)];
+      texts.push_back(on_one_line(fill_placeholders(
+          column, [&](const std::string& name) { return value_of_name(model, object, name); })));
+    rows[std::move(texts)].push_back(object);
   }
-  for (const auto& [texts, number] : count) {
+  for (auto& [texts, objects] : rows) {
     std::vector<std::string> row{std::to_string(table.rows.size() + 1)};
     row.insert(row.end(), texts.begin(), texts.end());
-    row.push_back(std::to_string(number));
+    row.push_back(std::to_string(objects.size()));
     table.rows.push_back(std::move(row));
+    list.objects.push_back(std::move(objects));
   }
-  return table;
+  return list;
 }
 
 NoteTable revision_table(const std::vector<RevisionSpec>& revisions) {

@@ -2,6 +2,7 @@
 // Tables on a sheet: lists of parts, revisions.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,16 @@ struct NoteTable {
 /// but no wider than 90 mm, where texts become smaller.
 void draw_table(const NoteTable& table, const PaperPoint& upper_left, Marks& marks);
 
+/// A list of objects: the table, and which objects each of its rows stands for, in the order of the
+/// model.
+struct PartsList {
+  NoteTable table;
+  std::vector<std::vector<model::ObjectId>> objects;
+};
+
 /// Returns the list of the objects that are picked: a row for each set of texts with its number, in
 /// the order of the texts, numbered from 1.
-[[nodiscard]] NoteTable parts_list(const PartsListSpec& spec, const std::vector<bool>& picked,
+[[nodiscard]] PartsList parts_list(const PartsListSpec& spec, const std::vector<bool>& picked,
                                    const model::Model& model);
 
 /// Returns the table of revisions, the newest on top.

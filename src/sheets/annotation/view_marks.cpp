@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "drawing/layout/view_plane.hpp"
-#include "sheets/annotation/paper_segments.hpp"
 #include "sheets/arrangement/view_margins.hpp"
+#include "sheets/spec/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/geometry/grid.hpp"
 
@@ -74,8 +74,8 @@ PlaneReach plane_reach(const MarkedView& in) {
   return {with_margins(in.lines, whole), with_margins(in.lines, thin)};
 }
 
-/// Returns the boxes of what is already drawn beside a view: texts, bubbles, and the wide ends and
-/// arrows of cutting planes, with a little paper round them.
+}  // namespace
+
 std::vector<PaperBox> taken_boxes(const Marks& marks) {
   std::vector<PaperBox> boxes;
   for (const Text& text : marks.texts)
@@ -92,8 +92,6 @@ std::vector<PaperBox> taken_boxes(const Marks& marks) {
   }
   return boxes;
 }
-
-}  // namespace
 
 namespace {
 

@@ -3,12 +3,17 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sheets/arrangement/view_paper.hpp"
 #include "sheets/spec/sheet_spec.hpp"
 #include "strake/sheets/sheet.hpp"
 
 namespace strake::sheets {
+
+/// Returns the boxes of what is already drawn beside a view: texts, bubbles, and the wide ends and
+/// arrows of cutting planes, with a little paper round them.
+[[nodiscard]] std::vector<PaperBox> taken_boxes(const Marks& marks);
 
 /// Appends the cutting plane of `cut` to a view that sees it edge-on (ISO 128-3): a long dashed
 /// dotted line, interrupted where there are labels beside the lines of the view, with wide ends

@@ -2,10 +2,12 @@
 #include "sheets/arrangement/view_margins.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "drawing/layout/view_plane.hpp"
 #include "sheets/arrangement/grid_lines.hpp"
 #include "sheets/arrangement/levels.hpp"
+#include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/arrangement/view_paper.hpp"
 
 namespace strake::sheets {
@@ -25,6 +27,26 @@ bool shows_cutting_planes(const SheetSpec& what, const ViewSpec& view) {
              return dot(section.normal, view.view.direction) == 0;
            });
   });
+}
+
+/// Widens margins for match lines, which have their texts outside.
+void add_match_lines(const SheetSpec& what, const ViewSpec& view, ViewMargins& margins) {
+  const auto axes = drawing::paper_axes(view.view);
+  if (!axes) return;
+  const double text_mm = lettering_of(what).scale_mm + 2;
+  for (const NeighbourView& neighbour : view.neighbours) {
+    const double sign = neighbour.upper ? 1 : -1;
+    const double right = sign * axes->right[neighbour.axis], up = sign * axes->up[neighbour.axis];
+    // How far each side of the paper is that of the match line: 1 where it leads out of there.
+    const auto widen = [&](double& margin, double out) {
+      if (out > 0.1) margin = std::max(margin, text_mm);
+      if (std::fabs(out) < 0.9) margin = std::max(margin, kMatchBeyondMm);
+    };
+    widen(margins.left_mm, -right);
+    widen(margins.right_mm, right);
+    widen(margins.top_mm, up);
+    widen(margins.bottom_mm, -up);
+  }
 }
 
 /// Returns the side on which a dimension stands.
@@ -65,6 +87,7 @@ ViewMargins margins_of(const SheetSpec& what, const ViewSpec& view) {
     if (cut) *side = reach_of_plane(*side) + kLetterMarginMm;
     if (view.view.perspective) *side = std::max(*side, drawing::kFrameGapMm);
   }
+  add_match_lines(what, view, margins);
   return margins;
 }
 

@@ -7,6 +7,9 @@
 
 namespace strake::sheets {
 
+/// Match lines go on by so much beyond the lines of a view.
+inline constexpr double kMatchBeyondMm = 8;
+
 struct ViewMargins {
   double left_mm = 0, top_mm = 0, right_mm = 0, bottom_mm = 0;
 };

@@ -43,6 +43,7 @@ constexpr std::array kDxfMarkLayers{
     DxfMarkLayer{LineClass::note, {"AM_5_NOTE", "Levels, scale bar, north, lists"}},
     DxfMarkLayer{LineClass::cutting_plane, {"AM_10", "Where other views are cut"}},
     DxfMarkLayer{LineClass::extent, {"AM_11", "What other views show"}},
+    DxfMarkLayer{LineClass::match_line, {"AM_11_MATCH", "Match lines"}},
     DxfMarkLayer{LineClass::title, drawing::dxf::kTitleLayer},
     DxfMarkLayer{LineClass::frame, {"AM_BOR", "Frame and title block"}},
     DxfMarkLayer{LineClass::frame_thin, drawing::dxf::kThinFrameLayer},
@@ -142,6 +143,7 @@ constexpr std::optional<ViewLayer> view_layer_of(LineClass line) {
     case LineClass::frame_thin:
     case LineClass::cutting_plane:
     case LineClass::extent:
+    case LineClass::match_line:
     case LineClass::note:
     case LineClass::dimension:
       break;
@@ -259,7 +261,8 @@ Result<Diagnostics> write_dxf(std::span<const Sheet> sheets, const model::Model&
     add_dxf_marks(paper, sheet.frame);
     add_dxf_marks(paper, sheet.notes);
     for (const PlacedView& view : sheet.views)
-      for (const Marks* marks : {&view.frame, &view.grid, &view.notes, &view.tags, &view.caption})
+      for (const Marks* marks :
+           {&view.frame, &view.grid, &view.notes, &view.match_lines, &view.tags, &view.caption})
         add_dxf_marks(paper, *marks);
   };
   const Status status = write_sheet_file(file, add_all_marks, model, sink, context);

@@ -19,7 +19,7 @@ std::vector<double> usual_dashes(LineClass line, double width) {
   if (line == LineClass::grid || line == LineClass::centre || line == LineClass::cutting_plane)
     return drawing::pen_dashes(drawing::kCentreDashes, width);
   // Long dash and two dots, type 05.
-  if (line == LineClass::extent)
+  if (line == LineClass::extent || line == LineClass::match_line)
     return drawing::pen_dashes(std::array{24.0, 3.0, 1.0, 3.0, 1.0, 3.0}, width);
   return {};
 }
@@ -28,6 +28,7 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
   switch (line) {
     case LineClass::outline:
     case LineClass::single_line:
+    case LineClass::match_line:
       return pens.outline;
     case LineClass::edge:
     case LineClass::boundary:
@@ -67,10 +68,11 @@ double usual_width(LineClass line, const drawing::Pens& pens) {
 
 std::string_view class_name(LineClass line) {
   constexpr std::array<std::string_view, kLineClasses> kNames{
-      "outline",       "edge",   "boundary",   "intersection", "section",      "hatch",
-      "polyline",      "smooth", "hidden",     "grid",         "grid_label",   "leader",
-      "title",         "frame",  "frame_thin", "hidden_self",  "hidden_other", "centre",
-      "cutting_plane", "extent", "note",       "dimension",    "single_line",  "break_line"};
+      "outline",     "edge",         "boundary",    "intersection",  "section",
+      "hatch",       "polyline",     "smooth",      "hidden",        "grid",
+      "grid_label",  "leader",       "title",       "frame",         "frame_thin",
+      "hidden_self", "hidden_other", "centre",      "cutting_plane", "extent",
+      "note",        "dimension",    "single_line", "break_line",    "match_line"};
   return kNames.at(static_cast<std::size_t>(line));
 }
 

@@ -80,6 +80,7 @@ class PageWriter {
     write_layer(view.frame, "Frame", layer);
     write_layer(view.grid, "Grid", layer);
     write_layer(view.notes, "Notes", layer);
+    write_layer(view.match_lines, "Match lines", layer);
     write_layer(view.tags, "Tags", layer);
     write_layer(view.caption, "Title", layer);
     return {};

@@ -64,7 +64,8 @@ std::string selector(LineClass line, bool single_lines) {
 std::vector<const Marks*> marks_of(const Sheet& sheet) {
   std::vector<const Marks*> all{&sheet.frame, &sheet.notes};
   for (const PlacedView& view : sheet.views)
-    for (const Marks* marks : {&view.caption, &view.grid, &view.tags, &view.frame, &view.notes})
+    for (const Marks* marks :
+         {&view.caption, &view.grid, &view.tags, &view.frame, &view.notes, &view.match_lines})
       all.push_back(marks);
   return all;
 }
@@ -230,6 +231,7 @@ void write_view(BufferedWriter& out, const PlacedView& view, const LineStyles& s
   write_layer(out, view.frame, id + "-frame", "Frame");
   write_layer(out, view.grid, id + "-grid", "Grid");
   write_layer(out, view.notes, id + "-notes", "Notes");
+  write_layer(out, view.match_lines, id + "-match-lines", "Match lines");
   write_layer(out, view.tags, id + "-tags", "Tags");
   write_layer(out, view.caption, id + "-title", "Title");
   out << "</g>\n";

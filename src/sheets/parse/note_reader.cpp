@@ -11,7 +11,7 @@
 #include <utility>
 #include <variant>
 
-#include "sheets/annotation/tags.hpp"
+#include "sheets/labels/tags.hpp"
 #include "sheets/spec/template.hpp"
 #include "strake/drawing/view.hpp"
 #include "strake/geometry/grid.hpp"
@@ -120,6 +120,7 @@ void NoteReader::parts_list(const Value& value) {
   list.title = table.text("title").value_or("");
   list.select = sets_.required(table, "select");
   list.position = position(table);
+  list.balloons = balloons(table);
   const Value* const columns = table.value("columns");
   const auto* const all = columns != nullptr ? std::get_if<Array>(&columns->held) : nullptr;
   if (all == nullptr || all->empty() || all->size() > kMostColumns)
@@ -129,6 +130,26 @@ void NoteReader::parts_list(const Value& value) {
   else
     for (const Value& one : *all) column(table, one, list);
   found_.parts_lists.push_back(std::move(list));
+}
+
+std::optional<BalloonSpec> NoteReader::balloons(TableReader& table) {
+  const Value* const value = table.table("balloons");
+  if (value == nullptr) return std::nullopt;
+  TableReader inner(reading_, *value, "'balloons' of [[parts_list]]");
+  BalloonSpec spec;
+  spec.views = inner.texts("views");
+  for (const std::string& name : spec.views)
+    know_view(name, inner.at(), "'views' of " + inner.what());
+  if (const auto size = inner.tolerance_mm("size")) {
+    spec.diameter_mm = *size;
+    if (!(*size >= 3 && *size <= 100))
+      reading_.fault(inner.value("size")->at, "circles of this diameter hold no numbers to be read",
+                     "write a diameter on paper from 3mm to 100mm");
+  }
+  constexpr std::array<std::string_view, 5> kSides{"anywhere", "left", "right", "top", "bottom"};
+  const std::string side = inner.word("side", kSides).value_or("anywhere");
+  spec.side = static_cast<BalloonSpec::Side>(std::ranges::find(kSides, side) - kSides.begin());
+  return spec;
 }
 
 void NoteReader::column(TableReader& table, const Value& value, PartsListSpec& list) {

@@ -26,6 +26,7 @@ class NoteReader {
  private:
   DimensionEnd end_of_dimension(settings::TableReader& table, std::string_view key);
   void level(settings::TableReader& table, const settings::Value& value);
+  std::optional<BalloonSpec> balloons(settings::TableReader& table);
   void column(settings::TableReader& table, const settings::Value& value, PartsListSpec& list);
   std::optional<PaperPoint> position(settings::TableReader& table);
   void know_view(const std::string& name, settings::SourcePosition at, const std::string& what);

@@ -16,6 +16,7 @@
 #include "drawing/layout/view_plane.hpp"
 #include "drawing/layout/view_title.hpp"
 #include "settings/table_reader.hpp"
+#include "sheets/arrangement/neighbours.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
 #include "sheets/parse/note_reader.hpp"
 #include "sheets/parse/paper_reader.hpp"
@@ -109,6 +110,7 @@ class SheetParser {
     if (value == nullptr) return;
     TableReader table(reading_, *value, "[defaults]");
     views_.content(table, defaults_);
+    defaults_.match_lines_own = false;
   }
 
   void styles() {
@@ -204,6 +206,7 @@ class SheetParser {
                        "write a length of paper, as \"20mm\"");
     }
     views_.content(table, front);
+    front.match_lines_own = false;
     std::vector<std::string> names = table.texts("views");
     if (names.empty()) names = usual_views();
     arrange_views(&table, names, front);
@@ -482,6 +485,7 @@ Result<std::vector<SheetSpec>> parse_sheet_specs(std::string_view text, std::str
     reading.fault({1, 1}, "the sheet has no views",
                   "write arrangement = \"first-angle\" at the top, or [[view]] tables");
   if (!reading.good()) return reading.error();
+  find_neighbours(found);
   return found;
 }
 

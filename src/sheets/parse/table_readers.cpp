@@ -12,7 +12,7 @@
 #include "core/number.hpp"
 #include "core/units.hpp"
 #include "hlr/view/view_frustum.hpp"
-#include "sheets/annotation/tags.hpp"
+#include "sheets/labels/tags.hpp"
 #include "sheets/spec/template.hpp"
 #include "strake/drawing/object_styles.hpp"
 #include "strake/drawing/view.hpp"
@@ -276,6 +276,8 @@ void ViewReader::conventions(TableReader& table, ViewSpec& view) {
   constexpr std::array<std::string_view, 2> kOnOff{"off", "on"};
   if (const auto word = table.word("break_lines", kOnOff))
     view.conventions.break_lines = *word == "on";
+  if (const auto word = table.word("match_lines", kOnOff))
+    view.match_lines = view.match_lines_own = *word == "on";
 }
 
 void ViewReader::content(TableReader& table, ViewSpec& view) {
@@ -368,8 +370,9 @@ void MarkReader::tag(const Value& value) {
       reading_.fault(text->at, "'text' of [[tag]] has {{" + name + "}}",
                      "write {{name}}, {{id}}, {{path}}, {{file}}, {{type}} or {{@ATTRIBUTE}}");
   tag.views = views(table);
-  constexpr std::array<std::string_view, 2> kStyles{"leader", "plain"};
-  tag.leader = table.word("style", kStyles).value_or("leader") == "leader";
+  constexpr std::array<std::string_view, 3> kStyles{"leader", "plain", "along"};
+  const std::string style = table.word("style", kStyles).value_or("leader");
+  tag.style = static_cast<TagSpec::Style>(std::ranges::find(kStyles, style) - kStyles.begin());
   tag.once = table.flag("once").value_or(false);
   if (const auto height = table.tolerance_mm("height")) {
     tag.height_mm = *height;

@@ -41,6 +41,15 @@ struct SectionSpec {
   settings::SourcePosition at;
 };
 
+/// Where a view ends at its limits, and which other goes on there.
+struct NeighbourView {
+  std::uint8_t axis = 0;         ///< that the plane is across
+  bool upper = false;            ///< the view lies below the plane
+  geometry::Box3l side;          ///< what both limits have in common, in the plane
+  std::string title;             ///< of the other view, or its name
+  std::ptrdiff_t sheets_on = 0;  ///< by how many the number of its sheet is larger
+};
+
 struct ViewSpec {
   std::string name, title;
   bool own_title = false;  ///< the file says the title
@@ -62,14 +71,20 @@ struct ViewSpec {
   std::optional<geometry::Vec3l> anchor;
   std::string section_mark;             ///< the letter of its section in other views; empty: none
   std::vector<std::string> extents_of;  ///< views whose extents are outlined in this one
+  bool match_lines = false;             ///< it has match lines
+  bool match_lines_own = false;         ///< the view says so itself, not what it shares with others
+  std::vector<NeighbourView> neighbours = {};  ///< where it has match lines
 };
 
 struct TagSpec {
+  /// With a leader, plainly on the object, or along it with a leader where it is too short.
+  enum class Style : std::uint8_t { leader, plain, along };
+
   std::string where;
   std::optional<settings::Chooser> select;
   std::string text;
   std::vector<std::string> views;  ///< empty: all
-  bool leader = true;
+  Style style = Style::leader;
   bool once = false;  ///< tag one of the objects with equal texts
   double height_mm = 2.5;
 };
@@ -111,12 +126,23 @@ struct NorthSpec {
   std::optional<PaperPoint> position;  ///< of its middle
 };
 
+/// The balloons of a list: its numbers in circles, with leaders to objects of its rows.
+struct BalloonSpec {
+  /// Beside the lines of the view; `anywhere`: on the nearest free paper.
+  enum class Side : std::uint8_t { anywhere, left, right, top, bottom };
+
+  std::vector<std::string> views;  ///< in this order; empty: all, in their order
+  double diameter_mm = 8;
+  Side side = Side::anywhere;
+};
+
 /// A list of objects, those with equal texts on one line with their number.
 struct PartsListSpec {
   std::string where, title;
   std::optional<settings::Chooser> select;
   std::vector<std::string> headings, columns;  ///< a column is a text with names, as tags have
   std::optional<PaperPoint> position;          ///< of its upper left corner
+  std::optional<BalloonSpec> balloons = std::nullopt;
 };
 
 /// An end of a dimension: a point of the model, or a side of an object as a view shows it.

@@ -152,6 +152,24 @@ class Dxf(Scenario):
             self.assertGreaterEqual(text.dxf.height, 1.8)
             self.assertEqual(text.dxf.style, 'STRAKE')
 
+    def test_labels_and_match_lines_of_a_deck_are_on_their_layers(self):
+        self.text('generate', 'ship', '--objects', 1200, '--seed', 1, '-o', 'ship.glb', '--quiet')
+        self.text('draw', 'ship.glb', '--sheet', EXAMPLES / 'ship_deck.toml', '-o', 's.dxf', '-o', 's.svg', '--quiet')
+        document, faults = read(self.folder / 's.dxf')
+        self.assertEqual(faults, [])
+        sheet = document.layouts.get('Sheet')
+        texts = {text.dxf.text: text for text in sheet.query('TEXT')}
+        match = texts['MATCH LINE, SEE VIEW FRAMES 12 TO 24']
+        self.assertEqual((match.dxf.layer, round(match.dxf.rotation)), ('AM_11_MATCH', 90))
+        self.assertEqual(len([e for e in sheet if e.dxf.layer == 'AM_11_MATCH' and e.dxftype() in ('LINE', 'LWPOLYLINE')]), 2)
+        self.assertEqual(document.layers.get('AM_11_MATCH').dxf.linetype, 'PHANTOM_AM_11_MATCH')
+        circles = [circle for circle in sheet.query('CIRCLE') if circle.dxf.layer == 'AM_5_TAG']
+        svg = ElementTree.parse(self.folder / 's.svg').getroot()
+        self.assertEqual(len(circles), len([e for e in svg.iter() if e.tag.endswith('}circle') and e.get('class') == 'leader']))
+        self.assertEqual({round(circle.dxf.radius, 3) for circle in circles}, {3.5})
+        self.assertEqual(sorted(text.text for text in svg.iter() if text.tag.endswith('}text')),
+                         sorted(text.dxf.text for text in sheet.query('TEXT')))
+
     def test_a_sheet_with_all_notes_has_each_on_a_layer_of_its_own(self):
         self.models()
         self.write('s.toml', sheet_with_all_notes())

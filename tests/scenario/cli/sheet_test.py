@@ -56,6 +56,36 @@ class Sheet(Scenario):
         ids = [element.get('id') for element in root.iter() if element.get('id')]
         self.assertEqual(len(ids), len(set(ids)))
 
+    def test_the_deck_has_match_lines_balloons_and_texts_along_pipes_in_every_format(self):
+        done = self.run_strake('generate', 'ship', '--objects', 1200, '--seed', 1, '-o', 'ship.glb')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        outputs, expected = ('d.svg', 'd.pdf', 'd.dxf'), {}
+        for threads in (1, 2, 3, 8):
+            done = self.run_strake('draw', 'ship.glb', '--sheet', EXAMPLES / 'ship_deck.toml', '--threads', threads,
+                                   *(word for out in outputs for word in ('-o', out)))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            for out in outputs:
+                got = (self.folder / out).read_bytes()
+                self.assertEqual(got, expected.setdefault(out, got), (out, threads))
+        self.assertEqual([line for line in done.stderr.splitlines() if line.startswith('warning')
+                          and 'mesh-inverted' not in line], [])
+        self.assertIn('note tag-not-along', done.stderr)
+        root = self.root('d.svg')
+        layers = {element.get('id'): element for element in root.iter() if element.get('id')}
+        rows = [text.text for text in layers['sheet-notes'].iter(f'{SVG}text')]
+        numbers = rows[rows.index('QTY') + 1::3]
+        self.assertEqual(numbers, [str(n) for n in range(1, len(numbers) + 1)])
+        tags = [element for view in (1, 2) for element in layers[f'view-{view}-tags']]
+        self.assertEqual(sorted(e.text for e in tags if e.tag == f'{SVG}text' and e.text.isdigit()), sorted(numbers))
+        self.assertEqual([e.get('r') for e in tags if e.tag == f'{SVG}circle'], ['3.5'] * len(numbers))
+        # Many pipes have their names along them, without leaders; the others have no room for them.
+        pipes = [e.text for e in tags if e.tag == f'{SVG}text' and e.text.startswith('PIP')]
+        leaders = [e for e in tags if e.tag == f'{SVG}path' and 'filled' in e.get('class')]
+        self.assertGreater(len(pipes) - (len(leaders) - len(numbers)), 20)
+        for view, other in ((1, 'FRAMES 12 TO 24'), (2, 'FRAMES 0 TO 12')):
+            texts = [text.text for text in layers[f'view-{view}-match-lines'].iter(f'{SVG}text')]
+            self.assertEqual(texts, [f'MATCH LINE, SEE VIEW {other}'])
+
     def test_tags_without_room_are_told_and_the_others_are_the_same_for_any_team(self):
         side = 9
         self.write('m.obj', ''.join(cube(f'cube-{i}', i, (i % side * 150, i // side * 150, 0), 100)

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -36,13 +37,20 @@ class Boxes {
     return *this;
   }
 
+  /// Turns the last box.
+  Boxes& turn(const std::array<Vec3d, 3>& rows) {
+    model_.bodies.back().placement.linear.row = rows;
+    return *this;
+  }
+
   /// Limits from -1 m to 1 m in x, and far in y and z.
   [[nodiscard]] std::vector<BreakLine> lines(const geometry::Vec3l& direction = {0, -1, 0},
-                                             const parallel::Context& context = {}) const {
+                                             const parallel::Context& context = {},
+                                             const Vec3d& most = {1000, 9000, 9000}) const {
     const auto scene = model::make_scene(model_, {}, {}).value();
     hlr::View view{direction};
-    view.limits = geometry::Box3l{*geometry::snap(Vec3d{-1000, -9000, -9000}),
-                                  *geometry::snap(Vec3d{1000, 9000, 9000})};
+    view.limits =
+        geometry::Box3l{*geometry::snap(Vec3d{-1000, -9000, -9000}), *geometry::snap(most)};
     hlr::Options options;
     options.hidden = false;
     const auto drawn = hlr::draw(scene, {}, view, options, {});
@@ -103,6 +111,51 @@ TEST(BreakLines, NarrowOnesHaveSmallZigzags) {
   EXPECT_NEAR(length_between_ends(lines[0]), 2, 0.01);
   for (const PaperPoint& p : lines[0].points)
     EXPECT_LE(std::fabs(p.x - lines[0].points[0].x), 0.35);
+}
+
+TEST(BreakLines, OfAnyLengthHave64ZigzagsAtMost) {
+  const auto zigzags = [](double height_mm) {
+    // From 8 m below the middle upwards.
+    const auto lines = Boxes()
+                           .add({1000, 0, height_mm / 2 - 8000}, {1000, 100, height_mm})
+                           .lines({0, -1, 0}, {}, {1000, 9000, 900000});
+    EXPECT_EQ(lines.size(), 1U);
+    return (lines[0].points.size() - 2) / 4;
+  };
+  EXPECT_EQ(zigzags(50000), 63U);
+  EXPECT_EQ(zigzags(51200), 64U);
+  EXPECT_EQ(zigzags(400000), 64U);
+}
+
+// Limits end at x = 1 m and z = 1 m. Beams run out of both sides, up to 2 mm on paper before the
+// corner.
+TEST(BreakLines, OfNeighbouringSidesMeetAtTheCorner) {
+  Boxes boxes;
+  boxes.add({1000, 0, 880}, {1000, 100, 200}).add({880, 500, 1000}, {200, 100, 1000});
+  const auto lines = boxes.lines({0, -1, 0}, {}, {1000, 9000, 1000});
+  ASSERT_EQ(lines.size(), 2U);
+  const PaperPoint corner = lines[0].points.front() == lines[1].points.front() ||
+                                    lines[0].points.front() == lines[1].points.back()
+                                ? lines[0].points.front()
+                                : lines[0].points.back();
+  for (const BreakLine& line : lines) {
+    EXPECT_TRUE(line.points.front() == corner || line.points.back() == corner);
+    // 20 mm are cut, 2 mm are left to the corner, and it goes on for 2 mm at the other end.
+    EXPECT_NEAR(length_between_ends(line), 24, 0.01);
+  }
+  // Farther from it both go on as ever.
+  Boxes apart;
+  apart.add({1000, 0, 500}, {1000, 100, 200}).add({500, 500, 1000}, {200, 100, 1000});
+  for (const BreakLine& line : apart.lines({0, -1, 0}, {}, {1000, 9000, 1000}))
+    EXPECT_NEAR(length_between_ends(line), 24, 0.01);
+}
+
+// A brace that runs askew through the side towards the viewer ends there, but not on paper.
+TEST(BreakLines, SidesSeenSquareHaveNoneOfWhatRunsThroughThemAskew) {
+  Boxes boxes;
+  boxes.add({0, 0, 0}, {4000, 100, 200}).turn({{{0.8, -0.6, 0}, {0.6, 0.8, 0}, {0, 0, 1}}});
+  EXPECT_TRUE(boxes.lines({1, 0, 0}).empty());
+  EXPECT_EQ(boxes.lines().size(), 2U) << "from the front both sides are seen edge-on";
 }
 
 // The side is seen square from the right, and askew in the isometric view.

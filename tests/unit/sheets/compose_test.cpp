@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "sheets/annotation/paper_segments.hpp"
+#include "sheets/spec/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/parallel/team.hpp"
 #include "support/sheet_models.hpp"

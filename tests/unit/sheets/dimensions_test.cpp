@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "sheets/annotation/paper_segments.hpp"
+#include "sheets/spec/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "support/sheet_models.hpp"
 

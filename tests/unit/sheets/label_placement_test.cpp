@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Labels on paper whose lines are known: what is free is found, and nothing is covered.
-#include "sheets/annotation/label_placement.hpp"
+#include "sheets/labels/label_placement.hpp"
 
 #include <gtest/gtest.h>
 

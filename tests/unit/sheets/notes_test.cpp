@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "sheets/annotation/note_table.hpp"
-#include "sheets/annotation/paper_segments.hpp"
 #include "sheets/annotation/sheet_notes.hpp"
+#include "sheets/spec/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "support/sheet_models.hpp"
 
@@ -210,17 +210,19 @@ TEST(Notes, NorthPointsWhereItIsInTheView) {
 
 TEST(Notes, PartsAreListedOnceForEqualTexts) {
   const auto model = test::three_boxes().model;
-  const NoteTable table = parts_list({.where = {},
-                                      .title = "PLATES",
-                                      .select = {},
-                                      .headings = {"DN"},
-                                      .columns = {"{{@DN}}"},
-                                      .position = {}},
-                                     {true, true, true}, model);
+  const auto [table, objects] = parts_list({.where = {},
+                                            .title = "PLATES",
+                                            .select = {},
+                                            .headings = {"DN"},
+                                            .columns = {"{{@DN}}"},
+                                            .position = {}},
+                                           {true, true, true}, model);
   EXPECT_EQ(table.headings, (std::vector<std::string>{"POS", "DN", "QTY"}));
   ASSERT_EQ(table.rows.size(), 3U);
   EXPECT_EQ(table.rows[0], (std::vector<std::string>{"1", "", "1"}));
   EXPECT_EQ(table.rows[1], (std::vector<std::string>{"2", "50", "1"}));
+  EXPECT_EQ(objects, (std::vector<std::vector<model::ObjectId>>{
+                         {model::ObjectId{2}}, {model::ObjectId{1}}, {model::ObjectId{0}}}));
   const Drawn d = with_notes("[[parts_list]]\nselect=\"*\"\ncolumns=[[\"TYPE\",\"{{type}}\"]]\n");
   const auto texts = texts_of(d.sheet.notes);
   EXPECT_EQ(texts, (std::vector<std::string>{"POS", "TYPE", "QTY", "1", "mesh", "3"}));

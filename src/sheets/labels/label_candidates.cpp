@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sheets/annotation/label_candidates.hpp"
+#include "sheets/labels/label_candidates.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -86,6 +86,8 @@ LabelPlace LabelCandidates::place_of(Label label, bool leader, std::size_t numbe
   const LabelRequest& request = requests_[label];
   const Offset& offset = offset_of(label, leader, number);
   if (!leader) return on_object(request, offset);
+  if (request.balloon)
+    return balloon(request, request.anchors[number % request.anchors.size()], offset);
   return by_leader(request, request.anchors[number % request.anchors.size()], offset);
 }
 
@@ -116,10 +118,31 @@ LabelPlace LabelCandidates::by_leader(const LabelRequest& request, const PaperPo
   return place;
 }
 
+/// Returns the place of a balloon whose centre lies so from the tip of its leader, which ends at
+/// the rim.
+LabelPlace LabelCandidates::balloon(const LabelRequest& request, const PaperPoint& tip,
+                                    const Offset& offset) const {
+  const double radius = request.height_mm / 2, rim = radius / offset.length;
+  LabelPlace place;
+  place.at = {rounded_paper(tip.x + offset.by.x), rounded_paper(tip.y + offset.by.y)};
+  place.box = {place.at.x - radius, place.at.y - radius, place.at.x + radius, place.at.y + radius};
+  place.has_leader = true;
+  place.leader = {tip,
+                  {rounded_paper(place.at.x - offset.by.x * rim),
+                   rounded_paper(place.at.y - offset.by.y * rim)}};
+  place.end = place.leader.b;
+  return place;
+}
+
 bool LabelCandidates::covers_nothing(const LabelRequest& request, const LabelPlace& place) const {
   if (!place.has_leader) {
     const double y = place.at.y - request.height_mm / 2;
     if (!request.object.holds({place.at.x, y, place.at.x, y})) return false;
+  }
+  if (request.within && !request.within->holds(place.box)) return false;
+  if (request.balloon) {
+    const double x = place.leader.b.x - place.leader.a.x, y = place.leader.b.y - place.leader.a.y;
+    if (x * x + y * y < kShortestLeaderMm * kShortestLeaderMm) return false;
   }
   return ground_.room.takes(widened(place.box, kClearanceMm)) &&
          ground_.occupied.is_free(place.box);

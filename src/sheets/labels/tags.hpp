@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+// The texts of tags: which objects of a view have one, and what it says.
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <span>
-#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "sheets/annotation/paper_segments.hpp"
-#include "sheets/arrangement/view_arrangement.hpp"
+#include "sheets/labels/seen_objects.hpp"
 #include "sheets/spec/sheet_spec.hpp"
-#include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 #include "strake/sheets/sheet.hpp"
 
@@ -27,20 +23,20 @@ namespace strake::sheets {
 
 /// What became of the tags of one table in one view.
 struct TagCount {
-  std::size_t unseen = 0;     ///< objects without a visible line
-  std::size_t blank = 0;      ///< objects that lack every value that the text names
-  std::size_t partly = 0;     ///< objects that lack some of the values
-  std::size_t crowded = 0;    ///< tags that found no room
-  std::string first_crowded;  ///< the text of the first of them
+  std::size_t unseen = 0;       ///< objects without a visible line
+  std::size_t blank = 0;        ///< objects that lack every value that the text names
+  std::size_t partly = 0;       ///< objects that lack some of the values
+  std::size_t crowded = 0;      ///< tags that found no room
+  std::string first_crowded;    ///< the text of the first of them
+  std::size_t too_short = 0;    ///< objects with a leader, along which their tags had no place
+  std::string first_too_short;  ///< the text of the first of them
 };
 
 /// An object that gets a tag.
 struct TaggedObject {
-  model::ObjectId object{};
-  PaperSegment longest;  ///< its longest visible line
-  PaperBox box;          ///< box of its visible lines
-  double length = 0;     ///< length of all of them
+  SeenObject seen;
   std::string text;
+  bool placed = false;  ///< it stands along the object already
 };
 
 /// The tags of one table in one view.
@@ -55,11 +51,5 @@ struct TagList {
 /// places of tags do not depend on the team.
 [[nodiscard]] TagList tags_of(const TagSpec& spec, const std::vector<bool>& picked,
                               const model::Model& model, const Sheet& sheet, std::size_t view);
-
-/// Writes the tags of a sheet, all together: on free paper near their objects, with leaders, or
-/// plainly on their objects where nothing is covered there (label_placement.hpp). A tag that finds
-/// no room is left out and counted. Errors: cancelled.
-[[nodiscard]] Status write_tags(std::span<TagList> lists, const SheetArea& room, Sheet& sheet,
-                                const std::stop_token& stop);
 
 }  // namespace strake::sheets

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "sheets/annotation/label_placement.hpp"
-#include "sheets/annotation/placed_labels.hpp"
+#include "sheets/labels/label_placement.hpp"
+#include "sheets/labels/placed_labels.hpp"
 
 namespace strake::sheets {
 
@@ -105,6 +105,8 @@ class LabelCandidates {
   [[nodiscard]] LabelPlace on_object(const LabelRequest& request, const Offset& offset) const;
   [[nodiscard]] LabelPlace by_leader(const LabelRequest& request, const PaperPoint& tip,
                                      const Offset& offset) const;
+  [[nodiscard]] LabelPlace balloon(const LabelRequest& request, const PaperPoint& tip,
+                                   const Offset& offset) const;
   [[nodiscard]] bool covers_nothing(const LabelRequest& request, const LabelPlace& place) const;
   [[nodiscard]] double cost_of_view(const LabelRequest& request, const PaperBox& box) const;
   void walk(const LabelPlace& place, Candidate& candidate);

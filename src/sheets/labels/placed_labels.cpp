@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sheets/annotation/placed_labels.hpp"
+#include "sheets/labels/placed_labels.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "sheets/annotation/occupancy_grid.hpp"
+#include "sheets/labels/paper/occupancy_grid.hpp"
 
 namespace strake::sheets {
 

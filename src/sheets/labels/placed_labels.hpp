@@ -6,14 +6,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "sheets/annotation/paper_segments.hpp"
+#include "sheets/spec/paper_segments.hpp"
 #include "strake/sheets/sheet.hpp"
 
 namespace strake::sheets {
 
 /// A place for a label: a text and, with a leader, the line from its elbow to the object.
 struct LabelPlace {
-  PaperPoint at;  ///< on the base line
+  PaperPoint at;  ///< on the base line; the centre of a balloon
   Align align = Align::middle;
   PaperBox box;  ///< of the text and, with a leader, of the landing below it
   bool has_leader = false;

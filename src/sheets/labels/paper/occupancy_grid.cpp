@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sheets/annotation/occupancy_grid.hpp"
+#include "sheets/labels/paper/occupancy_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "sheets/annotation/paper_segments.hpp"
+#include "sheets/spec/paper_segments.hpp"
 
 namespace strake::sheets {
 

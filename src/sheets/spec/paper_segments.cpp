@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sheets/annotation/paper_segments.hpp"
+#include "sheets/spec/paper_segments.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+
+#include "geometry/numeric/trig.hpp"
 
 namespace strake::sheets {
 
@@ -20,6 +23,11 @@ bool separates(const PaperSegment& line, const PaperSegment& ends) {
 }
 
 }  // namespace
+
+double length_of(const PaperSegment& segment) {
+  const double dx = segment.b.x - segment.a.x, dy = segment.b.y - segment.a.y;
+  return std::sqrt(dx * dx + dy * dy);
+}
 
 std::optional<PaperSegment> clipped(const PaperSegment& segment, const PaperBox& box) {
   const auto& [a, b] = segment;
@@ -39,6 +47,19 @@ std::optional<PaperSegment> clipped(const PaperSegment& segment, const PaperBox&
   }
   if (from > to) return std::nullopt;
   return PaperSegment{{a.x + dx * from, a.y + dy * from}, {a.x + dx * to, a.y + dy * to}};
+}
+
+PaperPoint reading_way(const PaperPoint& way) {
+  constexpr double kLevel = 1e-9;
+  if (std::fabs(way.y) < kLevel) return {1, 0};
+  if (std::fabs(way.x) < kLevel) return {0, -1};
+  return way.x > 0 ? way : PaperPoint{-way.x, -way.y};
+}
+
+double reading_turn(const PaperPoint& way) {
+  const double turn = geometry::arc_tan2(-way.y, way.x) * 180 / geometry::kPi;
+  // A millionth of a degree is less than a micrometre of any text.
+  return std::round(turn * 1e6) / 1e6 + 0.0;
 }
 
 bool segments_cross(const PaperSegment& one, const PaperSegment& other) {

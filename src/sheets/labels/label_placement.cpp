@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "sheets/annotation/label_placement.hpp"
+#include "sheets/labels/label_placement.hpp"
 
 #include <algorithm>
 #include <cstdint>
 #include <map>
 #include <utility>
 
-#include "sheets/annotation/label_candidates.hpp"
-#include "sheets/annotation/placed_labels.hpp"
+#include "sheets/labels/label_candidates.hpp"
+#include "sheets/labels/placed_labels.hpp"
 
 namespace strake::sheets {
 

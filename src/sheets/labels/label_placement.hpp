@@ -10,9 +10,9 @@
 #include <stop_token>
 #include <vector>
 
-#include "sheets/annotation/occupancy_grid.hpp"
-#include "sheets/annotation/placed_labels.hpp"
 #include "sheets/arrangement/view_arrangement.hpp"
+#include "sheets/labels/paper/occupancy_grid.hpp"
+#include "sheets/labels/placed_labels.hpp"
 #include "strake/sheets/sheet.hpp"
 
 namespace strake::sheets {
@@ -20,14 +20,16 @@ namespace strake::sheets {
 /// A leader is no longer than this, and a text without one no farther from its object's middle.
 inline constexpr double kLabelReachMm = 100;
 
-/// A text that wants a place.
+/// A text, or a balloon, that wants a place.
 struct LabelRequest {
-  double width_mm = 0, height_mm = 2.5;  ///< of the text
+  double width_mm = 0, height_mm = 2.5;  ///< of the text, or of the circle
   std::vector<PaperPoint> anchors;       ///< where a leader may end, the best first; not empty
   PaperBox object;                       ///< the box of the object's visible lines
   /// Stands on the object without a leader, if it covers nothing there.
   bool on_object = false;
   std::size_t view = 0;
+  bool balloon = false;  ///< a circle at whose rim the leader ends, without a landing
+  std::optional<PaperBox> within = std::nullopt;  ///< the label stands in this box
 };
 
 /// The paper on which labels are placed.

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sheets/labels/along_tags.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "sheets/arrangement/view_paper.hpp"
+#include "sheets/labels/paper/sheet_lines.hpp"
+#include "sheets/labels/straight_runs.hpp"
+#include "sheets/spec/text_metrics.hpp"
+
+namespace strake::sheets {
+
+namespace {
+
+/// A run goes on beyond its text by so much at both ends, and places for the text are so far apart.
+constexpr double kBeyondMm = 1, kStepMm = 1;
+/// So many of the longest runs of an object are looked at.
+constexpr std::size_t kMostRuns = 8;
+
+/// Letters that hang reach so far below the line on which a text stands, in heights of a capital.
+constexpr double kHanging = 0.25;
+
+/// Returns how far above a run texts may stand, the best first.
+std::vector<double> heights_above(const StraightRun& run, double height_mm) {
+  const double apart = kClearanceMm + kHanging * height_mm + 0.05;
+  std::vector<double> above;
+  if (run.half_mm > height_mm / 2 + kClearanceMm) above.push_back(-height_mm / 2);
+  for (const double from : {0.0, run.half_mm}) {
+    // The outline of a pipe may lie a little beside what its radius says.
+    for (const double more : {0.0, 0.2, 0.5}) above.push_back(from + apart + more);
+    if (run.half_mm == 0) break;
+  }
+  return above;
+}
+
+}  // namespace
+
+AlongTags::AlongTags(const Sheet& sheet, const model::Model& model, const SheetArea& room,
+                     OccupancyGrid& occupied)
+    : model_(model), room_(room), occupied_(occupied), lines_(sheet.width_mm, sheet.height_mm) {
+  each_line(sheet, [&](const PaperPoint& a, const PaperPoint& b) { lines_.add({a, b}); });
+}
+
+std::optional<Text> AlongTags::place(const PlacedView& view, model::ObjectId object,
+                                     const std::string& text, double height_mm) {
+  const double width = text_width(text) * height_mm;
+  const std::vector<StraightRun> runs = straight_runs(view, model_, object);
+  for (std::size_t r = 0; r < std::min(runs.size(), kMostRuns); ++r) {
+    const auto& [a, b] = runs[r].line;
+    const double length = length_of(runs[r].line), spare = length - width - 2 * kBeyondMm;
+    if (spare < 0) break;
+    const PaperPoint way = reading_way({(b.x - a.x) / length, (b.y - a.y) / length});
+    const PaperPoint up{way.y, -way.x}, middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+    for (const double above : heights_above(runs[r], height_mm))
+      for (double aside = 0; aside <= spare / 2; aside += kStepMm)
+        for (const double sign : {-1.0, 1.0}) {
+          Text tag{LineClass::leader,
+                   rounded(along(along(middle, way, sign * aside), up, above)),
+                   height_mm,
+                   Align::middle,
+                   text,
+                   true,
+                   reading_turn(way)};
+          if (!is_free(tag, width, way)) continue;
+          take(tag);
+          return tag;
+        }
+  }
+  return std::nullopt;
+}
+
+/// Returns whether a text covers nothing: no line within the clearance, and nothing that blocks.
+bool AlongTags::is_free(const Text& text, double width_mm, const PaperPoint& way) const {
+  const std::vector<PaperBox> boxes = boxes_of(text);
+  if (!std::ranges::all_of(boxes, [&](const PaperBox& box) { return room_.takes(box); }))
+    return false;
+  const double low = kHanging * text.height_mm, height = text.height_mm + low;
+  const PaperPoint up{way.y, -way.x};
+  const PaperPoint middle = along(text.at, up, (text.height_mm - low) / 2);
+  if (lines_.any_in({middle, way, width_mm / 2 + kClearanceMm, height / 2 + kClearanceMm}))
+    return false;
+  const double rows = std::ceil(height / 0.5);
+  for (double row = 0; row <= rows; ++row) {
+    const PaperPoint on = along(text.at, up, height * row / rows - low);
+    if (!occupied_.leader_path(along(on, way, -width_mm / 2), along(on, way, width_mm / 2)).open)
+      return false;
+  }
+  return true;
+}
+
+void AlongTags::take(const Text& text) {
+  for (const PaperBox& box : boxes_of(text)) occupied_.block(box);
+  const std::array<PaperPoint, 4> corners = corners_of(text);
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    lines_.add({corners[c], corners[(c + 1) % corners.size()]});
+}
+
+}  // namespace strake::sheets
