@@ -17,11 +17,15 @@ from strake._errors import Error, UsageError
 # Exit codes of the program.
 _CODES = {"usage": 2, "input": 3, "output": 3, "internal": 5, "memory": 6, "cancelled": 130}
 
-_Value = str | bool | float | list[float]
+_Value = str | bool | float | list[float] | list[str]
 
 
 def _switch(word: str) -> bool:
     return word == "on"
+
+
+def _thinning(word: str) -> str | bool:
+    return {"on": True, "off": False}.get(word, word)
 
 
 def _angle(word: str) -> float:
@@ -42,6 +46,10 @@ def _millimetres(word: str) -> float:
 
 def _lengths(word: str) -> str | list[float]:
     return word if word == "auto" else [_millimetres(one.strip()) for one in word.split(",")]
+
+
+def _listed(word: str) -> list[str]:
+    return [one.strip() for one in word.split(",")]
 
 
 def _whole(word: str) -> int:
@@ -69,6 +77,10 @@ _INPUT = {
     "--worker-memory": _Option("memory"),
     "--worker-threads": _Option("worker_threads", _whole),
     "--tile-folder": _Option("folder"),
+    "--sag": _Option("sag"),
+    "--weld": _Option("weld"),
+    "--obstructions": _Option("obstructions", None),
+    "--insulation": _Option("insulation", None),
 }
 _CLASH = _INPUT | {
     "--a": _Option("a", repeats=True),
@@ -88,6 +100,9 @@ _CLASH = _INPUT | {
     "--group-by": _Option("group_by"),
     "--group-distance": _Option("group_distance"),
     "--group-contacts": _Option("group_contacts", None),
+    "--sort": _Option("sort"),
+    "--class": _Option("classes", _listed),
+    "--list-exempted": _Option("list_exempted", None),
 }
 _VIEW = {
     "--view": _Option("view"),
@@ -104,6 +119,9 @@ _DRAW = _INPUT | {
     "--select": _Option("select", repeats=True),
     "--uncut": _Option("uncut", repeats=True),
     "--hidden": _Option("hidden"),
+    "--hidden-layers": _Option("hidden_layers"),
+    "--thin": _Option("thin", _thinning),
+    "--break-lines": _Option("break_lines", _switch),
     "--visible-only": _Option("visible_only", None),
     "--stage": _Option("stage"),
     "--intersections": _Option("intersections"),
