@@ -19,12 +19,6 @@ Error usage(std::string message, std::string where, std::string mend) {
   return {ErrorCode::usage, std::move(message), std::move(where), std::move(mend)};
 }
 
-/// Returns the error of a parser, with the argument that was parsed.
-Error in_argument(Error error, const char* argument) {
-  error.where = argument;
-  return error;
-}
-
 Result<geometry::Vec3l> grid_point(const geometry::Vec3d& mm, const char* argument) {
   const auto point = geometry::snap(mm);
   if (!point)
@@ -88,6 +82,11 @@ Result<geometry::Box3l> limits_of(const std::array<double, 6>& mm) {
 }
 
 }  // namespace
+
+Error in_argument(Error error, const char* argument) {
+  error.where = argument;
+  return error;
+}
 
 Result<hlr::View> view_of(const DrawRequest& request) {
   hlr::View view;

@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "drawing/conventions.hpp"
 #include "python/bindings/drawing.hpp"
 #include "strake/core/diagnostics.hpp"
-#include "strake/drawing/centre_lines.hpp"
+#include "strake/drawing/object_styles.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/model/scene.hpp"
+#include "strake/model/single_lines.hpp"
 #include "strake/parallel/context.hpp"
 
 /// The parts of the library's own requests that a request of Python stands for.
 namespace strake::python {
+
+/// Returns the error of a parser, with the argument that was parsed.
+[[nodiscard]] Error in_argument(Error error, const char* argument);
 
 [[nodiscard]] Result<hlr::View> view_of(const DrawRequest& request);
 [[nodiscard]] Result<hlr::Options> line_options(const DrawRequest& request);
@@ -23,8 +30,10 @@ struct DrawJob {
   hlr::View view;
   hlr::Options options;
   drawing::LayoutOptions layout;
-  std::optional<drawing::CentreLineOptions> centre_lines = {};
-  std::vector<bool> drawn = {};  ///< by object; empty: all
+  drawing::Conventions conventions = {};
+  std::optional<model::SingleLineOptions> single_line = {};
+  std::shared_ptr<const drawing::ObjectStyles> styles = nullptr;  ///< null: all look alike
+  std::vector<bool> drawn = {};                                   ///< by object; empty: all
 };
 
 /// Returns what a request says of any model. Errors: usage.

@@ -12,6 +12,9 @@
 #include "python/bindings/selection.hpp"
 #include "strake/drawing/centre_lines.hpp"
 #include "strake/drawing/hatching.hpp"
+#include "strake/drawing/object_styles.hpp"
+#include "strake/drawing/thinning.hpp"
+#include "strake/model/single_lines.hpp"
 
 namespace strake::python {
 
@@ -35,10 +38,11 @@ Status mind_far_objects(const model::Scene& scene, const hlr::View& view, bool l
   return {};
 }
 
-drawing::InkOptions ink_options(const DrawRequest& request) {
+drawing::InkOptions ink_options(const DrawRequest& request, const DrawJob& job) {
   drawing::InkOptions options{.hidden = request.hidden != "off",
                               .clean_up = request.hidden != "all",
                               .split_hidden = request.split_hidden};
+  options.styles = job.styles;
   if (request.pens)
     options.pens = {(*request.pens)[0], (*request.pens)[1], (*request.pens)[2], (*request.pens)[3]};
   return options;
@@ -52,11 +56,7 @@ Result<std::vector<hlr::Hatch>> hatches_of(const DrawRequest& request, const mod
   for (const std::string& text : request.hatches) {
     const std::size_t colon = text.find(':');
     const auto hatch = drawing::parse_hatch(std::string_view(text).substr(0, colon));
-    if (!hatch) {
-      Error error = hatch.error();
-      error.where = "hatch";
-      return error;
-    }
+    if (!hatch) return in_argument(hatch.error(), "hatch");
     std::vector<bool> picked;
     if (colon != std::string::npos) {
       auto some =
@@ -69,13 +69,36 @@ Result<std::vector<hlr::Hatch>> hatches_of(const DrawRequest& request, const mod
   return std::move(hatching).by_object();
 }
 
-Result<std::optional<drawing::CentreLineOptions>> centre_lines_of(const DrawRequest& request) {
-  if (request.centre_lines.empty()) return std::optional<drawing::CentreLineOptions>();
-  auto options = drawing::parse_centre_lines(request.centre_lines);
-  if (options) return options;
-  Error error = options.error();
-  error.where = "centre_lines";
-  return error;
+/// Returns the styles of the objects, of which the first that picks an object holds for it; null
+/// without any.
+Result<std::shared_ptr<const drawing::ObjectStyles>> styles_of(const DrawRequest& request,
+                                                               const model::Scene& scene,
+                                                               const parallel::Context& context) {
+  constexpr const char* kStyle = "style";
+  if (request.styles.empty()) return std::shared_ptr<const drawing::ObjectStyles>();
+  if (request.styles.size() > drawing::kMostObjectStyles)
+    return Error{ErrorCode::usage, "there are more than 1000 styles", kStyle,
+                 "give those that are seen"};
+  drawing::ObjectStyles styles(scene.model->objects.size());
+  for (const std::string& text : request.styles) {
+    auto style = drawing::parse_style(text);
+    if (!style) return in_argument(style.error(), kStyle);
+    const auto picked = pick_some({{style->selection}, {}}, scene, kStyle, context);
+    if (!picked) return picked.error();
+    styles.add(std::move(style->style), *picked);
+  }
+  return std::make_shared<const drawing::ObjectStyles>(std::move(styles));
+}
+
+/// Reads the text of an argument, unless it is empty.
+template <class Value>
+Status take_argument(const std::string& text, const char* argument,
+                     Result<Value> (*parse)(std::string_view), Value& into) {
+  if (text.empty()) return {};
+  Result<Value> value = parse(text);
+  if (!value) return in_argument(value.error(), argument);
+  into = std::move(*value);
+  return {};
 }
 
 }  // namespace
@@ -87,9 +110,17 @@ Result<DrawJob> job_of(const DrawRequest& request) {
   if (!options) return options.error();
   Result<drawing::LayoutOptions> layout = layout_options(request);
   if (!layout) return layout.error();
-  auto centre_lines = centre_lines_of(request);
-  if (!centre_lines) return centre_lines.error();
-  return DrawJob{std::move(*view), std::move(*options), std::move(*layout), *centre_lines};
+  DrawJob job{std::move(*view), std::move(*options), std::move(*layout)};
+  job.conventions.break_lines = request.break_lines;
+  for (const Status& status :
+       {take_argument(request.centre_lines, "centre_lines", drawing::parse_centre_lines,
+                      job.conventions.centre_lines),
+        take_argument(request.thin, "thin", drawing::parse_thinning, job.conventions.thin),
+        take_argument(request.single_line, "single_line", model::parse_single_line,
+                      job.single_line)})
+    if (!status) return status.error();
+  if (job.single_line) job.layout.single_line_mm = job.single_line->largest_diameter_mm;
+  return job;
 }
 
 Status fit_job(const DrawRequest& request, const model::Scene& scene, std::vector<bool> drawn,
@@ -115,21 +146,33 @@ Status put_on_paper(const DrawRequest& request, const DrawJob& job, const hlr::D
   Result<drawing::NeutralDrawing> sheet = drawing::lay_out(lines, model, job.layout, context);
   if (!sheet) return sheet.error();
   run.drawing = std::move(*sheet);
-  Result<drawing::Ink> ink = drawing::choose_ink(run.drawing, ink_options(request), context);
+  Result<drawing::Ink> ink = drawing::choose_ink(run.drawing, ink_options(request, job), context);
   if (!ink) return ink.error();
   run.ink = std::move(*ink);
-  if (!job.centre_lines) return {};
-  auto found = drawing::find_centre_lines(run.drawing, run.ink, model, *job.centre_lines, context);
-  if (!found) return found.error();
-  run.ink.centre_lines = std::move(*found);
-  return {};
+  return drawing::apply_conventions(run.ink, run.drawing, model, job.conventions, context);
 }
+
+namespace {
+
+/// Returns the scene of a model, with thin pipes as lines where a job asks for them.
+Result<std::shared_ptr<const model::Scene>> drawn_scene(LoadedModel& model,
+                                                        const DrawRequest& request,
+                                                        const DrawJob& job,
+                                                        const parallel::Context& context) {
+  auto scene = model.scene(scene_options(request), context);
+  if (!scene || !job.single_line) return scene;
+  auto lines = model::pipes_as_lines(**scene, *job.single_line, context);
+  if (!lines) return lines.error();
+  return std::make_shared<const model::Scene>(std::move(lines->scene));
+}
+
+}  // namespace
 
 Result<std::shared_ptr<DrawRun>> draw(const ModelPointer& model, const DrawRequest& request,
                                       const parallel::Context& context) {
   Result<DrawJob> job = job_of(request);
   if (!job) return job.error();
-  const auto scene = model->scene(scene_options(request), context);
+  const auto scene = drawn_scene(*model, request, *job, context);
   if (!scene) return scene.error();
   const auto run = std::make_shared<DrawRun>();
   run->model = model;
@@ -145,6 +188,9 @@ Result<std::shared_ptr<DrawRun>> draw(const ModelPointer& model, const DrawReque
   auto hatches = hatches_of(request, **scene, context);
   if (!hatches) return hatches.error();
   job->options.hatches = std::move(*hatches);
+  auto styles = styles_of(request, **scene, context);
+  if (!styles) return styles.error();
+  job->styles = std::move(*styles);
   const Result<hlr::Drawing> lines =
       hlr::draw(**scene, job->drawn, job->view, job->options, context);
   if (!lines) return lines.error();

@@ -26,10 +26,11 @@ struct DrawRequest {
   std::vector<std::string> sections;
   Pick select;
   std::vector<std::string> uncut;
-  std::vector<std::string> hatches;
-  std::string hidden = "off";  ///< "off", "dashed" or "all"
-  std::string centre_lines;    ///< "on", "off" or a length on paper; empty: off
-  bool split_hidden = false;
+  std::vector<std::string> hatches, styles;
+  std::string hidden = "off";      ///< "off", "dashed" or "all"
+  std::string centre_lines, thin;  ///< "on", "off" or a length on paper; empty: off
+  std::string single_line;         ///< "off", a length or a nominal size; empty: off
+  bool split_hidden = false, break_lines = false;
   std::string stage = "global", intersections = "primitives", own_polylines = "visible",
               smooth = "off";
   /// Hidden lines are kept where they are shown, or where they are to be kept all the same.

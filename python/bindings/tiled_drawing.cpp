@@ -90,15 +90,26 @@ Status cut_files(CutDrawing& made, std::uint64_t most_bytes, const parallel::Con
   return tiles::cut_view(made.cut, most_bytes, context);
 }
 
+/// Errors: usage, for what is looked up in the model when lines are on paper, or changes the model.
+Status check_request(const DrawRequest& request, const DrawJob& job) {
+  const auto refused = [](const char* argument) {
+    return Error{ErrorCode::usage, "this is not drawn by tiles", argument,
+                 "draw on one machine, or leave it out"};
+  };
+  if (job.conventions.centre_lines) return refused("centre_lines");
+  if (!request.hatches.empty()) return refused("hatch");
+  if (!request.styles.empty()) return refused("style");
+  if (job.single_line) return refused("single_line");
+  return {};
+}
+
 std::shared_ptr<CutDrawing> cut(const std::vector<Path>& paths, std::optional<double> unit_mm,
                                 std::optional<int> up_axis, bool on_map, const Path& importers,
                                 const DrawRequest& request, std::uint64_t most_bytes,
                                 const RunOptions& options) {
   Result<DrawJob> job = job_of(request);
   if (!job) raise(job.error());
-  if (job->centre_lines || !request.hatches.empty())
-    raise(Error{ErrorCode::usage, "centre lines and hatches by selection are not drawn by tiles",
-                "", "draw on one machine, or leave out 'centre_lines' and 'hatch'"});
+  check(check_request(request, *job));
   check(tiles::check_tiled_view(job->options));
   const auto made = std::make_shared<CutDrawing>(CutDrawing{
       request, std::move(*job), {}, reader_of(paths, unit_mm, up_axis, on_map, importers), {}});

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -33,6 +34,19 @@ def run_options(threads: int | None, progress: Progress | None) -> _core.RunOpti
     if progress is not None and not callable(progress):
         raise UsageError(f"{type(progress).__name__} cannot be called", "progress")
     return _core.RunOptions(threads, progress)
+
+
+def options_of(function: Callable[..., Any], *others: str) -> dict[str, Any]:
+    """What a function takes by name alone, with its defaults, but for some others."""
+    parameters = inspect.signature(function).parameters.values()
+    return {one.name: one.default for one in parameters if one.kind is one.KEYWORD_ONLY and one.name not in others}
+
+
+def check_names(given: Mapping[str, Any], options: Mapping[str, Any], function: str) -> None:
+    """Raises: TypeError for an argument that a function has not."""
+    for name in given:
+        if name not in options:
+            raise TypeError(f"{function}() has no argument {name!r}")
 
 
 def thread_count(value: Any, name: str) -> int:
@@ -131,6 +145,11 @@ def text(value: Any, name: str) -> str:
     if "\0" in value or any("\ud800" <= c <= "\udfff" for c in value):
         raise UsageError(f"{shown(value)} has a character that no text has", name)
     return value
+
+
+def optional_text(value: Any, name: str) -> str:
+    """As text(), where None is empty."""
+    return "" if value is None else text(value, name)
 
 
 def one_of(value: Any, words: Sequence[str], name: str) -> str:

@@ -8,7 +8,7 @@ import enum
 import html
 import os
 import tempfile
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, overload
 
@@ -21,10 +21,13 @@ from strake._arguments import (
     PathLike,
     Progress,
     Selection,
+    check_names,
     count,
     length,
     one_of,
     optional_length,
+    optional_text,
+    options_of,
     path,
     pick,
     run_options,
@@ -35,7 +38,7 @@ from strake._arguments import (
     weld_of,
 )
 from strake._errors import OutputError, UsageError
-from strake._model import Diagnostic, Model, _position, model_core, sag_of
+from strake._model import Diagnostic, Model, _position, model_core, optional_sag
 
 if TYPE_CHECKING:
     import pandas
@@ -481,123 +484,96 @@ def clash(
 
     Raises: UsageError; InputError for a rules file; KeyboardInterrupt at Ctrl-C.
     """
+    options = {name: value for name, value in locals().items() if name in CLASH_OPTIONS}
     core = model_core(model)
-    request = request_of(
-        len(model),
-        a,
-        b,
-        rules=rules,
-        profile=profile,
-        clearance=clearance,
-        touch_gap=touch_gap,
-        touch_overlap=touch_overlap,
-        contacts=contacts,
-        within_files=within_files,
-        contact_distance=contact_distance,
-        thickness_cap=thickness_cap,
-        volumes=volumes,
-        curves=curves,
-        regions=regions,
-        group_by=group_by,
-        group_distance=group_distance,
-        group_contacts=group_contacts,
-        sort=sort,
-        classes=classes,
-        list_exempted=list_exempted,
-        log_pairs=log_pairs,
-        sag=sag,
-        weld=weld,
-        obstructions=obstructions,
-        insulation=insulation,
-    )
+    request = request_of(len(model), a, b, **options)
     return Clashes(_core.clash(core, request, run_options(threads, progress)), model)
 
 
-def request_of(
-    objects: int,
-    a: Selection | None,
-    b: Selection | None,
-    *,
-    rules: PathLike | None = None,
-    profile: str | None = None,
-    clearance: Length = 0.0,
-    touch_gap: Length = 1.0,
-    touch_overlap: Length = 1.0,
-    contacts: Literal["list", "count", "off"] = "list",
-    within_files: bool = False,
-    contact_distance: Length | None = None,
-    thickness_cap: bool = True,
-    volumes: bool = False,
-    curves: bool = False,
-    regions: int = 8,
-    group_by: Literal["element", "proximity", "test", "files", "assembly"] | None = None,
-    group_distance: Length | None = None,
-    group_contacts: bool = False,
-    sort: Literal["depth", "volume", "size"] = "depth",
-    classes: str | Sequence[str] | None = None,
-    list_exempted: bool = False,
-    log_pairs: bool = False,
-    sag: Length | None = None,
-    weld: Length | None = None,
-    obstructions: bool = False,
-    insulation: bool = False,
-) -> _core.ClashRequest:
-    """Returns what clash() is asked for over a model of so many objects. Raises: UsageError."""
+CLASH_OPTIONS = options_of(clash, "threads", "progress")
+"""The arguments of clash() that say what is tested, but for the sets, with their defaults."""
+
+# What a rules file says itself, besides the sets.
+_OF_RULES = ("profile", "clearance", "touch_gap", "touch_overlap", "contact_distance", "within_files")
+
+
+def request_of(objects: int, a: Selection | None, b: Selection | None, **options: Any) -> _core.ClashRequest:
+    """Returns what clash() is asked for, with these of CLASH_OPTIONS, over a model of so many objects.
+
+    Raises: UsageError; TypeError for an option that clash() has not.
+    """
+    check_names(options, CLASH_OPTIONS, "clash")
+    told = CLASH_OPTIONS | options
     request = _core.ClashRequest()
     request.a = pick(a, objects, "a")
     request.b = pick(b, objects, "b")
-    if rules is not None:
-        _refuse_beside_rules(
-            {
-                "a": a is not None,
-                "b": b is not None,
-                "profile": profile is not None and profile != "",
-                "clearance": clearance != 0,
-                "touch_gap": touch_gap != 1,
-                "touch_overlap": touch_overlap != 1,
-                "contact_distance": contact_distance is not None,
-                "within_files": truth(within_files, "within_files"),
-            }
-        )
-        request.rules = str(path(rules, "rules"))
-    request.profile = "" if profile is None else text(profile, "profile")
-    request.within_files = truth(within_files, "within_files")
-    request.clearance = clearance_text(clearance)
-    request.touch_gap_mm = length(touch_gap, "touch_gap")
-    request.touch_overlap_mm = length(touch_overlap, "touch_overlap")
-    request.contact_distance_mm = optional_length(contact_distance, "contact_distance")
-    request.thickness_cap = truth(thickness_cap, "thickness_cap")
-    request.volumes, request.curves = truth(volumes, "volumes"), truth(curves, "curves")
-    if not isinstance(contacts, str) or contacts not in ("list", "count", "off"):
-        raise UsageError(f"there is no way {shown(contacts)}", "contacts", "write list, count or off")
-    request.classes = texts(classes, "classes")
-    listed = contacts == "list" and (not request.classes or "contact" in request.classes)
-    if truth(group_contacts, "group_contacts") and not listed:
+    if told["rules"] is not None:
+        said = {"a": a is not None, "b": b is not None} | {name: told[name] != CLASH_OPTIONS[name] for name in _OF_RULES}
+        said["profile"] = bool(told["profile"])
+        _refuse_beside_rules(said)
+    for name, value in told.items():
+        field, made = _TAKES[name]
+        setattr(request, field, made(value, name))
+    listed = request.contacts == "list" and (not request.classes or "contact" in request.classes)
+    if request.group_contacts and not listed:
         raise UsageError("contacts that are not listed cannot be put into groups", "group_contacts")
-    if (group_distance is not None or group_contacts) and group_by is None:
-        raise UsageError("there are no groups", "group_contacts" if group_distance is None else "group_distance", "give group_by")
-    request.contacts = contacts
-    request.regions = count(regions, "regions")
-    request.group_by = "" if group_by is None else text(group_by, "group_by")
-    request.group_distance_mm = optional_length(group_distance, "group_distance")
-    request.group_contacts = group_contacts
-    request.sort = one_of(sort, ("depth", "volume", "size"), "sort")
-    if sort == "size" and group_by is None:
+    if (request.group_distance_mm is not None or request.group_contacts) and told["group_by"] is None:
+        where = "group_contacts" if request.group_distance_mm is None else "group_distance"
+        raise UsageError("there are no groups", where, "give group_by")
+    if request.sort == "size" and told["group_by"] is None:
         raise UsageError("only groups have a size", "sort", "give group_by")
-    request.volumes = request.volumes or sort == "volume"
-    request.list_exempted, request.log_pairs = truth(list_exempted, "list_exempted"), truth(log_pairs, "log_pairs")
-    request.sag_mm = None if sag is None else sag_of(sag, "sag")
-    request.weld_mm = weld_of(weld, "weld")
-    request.obstructions, request.insulation = truth(obstructions, "obstructions"), truth(insulation, "insulation")
+    request.volumes = request.volumes or request.sort == "volume"
     return request
 
 
-def clearance_text(clearance: Length) -> str:
+def _contacts(value: Any, name: str) -> str:
+    if not isinstance(value, str) or value not in ("list", "count", "off"):
+        raise UsageError(f"there is no way {shown(value)}", name, "write list, count or off")
+    return value
+
+
+def _sort(value: Any, name: str) -> str:
+    return one_of(value, ("depth", "volume", "size"), name)
+
+
+def _optional_path(value: Any, name: str) -> str:
+    return "" if value is None else str(path(value, name))
+
+
+def clearance_text(clearance: Length, name: str = "clearance") -> str:
     """A clearance as the program takes it. Raises: UsageError."""
-    return text(clearance, "clearance") if isinstance(clearance, str) else f"{length(clearance, 'clearance')!r}mm"
+    return text(clearance, name) if isinstance(clearance, str) else f"{length(clearance, name)!r}mm"
 
 
 def _refuse_beside_rules(said: Mapping[str, bool]) -> None:
     for name, is_given in said.items():
         if is_given:
             raise UsageError("a rules file says this itself", name, "leave it out, or write it there")
+
+
+# By argument of clash(): the field of a request, and what makes its value of what is given.
+_TAKES: dict[str, tuple[str, Callable[[Any, str], Any]]] = {
+    "rules": ("rules", _optional_path),
+    "profile": ("profile", optional_text),
+    "clearance": ("clearance", clearance_text),
+    "touch_gap": ("touch_gap_mm", length),
+    "touch_overlap": ("touch_overlap_mm", length),
+    "contacts": ("contacts", _contacts),
+    "within_files": ("within_files", truth),
+    "contact_distance": ("contact_distance_mm", optional_length),
+    "thickness_cap": ("thickness_cap", truth),
+    "volumes": ("volumes", truth),
+    "curves": ("curves", truth),
+    "regions": ("regions", count),
+    "group_by": ("group_by", optional_text),
+    "group_distance": ("group_distance_mm", optional_length),
+    "group_contacts": ("group_contacts", truth),
+    "sort": ("sort", _sort),
+    "classes": ("classes", texts),
+    "list_exempted": ("list_exempted", truth),
+    "log_pairs": ("log_pairs", truth),
+    "sag": ("sag_mm", optional_sag),
+    "weld": ("weld_mm", weld_of),
+    "obstructions": ("obstructions", truth),
+    "insulation": ("insulation", truth),
+}

@@ -16,11 +16,14 @@ from strake._arguments import (
     PathLike,
     Progress,
     Selection,
+    check_names,
     length,
     number,
     numbers,
     one_of,
     optional_length,
+    optional_text,
+    options_of,
     path,
     pick,
     run_options,
@@ -31,7 +34,7 @@ from strake._arguments import (
     weld_of,
 )
 from strake._errors import UsageError
-from strake._model import Diagnostic, Model, model_core, sag_of
+from strake._model import Diagnostic, Model, model_core, optional_sag
 
 LINE_KINDS: tuple[str, ...] = tuple(_core.LINE_KINDS)
 """Names of the kinds of lines: what `kind` counts."""
@@ -147,6 +150,10 @@ def draw(
     hidden_layers: Literal["one", "two"] = "one",
     centre_lines: bool | Length = False,
     hatch: str | Sequence[str] | None = None,
+    style: str | Sequence[str] | None = None,
+    thin: bool | Length = False,
+    break_lines: bool = False,
+    single_line: Length | None = None,
     scale: str | float | None = None,
     paper: str | None = None,
     title: str = "",
@@ -181,6 +188,12 @@ def draw(
         centre_lines: of round parts: whether, or the diameter on paper from which parts have them (True is 2 mm).
         hatch: how sections are hatched: "30deg,80mm", "30deg", "80mm" or "off", of some objects "30deg: PIPE*", or several, of
             which the first that picks an object counts. None: neighbours differ in angle.
+        style: how lines of some objects are drawn: "name=PIPING,color=#c00000,pen=0.35mm,line=dashed: @discipline = PIPING",
+            each part before the colon as you like, or several, of which the first that picks an object counts.
+        thin: leave out inner lines of an object that are nearer than this to others on paper; True is two pens, and
+            "0.5mm+dxf" leaves them out of model space of .dxf, too.
+        break_lines: whether lines with zigzags stand where limits cut objects.
+        single_line: draw pipes up to this outer diameter as single lines, their axes: a length, or a nominal size as "DN50".
         scale: as "1:50", or 50; None: the largest usual one that fits the paper.
         paper: "A3", "A1,portrait", "900mmx420mm" ...
         title: of the sheet.
@@ -199,86 +212,31 @@ def draw(
 
     Raises: UsageError, with the argument as `where`; InputError for a view that reaches too far; KeyboardInterrupt.
     """
+    options = {name: value for name, value in locals().items() if name in DRAW_OPTIONS}
     core = model_core(model)
-    request = draw_request(
-        view,
-        pick(select, len(model), "select"),
-        hidden=hidden,
-        hidden_layers=hidden_layers,
-        centre_lines=centre_lines,
-        hatch=hatch,
-        scale=scale,
-        paper=paper,
-        title=title,
-        pens=pens,
-        stage=stage,
-        intersections=intersections,
-        own_polylines=own_polylines,
-        smooth=smooth,
-        flush_seams=flush_seams,
-        sharp_angle=sharp_angle,
-        contact_distance=contact_distance,
-        sag=sag,
-        weld=weld,
-        uncut=uncut,
-        obstructions=obstructions,
-        insulation=insulation,
-        visible_only=visible_only,
-    )
+    request = draw_request(view, pick(select, len(model), "select"), **options)
     # Not what tells of progress: it may hold on to the drawing, and its bar is closed later on.
     drawn = _core.draw(core, request, run_options(threads, progress))
     return Drawing(model, request, drawn, lambda: _core.draw(core, request, run_options(threads, None)))
 
 
-def draw_request(
-    view: str | Mapping[str, Any],
-    select: _core.Pick,
-    *,
-    hidden: Literal["off", "dashed", "all"] | bool = "off",
-    hidden_layers: Literal["one", "two"] = "one",
-    centre_lines: bool | Length = False,
-    hatch: str | Sequence[str] | None = None,
-    scale: str | float | None = None,
-    paper: str | None = None,
-    title: str = "",
-    pens: Mapping[str, float] | None = None,
-    stage: Literal["none", "local", "global"] = "global",
-    intersections: Literal["off", "objects", "primitives", "parts"] = "primitives",
-    own_polylines: Literal["visible", "hidden"] = "visible",
-    smooth: Literal["off", "tangent", "on"] = "off",
-    flush_seams: bool = True,
-    sharp_angle: float = 20.0,
-    contact_distance: Length | None = None,
-    sag: Length | None = None,
-    weld: Length | None = None,
-    uncut: str | Sequence[str] | None = None,
-    obstructions: bool = False,
-    insulation: bool = False,
-    visible_only: bool = False,
-    keep_hidden: bool = False,
-) -> _core.DrawRequest:
-    """What draw() asks for; `keep_hidden` finds hidden lines though they are not shown. Raises: UsageError."""
+DRAW_OPTIONS = options_of(draw, "select", "threads", "progress")
+"""The arguments of draw() that say what a drawing looks like, with their defaults."""
+
+
+def draw_request(view: str | Mapping[str, Any], select: _core.Pick, *, keep_hidden: bool = False, **options: Any) -> _core.DrawRequest:
+    """What draw() asks for with these of DRAW_OPTIONS; `keep_hidden` finds hidden lines though they are not shown.
+
+    Raises: UsageError; TypeError for an option that draw() has not.
+    """
+    check_names(options, DRAW_OPTIONS, "draw")
     request = _core.DrawRequest()
     _set_view(request, view)
     request.select = select
-    request.hidden = text(hidden, "hidden") if isinstance(hidden, str) else ("dashed" if truth(hidden, "hidden") else "off")
-    request.split_hidden = one_of(hidden_layers, ("one", "two"), "hidden_layers") == "two"
-    request.centre_lines = _centre_lines(centre_lines)
-    request.hatches = texts(hatch, "hatch")
-    request.scale = "" if scale is None else _scale(scale)
-    request.paper, request.title = "" if paper is None else text(paper, "paper"), text(title, "title")
-    request.stage, request.intersections = text(stage, "stage"), text(intersections, "intersections")
-    request.own_polylines, request.smooth = text(own_polylines, "own_polylines"), text(smooth, "smooth")
     request.keep_hidden = truth(keep_hidden, "keep_hidden")
-    request.flush_seams, request.visible_only = truth(flush_seams, "flush_seams"), truth(visible_only, "visible_only")
-    request.obstructions, request.insulation = truth(obstructions, "obstructions"), truth(insulation, "insulation")
-    request.sharp_angle_deg = number(sharp_angle, "sharp_angle")
-    request.contact_distance_mm = optional_length(contact_distance, "contact_distance")
-    request.sag_mm = None if sag is None else sag_of(sag, "sag")
-    request.weld_mm = weld_of(weld, "weld")
-    request.uncut = texts(uncut, "uncut")
-    if pens is not None:
-        request.pens = _pens(pens)
+    for name, value in (DRAW_OPTIONS | options).items():
+        field, made = _TAKES[name]
+        setattr(request, field, made(value, name))
     return request
 
 
@@ -317,26 +275,71 @@ def _direction(value: Any, name: str) -> str:
     return ",".join(f"{x:.17g}" for x in numbers(value, 3, name, "x, y and z"))
 
 
-def _centre_lines(value: bool | Length) -> str:
+def _hidden(value: Any, name: str) -> str:
+    return text(value, name) if isinstance(value, str) else ("dashed" if truth(value, name) else "off")
+
+
+def _two_layers(value: Any, name: str) -> bool:
+    return one_of(value, ("one", "two"), name) == "two"
+
+
+def _switch_or_length(value: Any, name: str) -> str:
     """As the program takes it."""
     if isinstance(value, (bool, np.bool_)):
         return "on" if value else ""
-    if isinstance(value, str):
-        return text(value, "centre_lines")
-    return f"{length(value, 'centre_lines')!r}mm"
+    return _length_text(value, name)
 
 
-def _scale(scale: str | float) -> str:
-    return text(scale, "scale") if isinstance(scale, str) else f"1:{number(scale, 'scale'):.17g}"
+def _length_text(value: Any, name: str) -> str:
+    """A length, or other words for one; none is empty."""
+    if value is None or isinstance(value, str):
+        return text(value or "", name)
+    return f"{length(value, name)!r}mm"
 
 
-def _pens(pens: Mapping[str, float]) -> list[float]:
+def _scale(value: Any, name: str) -> str:
+    return text(value or "", name) if value is None or isinstance(value, str) else f"1:{number(value, name):.17g}"
+
+
+def _pens(pens: Any, name: str) -> list[float] | None:
+    if pens is None:
+        return None
     if not isinstance(pens, Mapping):
-        raise UsageError(f"{shown(pens)} is none", "pens", f"give a dict of {', '.join(_PENS)} and their widths")
-    for name in pens:
-        if name not in _PENS:
-            raise UsageError(f"there is no pen {name!r}", "pens", f"write {', '.join(_PENS)}")
-    widths = [number(pens.get(name, usual), f"pens[{name!r}]") for name, usual in _PENS.items()]
+        raise UsageError(f"{shown(pens)} is none", name, f"give a dict of {', '.join(_PENS)} and their widths")
+    for pen in pens:
+        if pen not in _PENS:
+            raise UsageError(f"there is no pen {pen!r}", name, f"write {', '.join(_PENS)}")
+    widths = [number(pens.get(pen, usual), f"{name}[{pen!r}]") for pen, usual in _PENS.items()]
     if min(widths) <= 0:
-        raise UsageError("a pen has no width", "pens", "give millimetres of paper")
+        raise UsageError("a pen has no width", name, "give millimetres of paper")
     return widths
+
+
+# By argument of draw(): the field of a request, and what makes its value of what is given.
+_TAKES: dict[str, tuple[str, Callable[[Any, str], Any]]] = {
+    "hidden": ("hidden", _hidden),
+    "hidden_layers": ("split_hidden", _two_layers),
+    "centre_lines": ("centre_lines", _switch_or_length),
+    "hatch": ("hatches", texts),
+    "style": ("styles", texts),
+    "thin": ("thin", _switch_or_length),
+    "break_lines": ("break_lines", truth),
+    "single_line": ("single_line", _length_text),
+    "scale": ("scale", _scale),
+    "paper": ("paper", optional_text),
+    "title": ("title", text),
+    "pens": ("pens", _pens),
+    "stage": ("stage", text),
+    "intersections": ("intersections", text),
+    "own_polylines": ("own_polylines", text),
+    "smooth": ("smooth", text),
+    "flush_seams": ("flush_seams", truth),
+    "sharp_angle": ("sharp_angle_deg", number),
+    "contact_distance": ("contact_distance_mm", optional_length),
+    "sag": ("sag_mm", optional_sag),
+    "weld": ("weld_mm", weld_of),
+    "uncut": ("uncut", texts),
+    "obstructions": ("obstructions", truth),
+    "insulation": ("insulation", truth),
+    "visible_only": ("visible_only", truth),
+}

@@ -413,6 +413,11 @@ def sag_of(value: Length, name: str) -> float:
     return sag_mm
 
 
+def optional_sag(value: Length | None, name: str) -> float | None:
+    """As sag_of(), where None stays None."""
+    return None if value is None else sag_of(value, name)
+
+
 def _unit_mm(unit: str | float, name: str) -> float:
     if not isinstance(unit, str):
         mm = number(unit, name)

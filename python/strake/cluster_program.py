@@ -24,6 +24,10 @@ def _switch(word: str) -> bool:
     return word == "on"
 
 
+def _thinning(word: str) -> str | bool:
+    return {"on": True, "off": False}.get(word, word)
+
+
 def _angle(word: str) -> float:
     try:
         return float(word.removesuffix("deg"))
@@ -44,15 +48,15 @@ def _lengths(word: str) -> str | list[float]:
     return word if word == "auto" else [_millimetres(one.strip()) for one in word.split(",")]
 
 
+def _listed(word: str) -> list[str]:
+    return [one.strip() for one in word.split(",")]
+
+
 def _whole(word: str) -> int:
     try:
         return int(word)
     except ValueError:
         raise UsageError(f"{word!r} is no whole number") from None
-
-
-def _words_of(word: str) -> list[str]:
-    return [one.strip() for one in word.split(",")]
 
 
 @dataclass(frozen=True)
@@ -97,7 +101,7 @@ _CLASH = _INPUT | {
     "--group-distance": _Option("group_distance"),
     "--group-contacts": _Option("group_contacts", None),
     "--sort": _Option("sort"),
-    "--class": _Option("classes", _words_of),
+    "--class": _Option("classes", _listed),
     "--list-exempted": _Option("list_exempted", None),
 }
 _VIEW = {
@@ -115,6 +119,9 @@ _DRAW = _INPUT | {
     "--select": _Option("select", repeats=True),
     "--uncut": _Option("uncut", repeats=True),
     "--hidden": _Option("hidden"),
+    "--hidden-layers": _Option("hidden_layers"),
+    "--thin": _Option("thin", _thinning),
+    "--break-lines": _Option("break_lines", _switch),
     "--visible-only": _Option("visible_only", None),
     "--stage": _Option("stage"),
     "--intersections": _Option("intersections"),

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 import strake
-from strake import _drawing
+from strake import _clash, _drawing
 
 Counterpart = tuple[Callable[..., Any], str] | str
 """A function and one of its arguments, or in words what is instead."""
@@ -23,7 +23,6 @@ OF_PROJECT = "Project.clash(arguments=...) and run_program()"
 DECISIONS = "Project.set_status(); with a file of decisions run_program()"
 DIAGNOSTICS = "Model.diagnostics"
 BY_TILES = "strake.cluster.clash() and strake.cluster.draw()"
-CONVENTIONS = "run_program(), or Sheet for a sheet that says so"
 RUNNING: dict[str, Counterpart] = {
     "--distribution": SAME_RESULT,
     "--help": "help()",
@@ -48,12 +47,11 @@ DRAW: dict[str, Counterpart] = {
     **{
         "--" + name.replace("_", "-"): (strake.draw, name)
         for name in (
-            *("centre_lines", "contact_distance", "flush_seams", "hatch", "hidden", "hidden_layers", "insulation", "intersections"),
-            *("obstructions", "own_polylines", "paper", "sag", "scale", "select", "sharp_angle", "smooth", "stage", "title", "uncut"),
-            *("view", "visible_only", "weld"),
+            *("break_lines", "centre_lines", "contact_distance", "flush_seams", "hatch", "hidden", "hidden_layers", "insulation"),
+            *("intersections", "obstructions", "own_polylines", "paper", "sag", "scale", "select", "sharp_angle", "single_line"),
+            *("smooth", "stage", "style", "thin", "title", "uncut", "view", "visible_only", "weld"),
         )
     },
-    **dict.fromkeys(("--break-lines", "--single-line", "--style", "--thin"), CONVENTIONS),
     "--bucketing": SAME_RESULT,
     "--culling": SAME_RESULT,
     "--full": "run_program()",
@@ -123,6 +121,16 @@ def test_counterparts_are_there(counterparts: dict[str, Counterpart]) -> None:
             continue
         function, argument = one
         assert argument in inspect.signature(function).parameters, (option, argument)
+
+
+@pytest.mark.parametrize("module", [_drawing, _clash], ids=["draw", "clash"])
+def test_each_argument_is_taken_into_a_request(module: Any) -> None:
+    """The signature tells names and defaults alone: the table says what becomes of each, and of nothing else."""
+    options = module.DRAW_OPTIONS if module is _drawing else module.CLASH_OPTIONS
+    assert len(options) > 20
+    assert set(module._TAKES) == set(options)
+    fields = [field for field, _ in module._TAKES.values()]
+    assert len(set(fields)) == len(fields)
 
 
 def test_views_have_the_options_of_views() -> None:

@@ -61,7 +61,9 @@ FORMS: list[tuple[str, list[str], dict[str, Any]]] = [
      {"bcf_version": "3.0", "bcf_most": 7, "bcf_contacts": True, "bcf_date": "2026-01-31", "bcf_author": "Ann"}),
     ("c.xml", [], {}),
     ("c.svg", [], {}),
-    ("c.png", [], {}),
+    ("c.glb", [], {}),
+    ("c.joints.csv", [], {}),
+    ("c.ifcclash.json", [], {}),
 ]  # fmt: skip
 
 
@@ -74,9 +76,9 @@ def test_forms_of_clashes(
 
 
 def test_pictures_and_pair_log(tmp_path: Path, ship: strake.Model, ship_file: Path) -> None:
-    written_by_program(tmp_path, "c.json", "clash", ship_file, "--pictures", tmp_path / "a", "--top-pictures", 3,
+    written_by_program(tmp_path, "c.json", "clash", ship_file, "--clearance", "100mm", "--pictures", tmp_path / "a", "--top-pictures", 3,
                        "--log-pairs", tmp_path / "a.csv")  # fmt: skip
-    clashes = strake.clash(ship, log_pairs=True)
+    clashes = strake.clash(ship, clearance=100, log_pairs=True)
     drawn, left_out = clashes.save_pictures(tmp_path / "b", most=3)
     assert drawn == 3 and left_out > 0
     clashes.save_pair_log(tmp_path / "b.csv")
@@ -126,6 +128,14 @@ DRAWINGS: list[tuple[list[str], dict[str, Any]]] = [
      {"view": {"view": "top", "section": "z=2500mm"}, "hatch": ["30deg,80mm: PIP*", "off"], "centre_lines": 4}),
     (["--visible-only", "--flush-seams", "off", "--limits", "auto"],
      {"visible_only": True, "flush_seams": False, "view": {"limits": "auto"}}),
+    (["--style", "name=PIPES,color=#c00000,pen=0.35mm,line=dash-dot: PIP*", "--style", "line=3mm 1mm: *", "--hidden", "all"],
+     {"style": ["name=PIPES,color=#c00000,pen=0.35mm,line=dash-dot: PIP*", "line=3mm 1mm: *"], "hidden": "all"}),
+    (["--thin", "on", "--break-lines", "on", "--limits", "0,-4000,0,6000,4000,9000", "--view", "front"],
+     {"thin": True, "break_lines": True, "view": {"view": "front", "limits": (0, -4000, 0, 6000, 4000, 9000)}}),
+    (["--thin", "2mm+dxf", "--view", "left", "--scale", "1:100"], {"view": "left", "thin": "2mm+dxf", "scale": "1:100"}),
+    (["--thin", "1.5mm", "--single-line", "120mm", "--view", "top"], {"view": "top", "thin": 1.5, "single_line": 120}),
+    (["--single-line", "DN50", "--centre-lines", "on", "--select", "PIP*"],
+     {"single_line": "DN50", "centre_lines": True, "select": "PIP*"}),
 ]  # fmt: skip
 
 

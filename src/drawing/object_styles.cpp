@@ -36,6 +36,39 @@ std::array<NamedLine, 5> named_lines() {
 constexpr double kLeastDashMm = 0.01, kLongestDashMm = 1000;
 constexpr std::size_t kMostDashes = 12;
 
+Error fault_of_text(std::string message) {
+  return fault_of_style(
+      std::move(message),
+      "write 'color=#c00000: PIPE*', with name=, pen=0.35mm and line=dashed as you like, parted "
+      "by commas");
+}
+
+/// Takes a value that one of the functions below reads into a part of a style.
+template <class T>
+Status take_part(std::optional<T>& into, std::string_view value,
+                 Result<T> (*parse)(std::string_view)) {
+  Result<T> parsed = parse(value);
+  if (!parsed) return parsed.error();
+  if (into) return fault_of_text(in_quotes(value) + " comes again");
+  into = std::move(*parsed);
+  return {};
+}
+
+Status add_part(std::string_view part, ObjectStyle& style) {
+  const std::size_t equals = part.find('=');
+  const std::string_view key = trimmed(part.substr(0, equals));
+  if (equals == std::string_view::npos)
+    return fault_of_text(in_quotes(part) + " is no part of a style");
+  const std::string_view value = trimmed(part.substr(equals + 1));
+  if (key == "color") return take_part(style.color, value, parse_color);
+  if (key == "pen") return take_part(style.pen_mm, value, parse_pen_mm);
+  if (key == "line") return take_part(style.line, value, parse_line_type);
+  if (key != "name") return fault_of_text("a style has no " + in_quotes(key));
+  if (!style.name.empty()) return fault_of_text(in_quotes(value) + " comes again");
+  style.name = printable(value);
+  return {};
+}
+
 }  // namespace
 
 void ObjectStyles::add(ObjectStyle style, const std::vector<bool>& picked) {
@@ -97,6 +130,21 @@ Result<double> parse_pen_mm(std::string_view text) {
   const Result<double> width = parse_distance_mm(text);
   if (width && *width >= 0.01 && *width <= 20) return *width;
   return fault_of_style(in_quotes(text) + " is no width of a pen", "write \"0.01mm\" to \"20mm\"");
+}
+
+Result<StyleText> parse_style(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos)
+    return fault_of_text(in_quotes(text) + " does not say whose lines it is for");
+  StyleText parsed;
+  parsed.selection = trimmed(text.substr(colon + 1));
+  for (std::string_view rest = text.substr(0, colon);;) {
+    const std::size_t comma = rest.find(',');
+    if (const Status status = add_part(rest.substr(0, comma), parsed.style); !status)
+      return status.error();
+    if (comma == std::string_view::npos) return parsed;
+    rest.remove_prefix(comma + 1);
+  }
 }
 
 }  // namespace strake::drawing

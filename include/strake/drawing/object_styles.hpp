@@ -72,4 +72,14 @@ inline constexpr std::size_t kMostObjectStyles = 1000;
 /// Reads the width of a pen, "0.35mm". Errors: usage.
 [[nodiscard]] Result<double> parse_pen_mm(std::string_view text);
 
+/// A style, and the selection of those whose lines it is for, as it was written.
+struct StyleText {
+  ObjectStyle style;
+  std::string selection;
+};
+
+/// Reads "name=PIPING,color=#c00000,pen=0.35mm,line=dashed: @discipline = PIPING", of which each
+/// part before the colon may be left out. Errors: usage.
+[[nodiscard]] Result<StyleText> parse_style(std::string_view text);
+
 }  // namespace strake::drawing

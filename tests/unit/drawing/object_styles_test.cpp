@@ -99,5 +99,22 @@ TEST(ObjectStyles, TextsAreReadOrRefused) {
   for (const char* const text : {"", "0.35", "0", "-1mm", "3cm"}) EXPECT_FALSE(parse_pen_mm(text));
 }
 
+TEST(ObjectStyles, AStyleIsReadWithWhoseLinesItIsFor) {
+  const StyleText all =
+      parse_style(" name=PIPES , color=#c00000,pen=0.35mm,line=dashed : @d = 'a:b,c=d' ").value();
+  EXPECT_EQ(all.style.name, "PIPES");
+  EXPECT_EQ(all.style.color->red, 0xC0);
+  EXPECT_EQ(all.style.pen_mm, 0.35);
+  EXPECT_TRUE(all.style.line->in_widths);
+  EXPECT_EQ(all.selection, "@d = 'a:b,c=d'");
+  const StyleText one = parse_style("line=3mm 1mm: *").value();
+  EXPECT_TRUE(one.style.name.empty());
+  EXPECT_FALSE(one.style.color);
+  EXPECT_EQ(one.style.line->dashes.size(), 2U);
+  for (const char* const text : {"", "color=#c00000", "color: *", "color=red: *", "width=1mm: *",
+                                 "name=a,name=b: *", "pen=1mm,pen=2mm: *", ": *"})
+    EXPECT_FALSE(parse_style(text)) << text;
+}
+
 }  // namespace
 }  // namespace strake::drawing

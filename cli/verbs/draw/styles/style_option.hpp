@@ -20,8 +20,7 @@ struct StyleRule {
   model::Selection selection;
 };
 
-/// Parses "name=PIPING,color=#c00000,pen=0.35mm,line=dashed: @discipline = PIPING", of which each
-/// part before the colon may be left out. Errors name --style.
+/// Parses texts as drawing::parse_style() does. Errors name --style.
 [[nodiscard]] Result<std::vector<StyleRule>> parse_styles(const std::vector<std::string>& texts);
 
 /// Returns the styles of the objects of the scene; null without rules. Errors: a selection that
