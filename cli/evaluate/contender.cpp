@@ -42,7 +42,9 @@ Result<Published> published(const hlr::Drawing& drawing, const model::Model& mod
       drawing::choose_ink(*sheet, {.hidden = true, .clean_up = false}, context);
   if (!ink) return ink.error();
   Checksum hash;
-  drawing::write_svg(*sheet, *ink, model, [&](std::string_view text) { hash.add(text); });
+  const Status written = drawing::write_svg(
+      *sheet, *ink, model, [&](std::string_view text) { hash.add(text); }, context);
+  if (!written) return written.error();
   return Published{hash.value().text(), SheetPixels(*sheet, *ink)};
 }
 

@@ -40,8 +40,7 @@ class BufferedWriter {
   void done() {
     if (text_.size() >= kFull) flush();
   }
-
- private:
+  /// Hands on what has been gathered.
   void flush() {
     if (text_.empty()) return;
     // A sink that throws gets no text twice. Both buffers keep their memory.
@@ -49,6 +48,8 @@ class BufferedWriter {
     handed_over_.swap(text_);
     sink_(handed_over_);
   }
+
+ private:
   static constexpr std::size_t kFull = std::size_t{1} << 16U;
   Sink sink_;
   std::string text_, handed_over_;

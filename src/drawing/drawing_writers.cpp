@@ -12,9 +12,8 @@ Result<Diagnostics> nothing_amiss(const Status& status) {
 }
 
 Result<Diagnostics> as_svg(const DrawingContents& contents, Sink sink,
-                           const parallel::Context& /*context*/) {
-  write_svg(contents.drawing, contents.ink, contents.model, sink);
-  return Diagnostics();
+                           const parallel::Context& context) {
+  return nothing_amiss(write_svg(contents.drawing, contents.ink, contents.model, sink, context));
 }
 
 Result<Diagnostics> as_pdf(const DrawingContents& contents, Sink sink,

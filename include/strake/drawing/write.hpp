@@ -22,6 +22,11 @@ using Sink = parallel::FunctionRef<void(std::string_view)>;
 /// Writes SVG in millimetres of paper: one Inkscape layer per class of line, in each layer one
 /// group per object (data-id, data-name) with one path; styles are written once. Neither time nor
 /// path of this run is written.
+/// All workers make the groups of objects. Errors: cancelled, out of memory.
+[[nodiscard]] Status write_svg(const NeutralDrawing& drawing, const Ink& ink,
+                               const model::Model& model, Sink sink,
+                               const parallel::Context& context);
+/// The same by the calling thread alone.
 void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model, Sink sink);
 
 /// Writes PDF 1.7 of one page of exactly the size of the sheet: the layers, pens and texts of

@@ -6,8 +6,11 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
+#include <new>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/number.hpp"
@@ -61,11 +64,27 @@ void write_object(BufferedWriter& out, const PaperCurves& curves, const model::M
   out << "</g>\n";
 }
 
-void write_objects(BufferedWriter& out, const PaperCurves& curves, const model::Model& model,
-                   std::span<const Line* const> lines, std::span<const double> dash_mm) {
-  for_each_object(lines, [&](std::span<const Line* const> of_object) {
-    write_object(out, curves, model, of_object, dash_mm);
-  });
+Status write_objects(BufferedWriter& out, const PaperCurves& curves, const model::Model& model,
+                     std::span<const Line* const> lines, std::span<const double> dash_mm,
+                     const parallel::Context& context) {
+  std::vector<std::span<const Line* const>> objects;
+  for_each_object(lines,
+                  [&](std::span<const Line* const> of_object) { objects.push_back(of_object); });
+  // Only shares the work out, and bounds what is made before it is written.
+  constexpr std::size_t kObjectsPerPiece = 64;
+  return make_in_order(
+      "objects as SVG", (objects.size() + kObjectsPerPiece - 1) / kObjectsPerPiece,
+      [&](std::size_t piece) {
+        std::string text;
+        const auto gather = [&](std::string_view more) { text += more; };
+        BufferedWriter own(gather);
+        const std::size_t end = std::min(objects.size(), (piece + 1) * kObjectsPerPiece);
+        for (std::size_t o = piece * kObjectsPerPiece; o < end; ++o)
+          write_object(own, curves, model, objects[o], dash_mm);
+        own.flush();
+        return text;
+      },
+      [&](const std::string& text, std::size_t /*piece*/) { out << text; }, context);
 }
 
 /// `style` names that of the objects in the layer, where there is one.
@@ -89,24 +108,29 @@ void begin_style(BufferedWriter& out, const ObjectStyles& styles, std::size_t nu
 class LayerWriter {
  public:
   LayerWriter(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
-              const model::Model& model, PenOfLayer pen_of)
-      : out_(out), curves_(curves), ink_(ink), model_(model), pen_of_(pen_of) {}
+              const model::Model& model, PenOfLayer pen_of, const parallel::Context& context)
+      : out_(out), curves_(curves), ink_(ink), model_(model), pen_of_(pen_of), context_(context) {}
 
-  void write(const Layer& layer, std::string_view prefix) {
+  Status write(const Layer& layer, std::string_view prefix) {
     const std::vector<const Line*> lines = lines_of(layer, ink_);
-    if (lines.empty()) return;
+    if (lines.empty()) return {};
     const std::string_view state = layer.hidden ? "hidden" : "visible";
     const std::string_view kind = kind_name(layer.kind);
     const std::string id = fmt::format("{}{}-{}", prefix, state, kind);
     begin_layer(out_, layer.label, id, fmt::format("{} {}", state, kind));
     if (layer.hidden && ink_.split_hidden) {
-      write_state(layer, lines, LineState::hidden_by_other, {"by-other", "by others", id});
-      write_state(layer, lines, LineState::hidden_by_self, {"by-self", "by the object itself", id});
-    } else {
-      write_styles(layer, lines, layer.hidden ? LineState::hidden_by_self : LineState::visible,
+      for (const auto& [by, names] :
+           {std::pair(LineState::hidden_by_other, Names{"by-other", "by others", id}),
+            std::pair(LineState::hidden_by_self, Names{"by-self", "by the object itself", id})})
+        if (Status status = write_state(layer, lines, by, names); !status) return status;
+    } else if (Status status = write_styles(
+                   layer, lines, layer.hidden ? LineState::hidden_by_self : LineState::visible,
                    {{}, std::string(layer.label), id});
+               !status) {
+      return status;
     }
     out_ << "</g>\n";
+    return {};
   }
 
  private:
@@ -115,34 +139,41 @@ class LayerWriter {
     std::string label, id;
   };
 
-  void write_state(const Layer& layer, const std::vector<const Line*>& lines, LineState by,
-                   const Names& names) {
+  Status write_state(const Layer& layer, const std::vector<const Line*>& lines, LineState by,
+                     const Names& names) {
     std::vector<const Line*> some;
     std::ranges::copy_if(lines, std::back_inserter(some),
                          [&](const Line* line) { return line->state == by; });
-    if (some.empty()) return;
+    if (some.empty()) return {};
     const std::string label = fmt::format("{}, {}", layer.label, names.label);
     const std::string id = fmt::format("{}-{}", names.id, names.name);
     begin_layer(out_, label, id, names.name);
-    write_styles(layer, some, by, {{}, label, id});
+    if (Status status = write_styles(layer, some, by, {{}, label, id}); !status) return status;
     out_ << "</g>\n";
+    return {};
   }
 
-  void write_styles(const Layer& layer, const std::vector<const Line*>& lines, LineState state,
-                    const Names& names) {
+  Status write_styles(const Layer& layer, const std::vector<const Line*>& lines, LineState state,
+                      const Names& names) {
     for (const LinesOfStyle& part : by_style(lines, ink_)) {
       const LinePen pen = pen_of_(layer, state);
       if (part.style == ObjectStyles::kPlain) {
-        write_objects(
+        Status status = write_objects(
             out_, curves_, model_, part.lines,
-            layer.hidden ? std::span<const double>(pen.dash_mm) : std::span<const double>());
+            layer.hidden ? std::span<const double>(pen.dash_mm) : std::span<const double>(),
+            context_);
+        if (!status) return status;
         continue;
       }
       const LinePen styled = styled_pen(pen, layer, *ink_.styles, part.style, ink_.pens.edge);
       begin_style(out_, *ink_.styles, part.style, names.label, names.id);
-      write_objects(out_, curves_, model_, part.lines, styled.dash_mm);
+      if (Status status =
+              write_objects(out_, curves_, model_, part.lines, styled.dash_mm, context_);
+          !status)
+        return status;
       out_ << "</g>\n";
     }
+    return {};
   }
 
   BufferedWriter& out_;
@@ -150,7 +181,13 @@ class LayerWriter {
   const Ink& ink_;
   const model::Model& model_;
   PenOfLayer pen_of_;
+  const parallel::Context& context_;
 };
+
+/// For writers that have no other way to say so: without a team and a token nothing else fails.
+void throw_unless(const Status& status) {
+  if (!status) throw std::bad_alloc();
+}
 
 }  // namespace
 
@@ -163,10 +200,18 @@ void write_far_objects(BufferedWriter& out, const NeutralDrawing& drawing,
   }
 }
 
+Status write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
+                    const model::Model& model, std::string_view prefix, PenOfLayer pen_of,
+                    const parallel::Context& context) {
+  LayerWriter writer(out, curves, ink, model, pen_of, context);
+  for (const Layer& layer : kLayers)
+    if (Status status = writer.write(layer, prefix); !status) return status;
+  return {};
+}
+
 void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
                   const model::Model& model, std::string_view prefix, PenOfLayer pen_of) {
-  LayerWriter writer(out, curves, ink, model, pen_of);
-  for (const Layer& layer : kLayers) writer.write(layer, prefix);
+  throw_unless(write_layers(out, curves, ink, model, prefix, pen_of, {}));
 }
 
 void write_break_lines(BufferedWriter& out, const Ink& ink, std::string_view prefix) {
@@ -296,8 +341,8 @@ void write_title(BufferedWriter& out, const NeutralDrawing& drawing) {
 
 }  // namespace
 
-void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model,
-               Sink sink) {
+Status write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model,
+                 Sink sink, const parallel::Context& context) {
   BufferedWriter out(sink);
   write_head(out, drawing, ink, model);
   const auto pen_of = [&](const Layer& layer, LineState /*state*/) {
@@ -308,13 +353,20 @@ void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model
                      shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)
       << "\" data-scale=\"" << drawing.sheet.scale_text << "\">\n";
-  write_layers(out, drawing.curves, ink, model, "", pen_of);
+  if (Status status = write_layers(out, drawing.curves, ink, model, "", pen_of, context); !status)
+    return status;
   write_break_lines(out, ink, "");
   write_centre_lines(out, ink, "", pen_dashes(kCentreDashes, ink.pens.thin));
   write_frame(out, drawing);
   out << "</g>\n";
   write_title(out, drawing);
   out << "</svg>\n";
+  return {};
+}
+
+void write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Model& model,
+               Sink sink) {
+  throw_unless(write_svg(drawing, ink, model, sink, {}));
 }
 
 }  // namespace strake::drawing

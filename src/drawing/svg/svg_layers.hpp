@@ -19,6 +19,11 @@ namespace strake::drawing {
 /// and lines of objects with a style lie in a layer of class "style-1" and the like within these.
 /// Of the pens the dashes of hidden lines and of styles count here, the rest is in
 /// svg_style_rules() and in what the caller writes. `prefix` stands before the ids of the layers.
+/// All workers make the groups of objects. Errors: cancelled, out of memory.
+[[nodiscard]] Status write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
+                                  const model::Model& model, std::string_view prefix,
+                                  PenOfLayer pen_of, const parallel::Context& context);
+/// The same by the calling thread alone.
 void write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
                   const model::Model& model, std::string_view prefix, PenOfLayer pen_of);
 

@@ -118,7 +118,7 @@ TEST(StringSort, ThatIsCancelledIsAnError) {
   texts.back() = "a";
   Order order(texts.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::stop_source stop;
+  const std::stop_source stop;
   stop.request_stop();
   const auto sorted = sort_strings(texts, order, {.stop = stop.get_token()});
   ASSERT_FALSE(sorted.has_value());
