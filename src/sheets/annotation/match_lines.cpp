@@ -18,7 +18,7 @@ namespace strake::sheets {
 namespace {
 
 /// A text stands off its match line by so much.
-constexpr double kOffLineMm = 1;
+constexpr double kOffLineMm = 1.5;
 /// Smaller letters are not read.
 constexpr double kLeastMatchLettersMm = 1.8;
 

@@ -51,8 +51,8 @@ TEST(MatchLines, StandWhereAViewEndsAndAnotherGoesOn) {
     EXPECT_EQ(text.text, aft ? "MATCH LINE, SEE VIEW FORE" : "MATCH LINE, SEE VIEW AFT");
     EXPECT_EQ(text.turn_deg, 90);
     const PaperBox box = box_of(text);
-    EXPECT_GT(aft ? box.left - border : border - box.right, 0.5) << "it stands outside";
-    EXPECT_LT(aft ? box.left - border : border - box.right, 1.5);
+    EXPECT_GT(aft ? box.left - border : border - box.right, 1) << "it stands outside";
+    EXPECT_LT(aft ? box.left - border : border - box.right, 2);
     for (const Text& title : view.caption.texts) EXPECT_FALSE(box_of(title).overlaps(box));
   }
   EXPECT_EQ(sheet.diagnostics.count("match-line-nowhere"), 0U);
