@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "sheets/labels/balloons.hpp"
@@ -51,7 +52,7 @@ class LabelTeller {
   }
 
  private:
-  void warn(std::string code, std::string message, std::string where) {
+  void warn(std::string_view code, std::string message, std::string where) {
     sheet_.diagnostics.add(Severity::warning, code, std::move(message), std::move(where));
   }
 

@@ -511,10 +511,11 @@ class Composer {
         std::vector<PaperBox> taken;
         for (const Marks* marks : {&view.grid, &view.notes, &view.match_lines})
           std::ranges::move(taken_boxes(*marks), std::back_inserter(taken));
-        any =
+        const auto line =
             draw_match_line(neighbour, what_.number, {spec, place, places_[v].lines, labelled_[v]},
-                            letters, taken, view.match_lines) ||
-            any;
+                            letters, taken, view.match_lines);
+        if (line) clear_below(*line, view);
+        any = any || line;
       }
       if (!any && spec.match_lines_own)
         warn("match-line-nowhere",

@@ -2,12 +2,14 @@
 #include "sheets/annotation/match_lines.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <array>
+#include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "sheets/arrangement/view_margins.hpp"
-#include "sheets/spec/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 #include "strake/geometry/grid.hpp"
 
@@ -16,7 +18,7 @@ namespace strake::sheets {
 namespace {
 
 /// A text stands off its match line by so much.
-constexpr double kOffLineMm = 1;
+constexpr double kOffLineMm = 1.5;
 /// Smaller letters are not read.
 constexpr double kLeastMatchLettersMm = 1.8;
 
@@ -96,23 +98,78 @@ Text text_beside(std::string words, const PaperSegment& line, const SideOnPaper&
   return text;
 }
 
+/// Places along a line, of points that lie on it.
+class AlongLine {
+ public:
+  explicit AlongLine(const PaperSegment& line)
+      : line_(line),
+        length_(length_of(line)),
+        way_{(line.b.x - line.a.x) / length_, (line.b.y - line.a.y) / length_} {}
+
+  [[nodiscard]] double length() const { return length_; }
+  [[nodiscard]] double at(const PaperPoint& p) const {
+    return (p.x - line_.a.x) * way_.x + (p.y - line_.a.y) * way_.y;
+  }
+  [[nodiscard]] bool holds(const PaperPoint& p) const {
+    constexpr double kNear = 0.02;
+    return std::fabs((p.y - line_.a.y) * way_.x - (p.x - line_.a.x) * way_.y) <= kNear;
+  }
+
+ private:
+  const PaperSegment& line_;
+  double length_;
+  PaperPoint way_;
+};
+
+/// Returns what is left of a grid line beside a match line.
+std::vector<Path> beside(const Path& grid_line, const PaperSegment& match_line,
+                         const AlongLine& on) {
+  PaperPoint a = grid_line.points.front(), b = grid_line.points.back();
+  if (grid_line.line != LineClass::grid || !on.holds(a) || !on.holds(b)) return {grid_line};
+  if (on.at(a) > on.at(b)) std::swap(a, b);
+  if (on.at(b) <= 0 || on.at(a) >= on.length()) return {grid_line};
+  std::vector<Path> left;
+  if (on.at(a) < 0) left.push_back({LineClass::grid, {a, rounded(match_line.a)}, false});
+  if (on.at(b) > on.length()) left.push_back({LineClass::grid, {rounded(match_line.b), b}, false});
+  return left;
+}
+
 }  // namespace
 
-bool draw_match_line(const NeighbourView& neighbour, std::size_t sheet_number, const MarkedView& in,
-                     double letters_mm, std::span<const PaperBox> taken, Marks& marks) {
+std::optional<PaperSegment> draw_match_line(const NeighbourView& neighbour,
+                                            std::size_t sheet_number, const MarkedView& in,
+                                            double letters_mm, std::span<const PaperBox> taken,
+                                            Marks& marks) {
   const ViewPaper paper(in);
-  if (!paper.good()) return false;
+  if (!paper.good()) return std::nullopt;
   const SideOnPaper side = side_on_paper(neighbour, paper);
   const auto line = line_of(neighbour, in, paper, side);
   // Where the two have no more in common than a corner there is nothing to go on with.
-  if (!line || length_of(*line) < 1) return false;
+  if (!line || length_of(*line) < 1) return std::nullopt;
   marks.paths.push_back({LineClass::match_line, {rounded(line->a), rounded(line->b)}, false});
   std::string words = "MATCH LINE, SEE VIEW " + on_one_line(neighbour.title);
   if (neighbour.sheets_on != 0)
     words += ", SHEET " +
              std::to_string(static_cast<std::ptrdiff_t>(sheet_number) + neighbour.sheets_on);
   marks.texts.push_back(text_beside(std::move(words), *line, side, letters_mm, taken));
-  return true;
+  return line;
+}
+
+void clear_below(const PaperSegment& match_line, PlacedView& view) {
+  const AlongLine on(match_line);
+  std::erase_if(view.ink.break_lines, [&](const drawing::BreakLine& line) {
+    // They go on beyond what they cross.
+    constexpr double kBreakBeyondMm = 2;
+    return std::ranges::all_of(std::array{line.points.front(), line.points.back()},
+                               [&](const PaperPoint& p) {
+                                 return on.holds(p) && on.at(p) >= -kBreakBeyondMm &&
+                                        on.at(p) <= on.length() + kBreakBeyondMm;
+                               });
+  });
+  std::vector<Path> left;
+  for (const Path& path : view.grid.paths)
+    std::ranges::move(beside(path, match_line, on), std::back_inserter(left));
+  view.grid.paths = std::move(left);
 }
 
 }  // namespace strake::sheets

@@ -33,7 +33,7 @@ bool shows_cutting_planes(const SheetSpec& what, const ViewSpec& view) {
 void add_match_lines(const SheetSpec& what, const ViewSpec& view, ViewMargins& margins) {
   const auto axes = drawing::paper_axes(view.view);
   if (!axes) return;
-  const double text_mm = lettering_of(what).scale_mm + 2;
+  const double text_mm = lettering_of(what).scale_mm + 2.5;
   for (const NeighbourView& neighbour : view.neighbours) {
     const double sign = neighbour.upper ? 1 : -1;
     const double right = sign * axes->right[neighbour.axis], up = sign * axes->up[neighbour.axis];

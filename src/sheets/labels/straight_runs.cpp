@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <iterator>
 #include <span>
 #include <tuple>
 #include <utility>
@@ -61,8 +61,10 @@ std::vector<StraightRun> joined(const std::vector<StraightRun>& runs) {
     }
     found.push_back(one.run);
   }
-  std::ranges::stable_sort(found, std::greater{},
-                           [](const StraightRun& run) { return length_of(run.line); });
+  std::ranges::sort(found, {}, [](const StraightRun& run) {
+    const auto& [a, b] = run.line;
+    return std::tuple(-length_of(run.line), a.x, a.y, b.x, b.y);
+  });
   return found;
 }
 

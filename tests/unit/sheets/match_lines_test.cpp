@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -50,8 +51,8 @@ TEST(MatchLines, StandWhereAViewEndsAndAnotherGoesOn) {
     EXPECT_EQ(text.text, aft ? "MATCH LINE, SEE VIEW FORE" : "MATCH LINE, SEE VIEW AFT");
     EXPECT_EQ(text.turn_deg, 90);
     const PaperBox box = box_of(text);
-    EXPECT_GT(aft ? box.left - border : border - box.right, 0.5) << "it stands outside";
-    EXPECT_LT(aft ? box.left - border : border - box.right, 1.5);
+    EXPECT_GT(aft ? box.left - border : border - box.right, 1) << "it stands outside";
+    EXPECT_LT(aft ? box.left - border : border - box.right, 2);
     for (const Text& title : view.caption.texts) EXPECT_FALSE(box_of(title).overlaps(box));
   }
   EXPECT_EQ(sheet.diagnostics.count("match-line-nowhere"), 0U);
@@ -123,6 +124,28 @@ TEST(MatchLines, ThatFindNoNeighbourAreToldWhereTheViewAsksForThem) {
                  part_view("B", 300, R"("9m",0,0)", R"("12m","2m","2m")"))
                 .find("end long before"),
             std::string::npos);
+}
+
+TEST(MatchLines, StandInThePlaceOfBreakLinesAndGridLines) {
+  const std::string on = "match_lines=\"on\"\n", breaks = "break_lines=\"on\"\n";
+  const std::string grid = "[grid]\nx=[[\"A\",\"1m\"],[\"B\",\"2m\"]]\n";
+  const Sheet without = matched(two_parts(breaks) + grid),
+              sheet = matched(two_parts(on + breaks) + grid);
+  EXPECT_EQ(without.views[0].ink.break_lines.size(), 1U) << "the side has one";
+  EXPECT_TRUE(sheet.views[0].ink.break_lines.empty());
+  EXPECT_FALSE(sheet.views[0].match_lines.paths.empty());
+  // The grid line at 1 m is the same; of that at 2 m the part to its label is left.
+  const auto upright_at = [](const PlacedView& view, double x) {
+    double length = 0;
+    for (const Path& path : view.grid.paths)
+      if (std::abs(path.points.front().x - x) < 0.01 && std::abs(path.points.back().x - x) < 0.01)
+        length += std::abs(path.points.front().y - path.points.back().y);
+    return length;
+  };
+  const PaperBox& box = sheet.views[0].box;
+  EXPECT_GT(upright_at(sheet.views[0], box.left + 20), box.height());
+  EXPECT_GT(upright_at(without.views[0], without.views[0].box.right), box.height());
+  EXPECT_LT(upright_at(sheet.views[0], box.right), 12);
 }
 
 TEST(MatchLines, NameTheSheetOfTheSetThatGoesOn) {
