@@ -76,6 +76,11 @@ Hash128 hash_of_scene(const Hash128& seal, const Loaded& loaded,
   return hash.value();
 }
 
+/// Whether all objects have the identities that they had.
+bool have_same_identities(const project::Snapshot& then, const project::Snapshot& now) {
+  return project::is_same_known(then.names, now.names) || then.identities == now.identities;
+}
+
 /// Counts the results of the earlier run whose objects are as they were.
 std::uint64_t count_kept(const clash::Report& report, const std::vector<std::uint32_t>& now_of) {
   return static_cast<std::uint64_t>(
@@ -193,18 +198,18 @@ Status ProjectClashes::sign(Session& session, const Loaded& loaded,
       clash::signatures(loaded.scene, planned.sets, planned.options, planned.policy,
                         session.context(), loaded.known(), earlier);
   if (!signatures) return signatures.error();
-  if (identities_.empty()) {
-    if (before != nullptr && project::is_same_known(before->names, loaded.names)) {
-      identities_ = before->identities;
-    } else {
-      Result<std::vector<std::uint64_t>> all =
-          project::identities(*loaded.model, session.context());
-      if (!all) return all.error();
-      identities_ = std::move(*all);
-    }
+  const bool same_names = before != nullptr && project::is_same_known(before->names, loaded.names);
+  if (!same_names && identities_.empty()) {
+    Result<std::vector<std::uint64_t>> all = project::identities(*loaded.model, session.context());
+    if (!all) return all.error();
+    identities_ = std::move(*all);
   }
-  tested.made = project::Snapshot{signatures->rules, identities_, std::move(signatures->objects),
-                                  loaded.names,      source,      std::move(signatures->ranges)};
+  tested.made = project::Snapshot{signatures->rules,
+                                  same_names ? before->identities : identities_,
+                                  std::move(signatures->objects),
+                                  loaded.names,
+                                  source,
+                                  std::move(signatures->ranges)};
   return {};
 }
 
@@ -226,7 +231,8 @@ Result<clash::Report> ProjectClashes::follow(Session& session, const Loaded& loa
   Result<clash::FollowedRun> run =
       clash::follow_changes(loaded.scene, planned.sets, planned.options, planned.policy,
                             {std::move(before.results.report), *now_of,
-                             before.snapshot.identities == tested.made->identities},
+                             have_same_identities(before.snapshot, *tested.made),
+                             before.results.partners ? &*before.results.partners : nullptr},
                             session.context());
   if (!run) return run.error();
   before.results.report = std::move(run->earlier);

@@ -20,13 +20,17 @@ namespace strake::clash {
 /// Hashes of all that detect() sees. Two runs agree on a pair where `rules` and the signatures of
 /// its two objects are equal.
 struct Signatures {
+  /// So many objects have one hash of `ranges`. One that changes has all of them signed again,
+  /// which takes 0.2 ms.
+  static constexpr std::size_t kObjectsPerRange = 4096;
+
   Hash128 rules;  ///< of options, rules and the program's version: what is said of no single object
   /// Of each object: its bodies on the grid, and what sets and rules say of it; not its file label
   /// and id, which tell whose signature it is. Equal signatures of two runs say nothing where their
   /// `rules` differ.
   std::vector<Hash128> objects;
-  /// Of so many objects each, all that their signatures were made from; none where not all of it
-  /// was known of the model.
+  /// Of kObjectsPerRange objects each, all that their signatures were made from; none where not all
+  /// of it was known of the model.
   std::vector<Hash128> ranges = {};
 };
 
@@ -74,6 +78,17 @@ struct EarlierSignatures {
 [[nodiscard]] Hash128 hash_of_inputs(const model::Scene& scene, const Sets& sets,
                                      const Options& options, const Policy& policy);
 
+/// Which objects the results of a report are of, block by block: by it the results of few objects
+/// are found without a look at all.
+struct PartnerBlocks {
+  static constexpr std::uint32_t kObjects = 1024;  ///< in a block, by their numbers
+  /// Of each block, as the a of results, the blocks of their b, ascending.
+  std::vector<std::vector<std::uint32_t>> of;
+};
+
+/// Returns the blocks of the b of some results, ascending.
+[[nodiscard]] std::vector<std::uint32_t> partners_of(std::span<const Pair> pairs);
+
 /// A run whose rules had the same signature, as detect() or detect_changes() reported it: nothing
 /// may have been taken out of the report since. With KeptForChanges all its numbers are within the
 /// lists that they refer to.
@@ -86,6 +101,8 @@ struct EarlierRun {
   /// number had, ordered by the labels of their files, which may be other ones than they were, but
   /// no two of them one: then ids need not be read again.
   bool same_ids = false;
+  /// Of the report; null: not known, so that all of its results are looked at.
+  const PartnerBlocks* partners = nullptr;
 };
 
 /// Whether all objects of an earlier run, which has KeptForChanges, have the file labels and ids of
@@ -100,8 +117,8 @@ struct EarlierRun {
 ///    KeptForChanges::box_pairs may be more than a full run counts.
 /// 2. Where very many pairs are near each other, or a quarter of the objects changed, it is a full
 ///    run.
-/// 3. The cost is that of the changed pairs, one pass over the bodies and one over the pairs of the
-///    report; where nothing changed it is none.
+/// 3. The cost is that of the changed pairs and one pass over the bodies, without
+///    EarlierRun::partners one over the pairs of the report; where nothing changed it is none.
 ///
 /// Errors: those of detect(); usage for a mapping or a report that does not fit.
 [[nodiscard]] Result<Report> detect_changes(const model::Scene& scene, const Sets& sets,

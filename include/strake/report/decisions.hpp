@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "strake/clash/clash.hpp"
@@ -126,6 +127,13 @@ struct DecisionRules {
   std::span<const std::string> match_files = {};
 };
 
+/// What holds of the results of a test that DecidedResults::tests does not have and that no rule
+/// allows: of a million results nearly all are as they were, and nobody has decided about them.
+struct OtherResults {
+  DecidedResult result;  ///< but for its objects and its class; without a decision: none is decided
+  std::vector<std::pair<model::ObjectId, model::ObjectId>> undecided;  ///< all but these; ascending
+};
+
 /// The decisions about the results of findings; it refers to the DecisionFile.
 class DecidedResults {
  public:
@@ -135,11 +143,13 @@ class DecidedResults {
   /// DecisionRules::match_files that change nothing: the file has the new name and not the old one.
   std::vector<std::string> renamed_before;
   std::vector<std::vector<DecidedResult>> tests;  ///< of each test by (a, b)
+  std::vector<OtherResults> others;               ///< of each test; empty: of none
   std::vector<const Decision*> not_found;         ///< decisions about no result, as in the file
   /// Results of each status that no rule allows; those without a decision are new.
   std::array<std::uint64_t, kDecisionStatuses.size()> counts{};
 
-  /// Returns the decision about a result; null if there is none.
+  /// Returns the decision about a result; null if there is none. One of `others` stands for many:
+  /// it names no objects.
   [[nodiscard]] const DecidedResult* of(std::size_t test, const clash::Pair& pair) const;
   [[nodiscard]] bool is_settled(std::size_t test, const clash::Pair& pair) const {
     const DecidedResult* const decided = of(test, pair);

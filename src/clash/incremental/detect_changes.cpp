@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "clash/detect.hpp"
 #include "clash/incremental/neighbours.hpp"
 #include "clash/incremental/object_map.hpp"
+#include "clash/incremental/partners.hpp"
 #include "clash/incremental/renamed.hpp"
 #include "clash/incremental/report_merge.hpp"
 #include "clash/rules/rule_matcher.hpp"
@@ -68,17 +70,26 @@ Result<Report> run_after(const model::Scene& scene, const Sets& sets, const Opti
                      "earlier run", "give one whose rules had the same signature"};
   const KeptForChanges& kept = *earlier.report.kept;
   if (kept.elements.size() != earlier.now.size()) return misfit;
-  const auto names = earlier.same_ids ? hashes_of_names(kept.elements, *scene.model, context)
-                                      : hashes_of_names(*scene.model, context);
-  if (!names) return names.error();
-  if (map->is_identity() && kept.elements == *names && earlier.report.in_a.size() == objects) {
+  if (earlier.partners != nullptr &&
+      earlier.partners->of.size() != count_blocks(earlier.now.size()))
+    return misfit;
+  std::vector<std::uint64_t> names_now;
+  bool same_names = earlier.same_ids && have_labels_of(kept.elements, *scene.model);
+  if (!same_names) {
+    auto all = hashes_of_names(*scene.model, context);
+    if (!all) return all.error();
+    names_now = std::move(*all);
+    same_names = kept.elements == names_now;
+  }
+  const std::span<const std::uint64_t> names = same_names ? kept.elements : names_now;
+  if (map->is_identity() && same_names && earlier.report.in_a.size() == objects) {
     if (followed != nullptr) {
       followed->earlier = head_of(earlier.report);
       followed->changes.emplace();
     }
     return taken_over(std::move(earlier.report), options, policy);
   }
-  let_go_of_hashed_contacts(kept, *names, *map);
+  if (!same_names || map->renumbered) let_go_of_hashed_contacts(kept, names, *map);
   if (map->changed > objects / kFewChanged) return full();
 
   std::optional<parallel::StageTimer> timer;
@@ -103,8 +114,10 @@ Result<Report> run_after(const model::Scene& scene, const Sets& sets, const Opti
     followed->earlier = same_numbers ? head_of(earlier.report) : earlier.report;
     if (same_numbers) changes = &followed->changes.emplace();
   }
-  return merge(std::move(earlier.report), std::move(**fresh),
-               {policy, options, *scene.model, *map, *neighbours, *names}, context, changes);
+  return merge(
+      std::move(earlier.report), std::move(**fresh),
+      {policy, options, *scene.model, *map, *neighbours, names, same_names, earlier.partners},
+      context, changes);
 }
 
 }  // namespace

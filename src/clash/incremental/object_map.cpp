@@ -39,6 +39,14 @@ bool is_ascending(std::span<const std::uint32_t> now) {
   return true;
 }
 
+/// Whether all objects that stay have the numbers that they had, as they nearly always do.
+bool is_in_place(std::span<const std::uint32_t> now, std::size_t objects) {
+  if (now.size() != objects) return false;
+  for (std::uint32_t o = 0; o < now.size(); ++o)
+    if (now[o] != o && now[o] != model::kNoObject) return false;
+  return true;
+}
+
 }  // namespace
 
 void ObjectMap::let_go(std::uint32_t object) {
@@ -48,6 +56,13 @@ void ObjectMap::let_go(std::uint32_t object) {
 }
 
 Result<ObjectMap> map_objects(std::span<const std::uint32_t> now, std::size_t objects) {
+  if (is_in_place(now, objects)) {
+    ObjectMap map;
+    map.now.assign(now.begin(), now.end());
+    map.before = map.now;
+    map.changed = static_cast<std::size_t>(std::ranges::count(now, model::kNoObject));
+    return map;
+  }
   const Error misfit{ErrorCode::usage, "the objects of an earlier run are not mapped to these",
                      "earlier run", "map each to an object of this scene, and no two to one"};
   std::vector<bool> taken(objects, false);

@@ -34,8 +34,8 @@ void add_source(WordHash& hash, std::span<const HashedBodies> bodies, std::uint3
 Hash128 hash_of_range(const model::Scene& scene, std::size_t range, const Hash128& all,
                       const KnownModel& known) {
   const std::size_t objects = scene.model->objects.size();
-  const std::size_t from = range * kObjectsPerRange;
-  const std::size_t to = std::min(objects, from + kObjectsPerRange);
+  const std::size_t from = range * Signatures::kObjectsPerRange;
+  const std::size_t to = std::min(objects, from + Signatures::kObjectsPerRange);
   const std::span<const model::GridBody> bodies =
       std::span(scene.bodies)
           .subspan(scene.first_body[from], scene.first_body[to] - scene.first_body[from]);
@@ -63,8 +63,8 @@ Result<std::vector<Hash128>> range_hashes(const model::Scene& scene, const Shape
                         known.shapes.size() == scene.model->shapes.size();
   if (!is_known) return std::vector<Hash128>();
   const Hash128 all = hash_of_all(scene, shapes, inputs, known);
-  const std::size_t ranges =
-      (scene.model->objects.size() + kObjectsPerRange - 1) / kObjectsPerRange;
+  const std::size_t ranges = (scene.model->objects.size() + Signatures::kObjectsPerRange - 1) /
+                             Signatures::kObjectsPerRange;
   return parallel::transform(context, {.name = "what signatures are made from", .n = ranges},
                              [&](std::size_t k) { return hash_of_range(scene, k, all, known); });
 }

@@ -3,7 +3,6 @@
 
 // Decision 0106 says what may be known of objects without looking at them.
 
-#include <cstddef>
 #include <vector>
 
 #include "clash/incremental/shape_signatures.hpp"
@@ -14,10 +13,6 @@
 #include "strake/parallel/context.hpp"
 
 namespace strake::clash {
-
-/// So many objects have one hash of Signatures::ranges. One that changes has all of them signed
-/// again, which takes 0.2 ms.
-inline constexpr std::size_t kObjectsPerRange = 4096;
 
 /// Returns hashes of ranges of objects: of what their signatures are made from, without looking at
 /// the model's objects and bodies. `inputs` is hash_of_inputs(). Nothing where too little is known.

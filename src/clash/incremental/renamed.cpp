@@ -53,23 +53,20 @@ Result<std::vector<std::uint64_t>> hashes_of_names(const model::Model& model,
       [&](std::size_t o) { return elements.of(static_cast<std::uint32_t>(o)).low; });
 }
 
-Result<std::vector<std::uint64_t>> hashes_of_names(const std::vector<std::uint64_t>& earlier,
-                                                   const model::Model& model,
-                                                   const parallel::Context& context) {
+bool have_labels_of(std::span<const std::uint64_t> earlier, const model::Model& model) {
   const std::vector<model::Object>& objects = model.objects;
-  if (earlier.size() != objects.size()) return hashes_of_names(model, context);
+  if (earlier.size() != objects.size()) return false;
   const ElementHashes elements(model);
   // Objects are ordered by label: one of each tells it.
   const auto label = [&](const model::Object& o) -> std::string_view {
     return model.files[o.file].label;
   };
   for (std::size_t o = 0; o < objects.size();) {
-    if (elements.of(static_cast<std::uint32_t>(o)).low != earlier[o])
-      return hashes_of_names(model, context);
+    if (elements.of(static_cast<std::uint32_t>(o)).low != earlier[o]) return false;
     const auto end = std::ranges::upper_bound(objects, label(objects[o]), {}, label);
     o = std::max(o + 1, static_cast<std::size_t>(end - objects.begin()));
   }
-  return earlier;
+  return true;
 }
 
 Result<bool> have_same_names(const Report& earlier, const model::Model& model,

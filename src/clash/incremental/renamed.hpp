@@ -19,11 +19,10 @@ namespace strake::clash {
 [[nodiscard]] Result<std::vector<std::uint64_t>> hashes_of_names(const model::Model& model,
                                                                  const parallel::Context& context);
 
-/// Returns the same of objects whose ids are those that an earlier run had, with its hashes: where
-/// the labels of files are, too, these are taken over. Errors: cancelled.
-[[nodiscard]] Result<std::vector<std::uint64_t>> hashes_of_names(
-    const std::vector<std::uint64_t>& earlier, const model::Model& model,
-    const parallel::Context& context);
+/// Whether objects whose ids are those that an earlier run had, of which `earlier` are the hashes,
+/// lie in files of the labels that these had: then the hashes are the same.
+[[nodiscard]] bool have_labels_of(std::span<const std::uint64_t> earlier,
+                                  const model::Model& model);
 
 /// Counts as changed the objects that have other names and a contact of which only the hash was
 /// kept: it has to be found again to be hashed under the new name. `names` are those of today.

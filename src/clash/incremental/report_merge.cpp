@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "clash/detect.hpp"
+#include "clash/incremental/partners.hpp"
 #include "clash/incremental/renamed.hpp"
 #include "clash/incremental/splice.hpp"
 #include "clash/results/reported.hpp"
@@ -69,6 +71,7 @@ class ReportMerge {
 
   /// Hashes the pairs that stay under the names of today; hashes of unlisted ones stay.
   Status take_names() {
+    if (inputs_.same_names && !inputs_.map.renumbered) return {};
     const auto change = rehash_renamed(was_, inputs_.names, inputs_.map, context_);
     if (!change) return change.error();
     hash_gone_ = change->gone;
@@ -99,13 +102,18 @@ class ReportMerge {
 
   Status merge_pairs() {
     const std::vector<std::uint64_t>& elements = was_.kept->elements;
+    const std::optional<std::vector<bool>> blocks =
+        inputs_.partners == nullptr
+            ? std::nullopt
+            : std::optional(blocks_of_changes(*inputs_.partners, inputs_.map));
     bool listed = !now_.regions.empty();
     // The new regions lie behind the others until all are put in order.
     const auto behind = static_cast<std::uint32_t>(was_.regions.size());
     for (Pair& pair : now_.pairs)
       if (listed_regions(pair, now_.options) > 0) pair.first_region += behind;
-    const auto places =
-        follow(was_.pairs, now_.pairs, inputs_.map, context_, [&](const Pair& pair) {
+    const auto places = follow(
+        was_.pairs, now_.pairs, inputs_.map, context_,
+        [&](const Pair& pair) {
           count_gone(pair);
           if (changes_ != nullptr) {
             changes_->gone.push_back(pair);
@@ -114,7 +122,8 @@ class ReportMerge {
           hash_gone_ = sum(hash_gone_,
                            hash_of(pair, was_, elements[index(pair.a)], elements[index(pair.b)]));
           listed = listed || listed_regions(pair, was_.options) > 0;
-        });
+        },
+        blocks ? &*blocks : nullptr);
     if (!places) return places.error();
     now_.pairs = std::move(was_.pairs);
     if (changes_ != nullptr) changes_->put_in = *places;
@@ -223,7 +232,10 @@ class ReportMerge {
       if (before == model::kNoObject) continue;
       now_.sheets[o] = was_.sheets[before];
     }
-    now_.kept->elements = inputs_.names;
+    if (inputs_.same_names)
+      now_.kept->elements = std::move(was_.kept->elements);
+    else
+      now_.kept->elements.assign(inputs_.names.begin(), inputs_.names.end());
     const double widest =
         std::max(contact_distance(inputs_.options, 0),
                  contact_distance(inputs_.options, inputs_.neighbours.widest_precision_um));

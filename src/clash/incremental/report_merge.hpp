@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "clash/incremental/neighbours.hpp"
@@ -22,7 +23,9 @@ struct MergeInputs {
   const model::Model& model;
   const ObjectMap& map;
   const Neighbours& neighbours;
-  const std::vector<std::uint64_t>& names;  ///< hashes_of_names() of the model
+  std::span<const std::uint64_t> names;     ///< hashes_of_names() of the model
+  bool same_names = false;                  ///< these are those of the earlier run
+  const PartnerBlocks* partners = nullptr;  ///< as in EarlierRun
 };
 
 /// Whether the lists of a report of an earlier run, which kept what changes need, fit a map of so

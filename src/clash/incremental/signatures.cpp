@@ -77,11 +77,12 @@ Result<Signatures> signatures(const model::Scene& scene, const Sets& sets, const
   const RuleSignatures rules(sets, options, policy, elements);
   const ObjectSignatures of_objects(scene, *shapes, rules);
   const bool fits = earlier.objects.size() == objects && earlier.ranges.size() == ranges->size();
-  const std::size_t count = (objects + kObjectsPerRange - 1) / kObjectsPerRange;
+  const std::size_t count =
+      (objects + Signatures::kObjectsPerRange - 1) / Signatures::kObjectsPerRange;
   const Status done = parallel::for_each(
       context, {.name = "signatures of objects", .n = count}, [&](std::size_t k) {
-        const std::size_t from = k * kObjectsPerRange;
-        const std::size_t to = std::min(objects, from + kObjectsPerRange);
+        const std::size_t from = k * Signatures::kObjectsPerRange;
+        const std::size_t to = std::min(objects, from + Signatures::kObjectsPerRange);
         if (fits && k < ranges->size() && earlier.ranges[k] == (*ranges)[k]) {
           const auto known_ones = earlier.objects.subspan(from, to - from);
           std::ranges::copy(known_ones,

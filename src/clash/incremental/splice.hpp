@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "clash/incremental/object_map.hpp"
+#include "strake/clash/incremental.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 
@@ -31,6 +32,31 @@ struct ItemRun {
     else
       ++runs.back().last;
   }
+  return runs;
+}
+
+/// Returns all of so many numbers as runs of at most so many.
+[[nodiscard]] inline std::vector<ItemRun> runs_of_length(std::size_t numbers, std::size_t most) {
+  std::vector<ItemRun> runs;
+  for (std::size_t first = 0; first < numbers; first += most)
+    runs.push_back({first, std::min(numbers, first + most)});
+  return runs;
+}
+
+/// Returns the items, by (a, b), whose a is in one of some blocks of objects: a run for each.
+template <class T>
+[[nodiscard]] std::vector<ItemRun> items_of(const std::vector<T>& list,
+                                            const std::vector<bool>& blocks) {
+  const auto first_from = [&](std::size_t object) {
+    return static_cast<std::size_t>(
+        std::ranges::lower_bound(list, object, {}, [](const T& item) { return index(item.a); }) -
+        list.begin());
+  };
+  std::vector<ItemRun> runs;
+  for (std::size_t block = 0; block < blocks.size(); ++block)
+    if (blocks[block])
+      runs.push_back({first_from(block * PartnerBlocks::kObjects),
+                      first_from((block + 1) * PartnerBlocks::kObjects)});
   return runs;
 }
 
@@ -108,21 +134,23 @@ std::vector<std::size_t> splice(std::vector<T>& list, std::span<const ItemRun> r
 
 /// Brings a list of pairs of objects, T::a and T::b, up to date: calls `gone(item)` for each that
 /// has a changed object, in their order and before anything is changed, removes them, gives the
-/// others the new numbers, and puts in `added`; returns where these are now. Errors: cancelled.
+/// others the new numbers, and puts in `added`; returns where these are now. `blocks` says of which
+/// PartnerBlocks any item has a changed object; null: it is not known. Errors: cancelled.
 template <class T, class Gone>
-[[nodiscard]] Result<std::vector<std::size_t>> follow(std::vector<T>& list,
-                                                      const std::vector<T>& added,
-                                                      const ObjectMap& map,
-                                                      const parallel::Context& context,
-                                                      const Gone& gone) {
+[[nodiscard]] Result<std::vector<std::size_t>> follow(
+    std::vector<T>& list, const std::vector<T>& added, const ObjectMap& map,
+    const parallel::Context& context, const Gone& gone, const std::vector<bool>* blocks = nullptr) {
   /// Only shares the work out: between 4096 and 65'536 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 16384;
+  const std::vector<ItemRun> looked_at =
+      blocks == nullptr ? runs_of_length(list.size(), kGrain) : items_of(list, *blocks);
   const auto dead = parallel::collect<std::size_t>(
-      context, {.name = "pairs of changed objects", .n = list.size(), .grain = kGrain},
-      [&](std::size_t i, std::vector<std::size_t>& out) {
-        if (map.now[index(list[i].a)] == model::kNoObject ||
-            map.now[index(list[i].b)] == model::kNoObject)
-          out.push_back(i);
+      context, {.name = "pairs of changed objects", .n = looked_at.size()},
+      [&](std::size_t r, std::vector<std::size_t>& out) {
+        for (std::size_t i = looked_at[r].first; i < looked_at[r].last; ++i)
+          if (map.now[index(list[i].a)] == model::kNoObject ||
+              map.now[index(list[i].b)] == model::kNoObject)
+            out.push_back(i);
       });
   if (!dead) return dead.error();
   for (const std::size_t i : *dead) gone(list[i]);

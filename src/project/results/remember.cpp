@@ -59,38 +59,45 @@ Result<std::uint64_t> count_resolved(Database& database, std::int64_t test) {
   return static_cast<std::uint64_t>(select->integer(0));
 }
 
+/// Returns how many results are listed that no rule allows.
+std::uint64_t count_listed(const clash::Report& report) {
+  return report.count_hit + report.count_contact + report.count_clearance -
+         report.unlisted.contacts;
+}
+
 /// The decisions of a run, which reports take as those of a file.
 class DecidedBuilder {
  public:
   explicit DecidedBuilder(RememberedRun& run) : run_(run) {
-    // Every clash that nobody decided about and that is not new has this one.
+    // Every clash that nobody decided about and that is not new has this one, which comes first.
     report::Decision active;
     active.status = DecisionStatus::active;
     add(std::move(active));
   }
 
+  /// Of results that nobody wrote into and that are not new no list is made: they are active.
   void add_test(const clash::Report& report, const TestMemory& memory) {
     std::vector<report::DecidedResult>& results = run_.decided.tests.emplace_back();
-    results.reserve(report.pairs.size());
+    std::vector<std::pair<model::ObjectId, model::ObjectId>>& undecided =
+        run_.decided.others.emplace_back().undecided;
     const std::size_t test = run_.decided.tests.size() - 1;
-    auto at = memory.told().begin();
-    for (std::size_t i = 0; i < report.pairs.size(); ++i) {
-      const clash::Pair& pair = report.pairs[i];
-      const bool is_told = at != memory.told().end() && at->first == i;
-      const bool is_active = pair.allowed < 0 && !memory.is_new(i);
-      if (is_told || is_active)
-        results.push_back(
-            {pair.a, pair.b, pair.cls, pair.allowed >= 0, report::Reopened::no, false, nullptr});
-      DecisionStatus status = is_active ? DecisionStatus::active : DecisionStatus::undecided;
-      if (is_told) {
-        const ToldClash& told = (at++)->second;
-        results.back().reopened = told.reopened;
-        told_.push_back({test, results.size() - 1, add(told_of(told, memory.is_new(i), report))});
-        decision_of_.emplace(told.row.id, told_.back().decision);
-        status = decisions_.back().status;
-      }
-      if (pair.allowed < 0) ++run_.decided.counts[static_cast<std::size_t>(status)];
+    const std::vector<std::size_t> new_ones = memory.new_results();
+    std::uint64_t rest = count_listed(report);
+    for (const std::size_t at : new_ones) {
+      const clash::Pair& pair = report.pairs[at];
+      if (pair.allowed >= 0 || memory.told().contains(at)) continue;
+      undecided.emplace_back(pair.a, pair.b);
+      count(DecisionStatus::undecided, rest);
     }
+    for (const auto& [at, told] : memory.told()) {
+      const clash::Pair& pair = report.pairs[at];
+      results.push_back(
+          {pair.a, pair.b, pair.cls, pair.allowed >= 0, told.reopened, false, nullptr});
+      told_.push_back({test, results.size() - 1, add(told_of(told, memory.is_new(at), report))});
+      decision_of_.emplace(told.row.id, told_.back().decision);
+      if (pair.allowed < 0) count(decisions_.back().status, rest);
+    }
+    run_.decided.counts[static_cast<std::size_t>(DecisionStatus::active)] += rest;
     for (const ClashRow& row : memory.not_found())
       not_found_.push_back(add(decision_of(row, report.name)));
   }
@@ -123,8 +130,7 @@ class DecidedBuilder {
     report::DecidedResults& decided = run_.decided;
     decided.file = run_.file.get();
     decided.deeper_mm = deeper_mm;
-    for (std::vector<report::DecidedResult>& of_test : decided.tests)
-      for (report::DecidedResult& result : of_test) result.decision = decisions.data();
+    for (report::OtherResults& rest : decided.others) rest.result.decision = decisions.data();
     for (const Told& told : told_)
       decided.tests[told.test][told.result].decision = &decisions[told.decision];
     for (const std::size_t at : not_found_) decided.not_found.push_back(&decisions[at]);
@@ -135,6 +141,12 @@ class DecidedBuilder {
   struct Told {
     std::size_t test = 0, result = 0, decision = 0;
   };
+
+  /// Counts one of the results that are left.
+  void count(DecisionStatus status, std::uint64_t& rest) {
+    ++run_.decided.counts[static_cast<std::size_t>(status)];
+    --rest;
+  }
 
   std::size_t add(report::Decision decision) {
     decisions_.push_back(std::move(decision));

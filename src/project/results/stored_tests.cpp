@@ -157,10 +157,12 @@ Status write_source(Database& database, const TestToWrite& test, const StoredTes
       before->snapshot.source == test.snapshot.source && before->snapshot == test.snapshot;
   if (is_stored) return {};
   const std::optional<clash::KeptForChanges>& kept = test.results.report.kept;
-  const std::span<const Hash128> parts =
-      before == nullptr ? std::span<const Hash128>() : before->snapshot_parts;
+  StoredParts stored;
+  if (before != nullptr) stored.hashes = before->snapshot_parts;
+  if (before != nullptr && before->parts_have_elements == kept.has_value())
+    stored.stand = ranges_that_stand(before->snapshot, test.snapshot);
   return write_snapshot(database, test.id, test.snapshot,
-                        kept ? kept->elements : std::span<const std::uint64_t>(), parts, context);
+                        kept ? kept->elements : std::span<const std::uint64_t>(), stored, context);
 }
 
 Result<std::vector<std::string>> names_of(Database& database, std::string_view sql) {
@@ -219,7 +221,10 @@ Result<std::optional<StoredTest>> read_test(Database& database, const std::strin
   const Result<bool> there = select->bind(1, std::string_view(name)).step();
   if (!there) return there.error();
   if (!*there) return std::optional<StoredTest>();
-  StoredTest test{select->integer(0), select->integer(1), name, {}, {}, {}};
+  StoredTest test;
+  test.id = select->integer(0);
+  test.run = select->integer(1);
+  test.name = name;
   const Bytes snapshot = copy_of(select->bytes(2)), head = copy_of(select->bytes(3)),
               kept = copy_of(select->bytes(4));
   const std::optional<Hash128> seal = select->hash(5);
@@ -230,6 +235,7 @@ Result<std::optional<StoredTest>> read_test(Database& database, const std::strin
   if (!then) return then.error();
   test.snapshot = std::move(then->snapshot);
   test.snapshot_parts = std::move(then->parts);
+  test.parts_have_elements = !then->elements.empty();
   Result<std::vector<Bytes>> parts = read_parts(database, test.id, name);
   if (!parts) return parts.error();
   Result<RememberedReport> results = decode_report({head, kept, std::move(*parts), *seal},

@@ -24,6 +24,7 @@ struct StoredTest {
   std::string name;
   Snapshot snapshot;
   std::vector<Hash128> snapshot_parts;  ///< StoredSnapshot::parts
+  bool parts_have_elements = false;     ///< whether these have StoredSnapshot::elements
   RememberedReport results;
 };
 

@@ -114,6 +114,15 @@ Status TestMemory::run(const parallel::Context& context) {
   return take_positional();
 }
 
+std::vector<std::size_t> TestMemory::new_results() const {
+  std::vector<std::size_t> results = looked_at_new_;
+  std::erase_if(results, [&](std::size_t at) { return !is_new_[at]; });
+  if (!std::ranges::is_sorted(results)) std::ranges::sort(results);
+  const auto repeated = std::ranges::unique(results);
+  results.erase(repeated.begin(), repeated.end());
+  return results;
+}
+
 bool TestMemory::is_positional(const Pair& pair) const {
   return report::is_positional(model_, pair);
 }
@@ -218,6 +227,7 @@ Result<bool> TestMemory::insert(std::size_t at, const std::string& key) {
   ++trend_.appeared;
   match_.rows[at] = **row;
   is_new_[at] = true;
+  looked_at_new_.push_back(at);
   return true;
 }
 
@@ -375,6 +385,7 @@ Status TestMemory::apply(const ClashRow& before, ClashRow& row, const Seen& seen
     return status;
   if (!pair) return {};
   is_new_[*pair] = row.new_run == run_;
+  if (is_new_[*pair]) looked_at_new_.push_back(*pair);
   if (row.is_touched() || change.reopened != report::Reopened::no)
     told_.insert_or_assign(*pair, ToldClash{change.reopened, row});
   return {};

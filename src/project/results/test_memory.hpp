@@ -48,6 +48,8 @@ class TestMemory {
   [[nodiscard]] const TestTrend& trend() const { return trend_; }
   /// Whether this run found the clash of a result for the first time, or again.
   [[nodiscard]] bool is_new(std::size_t pair) const { return is_new_[pair]; }
+  /// Returns the results that is_new(), ascending.
+  [[nodiscard]] std::vector<std::size_t> new_results() const;
   /// Returns what there is to be said of results, by their numbers.
   [[nodiscard]] const std::map<std::size_t, ToldClash>& told() const { return told_; }
   /// Returns decided clashes that this run did not find and cannot tell about.
@@ -100,7 +102,8 @@ class TestMemory {
   std::set<std::int64_t> handled_;  ///< rows that this run has dealt with, or that wait
   std::map<std::int64_t, OpenParts> open_before_;  ///< of rows whose results the run before had
   TestTrend trend_;
-  std::vector<bool> is_new_;  ///< of each result
+  std::vector<bool> is_new_;                ///< of each result
+  std::vector<std::size_t> looked_at_new_;  ///< all that may be, in any order
   std::map<std::size_t, ToldClash> told_;
   std::vector<ClashRow> not_found_;
 };

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 
 #include "clash/results/clash_key.hpp"
+#include "strake/clash/incremental.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -76,14 +78,30 @@ void join(std::span<const Identified> then, std::span<const Identified> now, con
 
 /// Objects are ordered by what identities are hashes of: where all of these are as they were, so
 /// are their numbers.
-std::vector<std::uint32_t> unchanged_in_place(const Snapshot& then, const Snapshot& now) {
-  std::vector<std::uint32_t> now_of(then.identities.size(), model::kNoObject);
-  for (std::uint32_t o = 0; o < now_of.size(); ++o)
-    if (then.signatures[o] == now.signatures[o]) now_of[o] = o;
+std::vector<std::uint32_t> unchanged_in_place(const Snapshot& then, const Snapshot& now,
+                                              const std::vector<bool>& stand) {
+  constexpr std::size_t kRange = clash::Signatures::kObjectsPerRange;
+  std::vector<std::uint32_t> now_of(then.identities.size());
+  std::iota(now_of.begin(), now_of.end(), 0U);
+  for (std::size_t first = 0; first < now_of.size(); first += kRange) {
+    if (first / kRange < stand.size() && stand[first / kRange]) continue;
+    const std::size_t last = std::min(now_of.size(), first + kRange);
+    for (std::size_t o = first; o < last; ++o)
+      if (then.signatures[o] != now.signatures[o]) now_of[o] = model::kNoObject;
+  }
   return now_of;
 }
 
 }  // namespace
+
+std::vector<bool> ranges_that_stand(const Snapshot& then, const Snapshot& now) {
+  const bool are_known = is_same_known(then.names, now.names) && then.whole == now.whole &&
+                         then.ranges.size() == now.ranges.size() &&
+                         then.identities.size() == now.identities.size();
+  std::vector<bool> stand(are_known ? now.ranges.size() : 0);
+  for (std::size_t k = 0; k < stand.size(); ++k) stand[k] = then.ranges[k] == now.ranges[k];
+  return stand;
+}
 
 void rename_objects(Snapshot& snapshot, const NewIdentities& renamed) {
   for (std::uint64_t& identity : snapshot.identities)
@@ -106,7 +124,10 @@ Result<std::vector<std::uint32_t>> unchanged(const Snapshot& then, const Snapsho
   if (then.identities.size() != then.signatures.size() ||
       now.identities.size() != now.signatures.size())
     return Error{ErrorCode::internal, "a snapshot has not as many signatures as objects", {}, {}};
-  if (then.identities == now.identities) return unchanged_in_place(then, now);
+  const std::vector<bool> stand = ranges_that_stand(then, now);
+  // Where names are known, identities need not be compared.
+  if (!stand.empty() || then.identities == now.identities)
+    return unchanged_in_place(then, now, stand);
   Result<std::vector<IdentityLots>> lots = parallel::transform(
       context, {.name = "identities by lots", .n = 2},
       [&](std::size_t side) { return IdentityLots(side == 0 ? then.identities : now.identities); });

@@ -39,6 +39,11 @@ struct Snapshot {
   return a == b && a != Hash128();
 }
 
+/// Returns of each clash::Signatures::kObjectsPerRange objects whether what both states say of them
+/// is known to be the same, their numbers too, without a look at it; nothing where that is not
+/// known of any.
+[[nodiscard]] std::vector<bool> ranges_that_stand(const Snapshot& then, const Snapshot& now);
+
 /// What identities of objects become where files have other labels.
 using NewIdentities = std::unordered_map<std::uint64_t, std::uint64_t>;
 
@@ -51,7 +56,8 @@ void rename_objects(Snapshot& snapshot, const NewIdentities& renamed);
                                                             const parallel::Context& context);
 
 /// Returns for each object of `then` its number in `now`: model::kNoObject where none has its
-/// identity and signature. Identities that are not unique match nothing.
+/// identity and signature. Identities that are not unique match nothing. Ranges that stand are not
+/// looked at.
 [[nodiscard]] Result<std::vector<std::uint32_t>> unchanged(const Snapshot& then,
                                                            const Snapshot& now,
                                                            const parallel::Context& context);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "project/codec/blob.hpp"
+#include "strake/clash/incremental.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -15,8 +16,8 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 /// 131 kB, since hashes do not compress: to write one part costs less than to find out which, and a
-/// million objects have 245 of them.
-constexpr std::size_t kObjectsPerSnapshotPart = 4096;
+/// million objects have 245 of them. The ranges of signatures say which parts stand.
+constexpr std::size_t kObjectsPerSnapshotPart = clash::Signatures::kObjectsPerRange;
 
 /// Returns how many parts so many objects have. There is always one: a snapshot without any is one
 /// that a version before 4 wrote.
@@ -204,14 +205,16 @@ Result<StoredSnapshot> read_snapshot(Database& database, std::int64_t test,
 }
 
 Status write_snapshot(Database& database, std::int64_t test, const Snapshot& snapshot,
-                      std::span<const std::uint64_t> elements, std::span<const Hash128> stored,
+                      std::span<const std::uint64_t> elements, const StoredParts& stored,
                       const parallel::Context& context) {
   const std::size_t objects = snapshot.identities.size();
   Result<std::vector<EncodedSnapshotPart>> parts = parallel::transform(
       context, {.name = "encode signatures", .n = count_snapshot_parts(objects)},
       [&](std::size_t k) -> Result<EncodedSnapshotPart> {
-        return encode_snapshot_part(snapshot, elements, objects_of_part(k, objects),
-                                    k < stored.size() ? stored[k] : Hash128());
+        const Hash128 there = k < stored.hashes.size() ? stored.hashes[k] : Hash128();
+        if (k < stored.stand.size() && stored.stand[k] && there != Hash128())
+          return EncodedSnapshotPart{there, {}};
+        return encode_snapshot_part(snapshot, elements, objects_of_part(k, objects), there);
       });
   if (!parts) return parts.error();
   if (const Status status = write_snapshot_parts(database, test, *parts); !status) return status;

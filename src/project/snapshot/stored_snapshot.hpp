@@ -34,12 +34,18 @@ struct StoredSnapshot {
                                                    const std::string& what,
                                                    const parallel::Context& context);
 
-/// Writes the snapshot of a test, with as many elements as objects or none, where parts with the
-/// hashes `stored` are in the database: the others, and the head. Errors: those of the database;
-/// memory; cancelled.
+/// The parts of a snapshot that are in the database.
+struct StoredParts {
+  std::span<const Hash128> hashes;
+  /// Which of them are known to be those to be written (ranges_that_stand()), so that they need not
+  /// be hashed to see it; empty: none is known.
+  std::vector<bool> stand = {};
+};
+
+/// Writes the snapshot of a test, with as many elements as objects or none: the parts that are not
+/// among those stored, and the head. Errors: those of the database; memory; cancelled.
 [[nodiscard]] Status write_snapshot(Database& database, std::int64_t test, const Snapshot& snapshot,
                                     std::span<const std::uint64_t> elements,
-                                    std::span<const Hash128> stored,
-                                    const parallel::Context& context);
+                                    const StoredParts& stored, const parallel::Context& context);
 
 }  // namespace strake::project

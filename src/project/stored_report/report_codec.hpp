@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "strake/clash/clash.hpp"
+#include "strake/clash/incremental.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
@@ -18,12 +20,14 @@ namespace strake::project {
 
 /// The pairs of so many objects, as their a, are one part.
 inline constexpr std::uint32_t kObjectsPerPart = 1024;
+static_assert(kObjectsPerPart == clash::PartnerBlocks::kObjects);
 
 /// A report, and the row of the table `clash` for each of its pairs; 0: it has none.
 struct RememberedReport {
   clash::Report report;
   std::vector<std::int64_t> rows;
   std::vector<Hash128> parts;  ///< of the bytes of its parts, where it was decoded
+  std::optional<clash::PartnerBlocks> partners;  ///< where it was decoded
 };
 
 /// The same of a report that is somewhere else.

@@ -75,6 +75,7 @@ struct DecodedPart {
   std::vector<Pair> pairs;
   std::vector<Region> regions;
   std::vector<std::int64_t> rows;
+  std::vector<std::uint32_t> partners;  ///< clash::PartnerBlocks::of
 };
 
 void read_pairs(BlobReader& in, DecodedPart& part) {
@@ -150,6 +151,7 @@ Result<DecodedPart> decode_part(std::span<const std::byte> bytes, const Limits& 
   read_regions(*in, part.regions);
   check_part(*in, part, limits);
   if (const Status status = in->finish(); !status) return status.error();
+  part.partners = clash::partners_of(part.pairs);
   return part;
 }
 
@@ -306,6 +308,8 @@ Result<RememberedReport> decode_report(const EncodedReport& encoded, std::size_t
                                                what + ", part " + std::to_string(k));
                           });
   if (!parts) return parts.error();
+  all.partners.emplace();
+  for (DecodedPart& part : *parts) all.partners->of.push_back(std::move(part.partners));
   if (const Status joined = join(*parts, all, context); !joined) return joined.error();
   return all;
 }

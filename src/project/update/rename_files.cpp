@@ -184,7 +184,7 @@ Status rename_files(Database& database, const model::Model& before,
     // What was kept knows the objects by their former names: the next run does not follow it.
     if (!*apart) (**stored).snapshot.whole = {};
     if (const Status status = write_snapshot(database, id, (**stored).snapshot, (**stored).elements,
-                                             (**stored).parts, {});
+                                             {.hashes = (**stored).parts}, {});
         !status)
       return status;
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstddef>
-#include <tuple>
 #include <utility>
 
 #include "report/decisions/decision_files.hpp"
@@ -19,7 +18,7 @@ Reopened reopened(const clash::Pair& pair, const Decision& row, double deeper_mm
   return row.regions > 0 && pair.regions > row.regions ? Reopened::more_regions : Reopened::no;
 }
 
-auto objects_of(const DecidedResult& r) { return std::tuple(r.a, r.b); }
+auto objects_of(const DecidedResult& r) { return std::pair(r.a, r.b); }
 
 }  // namespace
 
@@ -49,9 +48,13 @@ std::string_view name(Reopened reopened) {
 
 const DecidedResult* DecidedResults::of(std::size_t test, const clash::Pair& pair) const {
   const std::vector<DecidedResult>& decided = tests[test];
-  const std::tuple sought(pair.a, pair.b);
+  const std::pair sought(pair.a, pair.b);
   const auto at = std::ranges::lower_bound(decided, sought, {}, objects_of);
-  return at == decided.end() || objects_of(*at) != sought ? nullptr : &*at;
+  if (at != decided.end() && objects_of(*at) == sought) return &*at;
+  if (test >= others.size() || others[test].result.decision == nullptr || pair.allowed >= 0)
+    return nullptr;
+  const OtherResults& rest = others[test];
+  return std::ranges::binary_search(rest.undecided, sought) ? nullptr : &rest.result;
 }
 
 std::uint64_t DecidedResults::count(Reopened reopened) const {

@@ -73,6 +73,19 @@ std::string fault_of(const Report& earlier, const FollowedRun& run) {
   return ReportDifference::of(gone, told);
 }
 
+PartnerBlocks blocks_of(const Report& report, std::size_t objects) {
+  PartnerBlocks partners;
+  auto at = report.pairs.begin();
+  for (std::size_t first = 0; first < objects; first += PartnerBlocks::kObjects) {
+    const auto end = std::find_if(at, report.pairs.end(), [&](const Pair& pair) {
+      return index(pair.a) >= first + PartnerBlocks::kObjects;
+    });
+    partners.of.push_back(partners_of({at, end}));
+    at = end;
+  }
+  return partners;
+}
+
 class IncrementalLaw : public testing::TestWithParam<std::uint64_t> {
  protected:
   /// Compares a run that follows the changes, for each team, with a full one.
@@ -82,9 +95,13 @@ class IncrementalLaw : public testing::TestWithParam<std::uint64_t> {
     for (parallel::Team* const team : {&one_, &two_, &three_, &eight_}) {
       const parallel::Context context{.team = team, .stop = {}};
       EXPECT_EQ(signatures_of(in, context).objects, now.objects);
+      const PartnerBlocks partners = blocks_of(earlier.report, map.size());
+      // Whether results are searched or looked at one by one must not show.
       const Result<FollowedRun> followed =
           follow_changes(in.scene, in.sets, in.options, in.policy,
-                         {earlier.report, map, in.identities == earlier.identities}, context);
+                         {earlier.report, map, in.identities == earlier.identities,
+                          team == &two_ ? nullptr : &partners},
+                         context);
       ASSERT_TRUE(followed) << followed.error().text();
       EXPECT_EQ(ReportDifference::of(full, followed->report), "");
       EXPECT_EQ(fault_of(earlier.report, *followed), "");

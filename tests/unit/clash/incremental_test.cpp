@@ -9,6 +9,7 @@
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -325,6 +326,60 @@ Result<Report> followed(const RuledCubes& test, Report earlier,
 Report full(const RuledCubes& test) {
   const model::Scene scene = test.scene();
   return detect(scene, test.sets, test.options, test.policy, {}).value();
+}
+
+/// Two rows of cubes, each in touch with the next of its row; those of the second begin a block of
+/// numbers later and lie in those of the first.
+ClashModel two_rows(std::size_t length) {
+  ClashModel cubes;
+  for (const double y : {0.0, 95.0})
+    for (std::size_t i = 0; i < length; ++i) {
+      const double x = 100.0 * static_cast<double>(i);
+      const std::string number = std::to_string(10'000 + i);
+      cubes.box((y > 0 ? "second" : "first") + number, {x, y, 0}, {x + 100, y + 100, 100});
+    }
+  return cubes;
+}
+
+TEST(DetectChanges, FindsResultsOfChangesByTheirBlocks) {
+  constexpr std::size_t kLength = 2 * PartnerBlocks::kObjects + 100;
+  Options options;
+  options.engine.keep_for_changes = true;
+  const ClashModel before = two_rows(kLength);
+  const model::Scene scene = make_scene(before.model, scene_options(options), {}).value();
+  const Report earlier = detect(scene, one_set(scene), options, {}, {}).value();
+  PartnerBlocks partners;
+  for (std::uint32_t first = 0; first < 2 * kLength; first += PartnerBlocks::kObjects) {
+    std::vector<Pair> of_block;
+    std::ranges::copy_if(earlier.pairs, std::back_inserter(of_block), [&](const Pair& pair) {
+      return index(pair.a) / PartnerBlocks::kObjects == first / PartnerBlocks::kObjects;
+    });
+    partners.of.push_back(partners_of(of_block));
+  }
+  EXPECT_EQ(partners.of.front(), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  for (const std::vector<std::size_t>& moved : {std::vector<std::size_t>{0},
+                                                {kLength + 5},
+                                                {2 * kLength - 1},
+                                                {1023, 1024, kLength + 1500}}) {
+    ClashModel now = before;
+    std::vector<std::uint32_t> map(2 * kLength);
+    std::iota(map.begin(), map.end(), 0U);
+    for (const std::size_t object : moved) {
+      now.model.bodies[now.model.objects[object].first_body].placement.translation.z += 30;
+      map[object] = model::kNoObject;
+    }
+    const model::Scene at = make_scene(now.model, scene_options(options), {}).value();
+    const Report full = detect(at, one_set(at), options, {}, {}).value();
+    const auto followed =
+        detect_changes(at, one_set(at), options, {}, {earlier, map, true, &partners}, {});
+    ASSERT_TRUE(followed);
+    EXPECT_EQ(ReportDifference::of(full, *followed), "") << moved.front();
+    EXPECT_LT(followed->counters.part_pairs, 20U);
+  }
+  partners.of.pop_back();
+  std::vector<std::uint32_t> none(2 * kLength, model::kNoObject);
+  EXPECT_FALSE(
+      detect_changes(scene, one_set(scene), options, {}, {earlier, none, true, &partners}, {}));
 }
 
 TEST(DetectChanges, TestsOnlyPairsOfWhatChanged) {

@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <random>
 #include <vector>
+
+#include "strake/clash/incremental.hpp"
 
 namespace strake::project {
 namespace {
@@ -28,6 +33,31 @@ TEST(Snapshot, takes_no_object_for_one_of_several_with_its_identity) {
   EXPECT_EQ(unchanged(twice, once, {}).value(),
             (std::vector<std::uint32_t>{model::kNoObject, model::kNoObject, 1}));
   EXPECT_EQ(unchanged(once, twice, {}).value(), (std::vector<std::uint32_t>{model::kNoObject, 2}));
+}
+
+TEST(Snapshot, what_stands_is_not_looked_at) {
+  constexpr std::size_t kRange = clash::Signatures::kObjectsPerRange, kObjects = 2 * kRange + 10;
+  std::vector<std::uint64_t> numbers(kObjects);
+  std::iota(numbers.begin(), numbers.end(), 5);
+  Snapshot then = snapshot(numbers, numbers);
+  then.names = {3, 4};
+  then.ranges = {{1, 1}, {2, 2}, {3, 3}};
+  Snapshot now = then;
+  now.ranges[1] = {2, 9};
+  now.signatures[kRange + 7] = now.signatures.back() = {0, 0};
+  EXPECT_EQ(ranges_that_stand(then, now), (std::vector<bool>{true, false, true}));
+  // The last one would be seen as another if its range were looked at.
+  const std::vector<std::uint32_t> mapped = unchanged(then, now, {}).value();
+  for (std::uint32_t o = 0; o < kObjects; ++o)
+    EXPECT_EQ(mapped[o], o == kRange + 7 ? model::kNoObject : o);
+  for (const auto& spoil : std::vector<void (*)(Snapshot&)>{
+           [](Snapshot& s) { s.names = {}; }, [](Snapshot& s) { s.names = {3, 5}; },
+           [](Snapshot& s) { s.whole = {1, 3}; }, [](Snapshot& s) { s.ranges.clear(); },
+           [](Snapshot& s) { s.identities.pop_back(); }}) {
+    Snapshot other = now;
+    spoil(other);
+    EXPECT_TRUE(ranges_that_stand(then, other).empty());
+  }
 }
 
 TEST(Snapshot, refuses_one_that_lacks_signatures) {

@@ -18,7 +18,7 @@ namespace strake::project {
 namespace {
 
 RememberedReport remembered(clash::Report report) {
-  RememberedReport all{std::move(report), {}, {}};
+  RememberedReport all{std::move(report), {}, {}, {}};
   for (std::size_t i = 0; i < all.report.pairs.size(); ++i)
     all.rows.push_back(all.report.pairs[i].allowed < 0 ? static_cast<std::int64_t>(i + 1) : 0);
   return all;

@@ -85,7 +85,8 @@ TEST_F(StoredSnapshotTest, ElementsComeBackWithIt) {
   // Another element is another part.
   const std::vector<std::int64_t> before = rows();
   elements[4'500] = 1;
-  ASSERT_TRUE(write_snapshot(*database_, 5, snapshot, elements, stored.parts, context_));
+  ASSERT_TRUE(
+      write_snapshot(*database_, 5, snapshot, elements, {.hashes = stored.parts}, context_));
   EXPECT_EQ(read().value().elements, elements);
   EXPECT_EQ(rows()[0], before[0]);
   EXPECT_NE(rows()[1], before[1]);
@@ -99,15 +100,37 @@ TEST_F(StoredSnapshotTest, OnlyPartsThatChangedAreWritten) {
   const std::vector<Hash128> parts = read().value().parts;
   snapshot.signatures[9'000] = {77, 77};
   snapshot.whole = {8, 8};
-  ASSERT_TRUE(write_snapshot(*database_, 5, snapshot, {}, parts, context_));
+  ASSERT_TRUE(write_snapshot(*database_, 5, snapshot, {}, {.hashes = parts}, context_));
   const std::vector<std::int64_t> after = rows();
   for (std::size_t k = 0; k < before.size(); ++k) EXPECT_EQ(after[k] != before[k], k == 2) << k;
   EXPECT_TRUE(read().value().snapshot == snapshot);
   // Fewer objects: what is left over goes.
   const Snapshot few = of(5'000);
-  ASSERT_TRUE(write_snapshot(*database_, 5, few, {}, read().value().parts, context_));
+  const std::vector<Hash128> parts_of_few = read().value().parts;
+  ASSERT_TRUE(write_snapshot(*database_, 5, few, {}, {.hashes = parts_of_few}, context_));
   EXPECT_EQ(rows().size(), 2U);
   EXPECT_TRUE(read().value().snapshot == few);
+}
+
+TEST_F(StoredSnapshotTest, PartsThatStandAreNotHashed) {
+  Snapshot snapshot = of(10'000);
+  ASSERT_TRUE(write_snapshot(*database_, 5, snapshot, {}, {}, context_));
+  const std::vector<Hash128> parts = read().value().parts;
+  const std::vector<std::int64_t> before = rows();
+  // The first would be written if it were hashed; the second is, though it stands elsewhere.
+  Snapshot now = snapshot;
+  now.signatures[10] = now.signatures[5'000] = {1, 1};
+  ASSERT_TRUE(write_snapshot(*database_, 5, now, {},
+                             {.hashes = parts, .stand = {true, false, true}}, context_));
+  const std::vector<std::int64_t> after = rows();
+  EXPECT_EQ(after[0], before[0]);
+  EXPECT_NE(after[1], before[1]);
+  EXPECT_EQ(after[2], before[2]);
+  // One that is not stored is written, whatever is said of it.
+  ASSERT_TRUE(database_->execute("DELETE FROM snapshot_part"));
+  ASSERT_TRUE(write_snapshot(*database_, 5, snapshot, {},
+                             {.hashes = {}, .stand = {true, true, true}}, context_));
+  EXPECT_TRUE(read().value().snapshot == snapshot);
 }
 
 TEST_F(StoredSnapshotTest, OneOfVersion2IsReadOutOfItsRow) {
