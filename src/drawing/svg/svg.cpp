@@ -25,6 +25,7 @@
 #include "drawing/svg/svg_path.hpp"
 #include "drawing/svg/svg_styles.hpp"
 #include "strake/drawing/write.hpp"
+#include "strake/parallel/collect.hpp"
 
 namespace strake::drawing {
 
@@ -104,6 +105,17 @@ void begin_style(BufferedWriter& out, const ObjectStyles& styles, std::size_t nu
               fmt::format("{}-style-{}", outer_id, number), fmt::format("style-{}", number), label);
 }
 
+/// Returns what lines_of() does: there are many layers, and each goes through all lines.
+Result<std::vector<const Line*>> find_lines_of(const Layer& layer, const Ink& ink,
+                                               const parallel::Context& context) {
+  constexpr std::size_t kGrain = 16384;
+  return parallel::collect<const Line*>(
+      context, {.name = "lines of a layer", .n = ink.lines.size(), .grain = kGrain},
+      [&](std::size_t i, std::vector<const Line*>& out) {
+        if (belongs(ink.lines[i], layer)) out.push_back(&ink.lines[i]);
+      });
+}
+
 /// Writes the layers of a view.
 class LayerWriter {
  public:
@@ -112,7 +124,9 @@ class LayerWriter {
       : out_(out), curves_(curves), ink_(ink), model_(model), pen_of_(pen_of), context_(context) {}
 
   Status write(const Layer& layer, std::string_view prefix) {
-    const std::vector<const Line*> lines = lines_of(layer, ink_);
+    const auto found = find_lines_of(layer, ink_, context_);
+    if (!found) return found.error();
+    const std::vector<const Line*>& lines = *found;
     if (lines.empty()) return {};
     const std::string_view state = layer.hidden ? "hidden" : "visible";
     const std::string_view kind = kind_name(layer.kind);
