@@ -87,8 +87,9 @@ Text text_beside(std::string words, const PaperSegment& line, const SideOnPaper&
   const auto move_to = [&](double aside) {
     text.at = rounded(along(along(middle, way, aside), up, off));
   };
-  constexpr double kMatchStepMm = 2;
-  for (double aside = 0; aside <= spare + kMatchBeyondMm; aside += kMatchStepMm)
+  // It may reach a little beyond the end of its line before it covers anything.
+  constexpr double kMatchStepMm = 2, kPastEndMm = 12;
+  for (double aside = 0; aside <= spare + kPastEndMm; aside += kMatchStepMm)
     for (const double sign : {1.0, -1.0}) {
       move_to(sign * aside);
       if (stands_free()) return text;

@@ -7,8 +7,8 @@
 
 namespace strake::sheets {
 
-/// Match lines go on by so much beyond the lines of a view.
-inline constexpr double kMatchBeyondMm = 8;
+/// Match lines go on by so much beyond the lines of a view, as grid lines do before their labels.
+inline constexpr double kMatchBeyondMm = 4;
 
 struct ViewMargins {
   double left_mm = 0, top_mm = 0, right_mm = 0, bottom_mm = 0;

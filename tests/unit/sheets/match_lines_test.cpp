@@ -45,8 +45,8 @@ TEST(MatchLines, StandWhereAViewEndsAndAnotherGoesOn) {
     const double border = aft ? view.box.right : view.box.left;
     for (const PaperPoint& p : points) EXPECT_NEAR(p.x, border, 0.002);
     const auto [top, bottom] = std::minmax(points[0].y, points[1].y);
-    EXPECT_NEAR(top, view.box.top - 8, 0.002);
-    EXPECT_NEAR(bottom, view.box.bottom + 8, 0.002);
+    EXPECT_NEAR(top, view.box.top - 4, 0.002);
+    EXPECT_NEAR(bottom, view.box.bottom + 4, 0.002);
     const Text& text = view.match_lines.texts[0];
     EXPECT_EQ(text.text, aft ? "MATCH LINE, SEE VIEW FORE" : "MATCH LINE, SEE VIEW AFT");
     EXPECT_EQ(text.turn_deg, 90);
@@ -79,7 +79,7 @@ TEST(MatchLines, AreAsLongAsWhatTheViewsShare) {
   const auto& points = sheet.views[0].match_lines.paths[0].points;
   const auto [top, bottom] = std::minmax(points[0].y, points[1].y);
   const PaperBox& box = sheet.views[0].box;
-  EXPECT_NEAR(top, box.top - 8, 0.002);
+  EXPECT_NEAR(top, box.top - 4, 0.002);
   EXPECT_NEAR(bottom, (box.top + box.bottom) / 2, 0.002) << "y = 1 m";
 }
 
