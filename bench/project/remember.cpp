@@ -145,7 +145,8 @@ class Night {
     Result<clash::FollowedRun> run =
         clash::follow_changes(scene, sets, options_, {},
                               {std::move(before->results.report), *now_of,
-                               before->snapshot.identities == snapshot.identities},
+                               project::is_same_known(before->snapshot.names, snapshot.names),
+                               &*before->results.partners},
                               context_);
     if (!run) return run.error();
     before->results.report = std::move(run->earlier);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0114 says how results of few objects are found without a look at all.
+
 #include <cstddef>
 #include <vector>
 
