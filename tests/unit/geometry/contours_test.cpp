@@ -15,6 +15,7 @@
 #include "geometry/mesh_repair/snap_to_grid.hpp"
 #include "geometry/numeric/trig.hpp"
 #include "geometry/primitives/tessellate.hpp"
+#include "support/contour_edges.hpp"
 #include "support/random_primitives.hpp"
 #include "support/rounds.hpp"
 #include "support/true_surface.hpp"
@@ -22,73 +23,11 @@
 namespace strake::geometry {
 namespace {
 
+using test::loose_ends;
+using test::Net;
+using test::normal_at;
 using test::PrimitiveDraw;
-
-Vec3d unit(const Vec3d& v) { return v * (1 / std::sqrt(dot(v, v))); }
-
-/// The outward normal of the curved skin of a primitive at one of its points.
-Vec3d normal_at(const Primitive& primitive, const Vec3d& p) {
-  if (std::holds_alternative<CylinderPrimitive>(primitive)) return unit({p.x, p.y, 0});
-  if (const auto* s = std::get_if<SnoutPrimitive>(&primitive)) {
-    const double grow = s->top_radius - s->bottom_radius, k = p.z / s->height + 0.5;
-    const Vec3d out = unit({p.x - s->offset_x * (k - 0.5), p.y - s->offset_y * (k - 0.5), 0});
-    return unit({out.x * s->height, out.y * s->height,
-                 -(s->offset_x * out.x + s->offset_y * out.y + grow)});
-  }
-  if (std::holds_alternative<SpherePrimitive>(primitive)) return unit(p);
-  if (const auto* d = std::get_if<EllipticalDishPrimitive>(&primitive))
-    return unit(
-        {p.x / d->radius / d->radius, p.y / d->radius / d->radius, p.z / d->height / d->height});
-  if (const auto* d = std::get_if<SphericalDishPrimitive>(&primitive)) {
-    const double radius = (d->radius * d->radius / d->height + d->height) / 2;
-    return unit({p.x, p.y, p.z - d->height + radius});
-  }
-  const auto& t = std::get<CircularTorusPrimitive>(primitive);
-  const Vec3d out = unit({p.x, p.y, 0});
-  return unit(p - out * t.centre_radius);
-}
-
-/// A mesh's faces, by edge of two vertices.
-struct Net {
-  const TriangleMesh& mesh;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> faces;
-  std::map<std::uint32_t, Vec3d> area, corners;  ///< by face; sums
-  std::map<std::uint32_t, int> triangles;
-
-  explicit Net(const TriangleMesh& m) : mesh(m) {
-    for (std::size_t t = 0; t < m.triangles.size(); ++t) {
-      const Triangle& w = m.triangles[t];
-      const auto& v = m.vertices;
-      area[m.faces[t]] = area[m.faces[t]] + cross(v[w[1]] - v[w[0]], v[w[2]] - v[w[0]]);
-      corners[m.faces[t]] = corners[m.faces[t]] + v[w[0]] + v[w[1]] + v[w[2]];
-      ++triangles[m.faces[t]];
-      for (std::size_t k = 0; k < 3; ++k)
-        faces[std::minmax(w[k], w[(k + 1) % 3])].push_back(m.faces[t]);
-    }
-  }
-  /// Edges between two facets of the curved side of which one looks towards the viewer.
-  [[nodiscard]] std::vector<std::pair<Vec3d, Vec3d>> contours(const Vec3d& towards) const {
-    return contours_if([&](std::uint32_t face) { return dot(area.at(face), towards) > 0; });
-  }
-  [[nodiscard]] std::vector<std::pair<Vec3d, Vec3d>> contours_from(const Vec3d& eye) const {
-    return contours_if([&](std::uint32_t face) {
-      const Vec3d middle = corners.at(face) * (1.0 / (3 * triangles.at(face)));
-      return dot(area.at(face), eye - middle) > 0;
-    });
-  }
-  template <class Faces>
-  [[nodiscard]] std::vector<std::pair<Vec3d, Vec3d>> contours_if(const Faces& is_towards) const {
-    std::vector<std::pair<Vec3d, Vec3d>> result;
-    for (const auto& [edge, of] : faces) {
-      EXPECT_EQ(of.size(), 2U);
-      if (of.size() != 2 || of[0] == of[1]) continue;
-      if (triangles.at(of[0]) > 2 || triangles.at(of[1]) > 2) continue;
-      if (is_towards(of[0]) != is_towards(of[1]))
-        result.emplace_back(mesh.vertices[edge.first], mesh.vertices[edge.second]);
-    }
-    return result;
-  }
-};
+using test::worst_end_from;
 
 /// How far |normal · direction| of the true surface is from 0 at the ends of the contours.
 double worst_end(const Primitive& primitive, const Tessellation& t, const Vec3d& towards) {
@@ -96,16 +35,6 @@ double worst_end(const Primitive& primitive, const Tessellation& t, const Vec3d&
   for (const auto& [a, b] : Net(t.mesh).contours(towards))
     for (const Vec3d& p : {a, b})
       worst = std::max(worst, std::fabs(dot(normal_at(primitive, p), towards)));
-  return worst;
-}
-
-/// The same for an eye: how far the sight through the ends of the contours is from the tangent
-/// plane there, of 1.
-double worst_end_from(const Vec3d& eye, const Primitive& primitive, const Tessellation& t) {
-  double worst = 0;
-  for (const auto& [a, b] : Net(t.mesh).contours_from(eye))
-    for (const Vec3d& p : {a, b})
-      worst = std::max(worst, std::fabs(dot(normal_at(primitive, p), unit(eye - p))));
   return worst;
 }
 
@@ -184,18 +113,6 @@ TEST(Contours, OfAnEllipticalDishRunFromRimToRim) {
     EXPECT_EQ(loose, contours.empty() ? 0 : 2);
   }
   EXPECT_GT(seen, test::rounds(150));
-}
-
-/// The ends of lines where only one of them ends; more than two lines nowhere.
-std::vector<Vec3d> loose_ends(const std::vector<std::pair<Vec3d, Vec3d>>& lines) {
-  std::map<std::array<double, 3>, int> ends;
-  for (const auto& [a, b] : lines) ++ends[{a.x, a.y, a.z}], ++ends[{b.x, b.y, b.z}];
-  std::vector<Vec3d> loose;
-  for (const auto& [p, n] : ends) {
-    EXPECT_LE(n, 2);
-    if (n == 1) loose.push_back({p[0], p[1], p[2]});
-  }
-  return loose;
 }
 
 TEST(Contours, OfASphericalDishRunFromRimToRim) {
@@ -417,104 +334,6 @@ TEST(ContoursFromAnEye, OfATorusLieOnTheTrueOnes) {
     EXPECT_GE(Net(t.mesh).contours_from(eye).size(), 2U);
     EXPECT_LT(worst_end_from(eye, bend, t), 1e-9) << i;
   }
-}
-
-/// A dish of either kind, from flat to more than half a ball.
-Primitive some_dish(PrimitiveDraw& draw, int i) {
-  const double radius = draw.between(10, 500);
-  if (i % 2 == 0) return EllipticalDishPrimitive{radius, radius * draw.between(0.05, 1.5)};
-  return SphericalDishPrimitive{radius, radius * draw.between(0.05, i % 5 == 0 ? 3 : 1)};
-}
-
-double radius_of(const Primitive& dish) {
-  if (const auto* e = std::get_if<EllipticalDishPrimitive>(&dish)) return e->radius;
-  return std::get<SphericalDishPrimitive>(dish).radius;
-}
-
-/// A place on the skin of a dish: `share` of the way from the base circle to the apex.
-Vec3d on_dish(const Primitive& dish, double share, double turn) {
-  if (const auto* e = std::get_if<EllipticalDishPrimitive>(&dish)) {
-    const double r = e->radius * std::cos(share * kPi / 2);
-    return {r * std::cos(turn), r * std::sin(turn), e->height * std::sin(share * kPi / 2)};
-  }
-  const auto& s = std::get<SphericalDishPrimitive>(dish);
-  const double ball = (s.radius * s.radius / s.height + s.height) / 2;
-  const double tilt = 2 * std::atan2(s.height, s.radius) * (1 - share);
-  const double r = ball * std::sin(tilt);
-  return {r * std::cos(turn), r * std::sin(turn), s.height - ball + ball * std::cos(tilt)};
-}
-
-/// Whether a dish looks both towards the eye and away from it, between a share of the way up and
-/// the next.
-bool turns_away(const Primitive& dish, double from, double to, const Vec3d& eye) {
-  bool towards = false, away = false;
-  for (int i = 0; i <= (from == to ? 0 : 100); ++i)
-    for (int k = 0; k < 720; ++k) {
-      const Vec3d p = on_dish(dish, from + (to - from) * i / 100, k * kPi / 360);
-      (dot(normal_at(dish, p), eye - p) > 0 ? towards : away) = true;
-    }
-  return towards && away;
-}
-
-// They run from the base circle to the base circle, or round, and are left out only where they
-// hardly rise over the base circle.
-TEST(ContoursFromAnEye, OfADishLieOnTheTrueOnes) {
-  PrimitiveDraw draw(17);
-  int crossing = 0, round = 0;
-  for (int i = 0; i < test::rounds(150); ++i) {
-    SCOPED_TRACE(i);
-    const Primitive dish = some_dish(draw, i);
-    const double radius = radius_of(dish);
-    Vec3d eye = draw.direction() * (radius * draw.between(1.1, i % 3 == 0 ? 4 : 40));
-    if (i % 7 == 0) eye = {draw.between(-1, 1) * radius, draw.between(-1, 1) * radius, 5 * radius};
-    if (i % 49 == 0) eye = {0, 0, 5 * radius};
-    const Tessellation t = tessellate_from(eye, dish, {}, 0.5);
-    ASSERT_EQ(t.fault, "");
-    EXPECT_LE(t.mesh.sag_mm, 0.8);
-    EXPECT_LT(worst_end_from(eye, dish, t), 1e-9);
-    const auto contours = Net(t.mesh).contours_from(eye);
-    if (contours.empty()) {
-      EXPECT_FALSE(turns_away(dish, 0.13, 1, eye));
-      continue;
-    }
-    const std::vector<Vec3d> loose = loose_ends(contours);
-    EXPECT_EQ(loose.size(), turns_away(dish, 0, 0, eye) ? 2U : 0U);
-    ++(loose.empty() ? round : crossing);
-    for (const Vec3d& p : loose) {
-      EXPECT_NEAR(p.z, 0, 1e-9);
-      EXPECT_NEAR(std::hypot(p.x, p.y), radius, 1e-9);
-    }
-  }
-  EXPECT_GT(crossing, test::rounds(75));
-  EXPECT_GT(round, test::rounds(10));
-}
-
-// But for those near the contour's ends.
-TEST(ContoursFromAnEye, RimsOfPipeAndDishMeet) {
-  PrimitiveDraw draw(18);
-  std::size_t met = 0, missed = 0;
-  for (int i = 0; i < test::rounds(200); ++i) {
-    const double radius = draw.between(20, 600), height = radius * draw.between(0.1, 1);
-    const Primitive dish = i % 2 == 0 ? Primitive(SphericalDishPrimitive{radius, height})
-                                      : Primitive(EllipticalDishPrimitive{radius, height});
-    const Vec3d eye = draw.direction() * (radius * draw.between(1.5, 40));
-    const Tessellation t = tessellate_from(eye, dish, {}, 0.5);
-    const Tessellation pipe =
-        tessellate_from(eye + Vec3d{0, 0, 500}, CylinderPrimitive{radius, 1000}, {}, 0.5);
-    std::vector<Vec3d> rim;
-    for (const Vec3d& v : t.mesh.vertices)
-      if (std::fabs(v.z) < 1e-9) rim.push_back(v);
-    std::size_t here = 0;
-    for (const Vec3d& v : pipe.mesh.vertices) {
-      if (v.z < 0) continue;
-      const bool is_met = std::ranges::any_of(
-          rim, [&](const Vec3d& w) { return std::hypot(v.x - w.x, v.y - w.y) < 1e-6; });
-      ++(is_met ? met : missed);
-      here += is_met ? 0U : 1U;
-    }
-    EXPECT_LE(here, i % 2 == 0 ? 2U : 0U) << i;
-  }
-  EXPECT_GT(met, 20 * missed);
 }
 
 // There, slivers of its triangles would hide pieces of a contour along its net.
