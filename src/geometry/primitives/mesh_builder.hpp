@@ -93,7 +93,8 @@ struct EyeContour {
                                          int segments);
 
 /// Returns a circle with two more points anywhere: points of it within a quarter of an even step of
-/// one are dropped, and the two are left out where they lie so near to each other.
+/// one are dropped, unless one of them is that very point, and the two are left out where they lie
+/// so near to each other.
 [[nodiscard]] std::vector<SinCos> rim_with(const std::vector<SinCos>& regular,
                                            const std::array<SinCos, 2>& contours);
 

@@ -132,15 +132,23 @@ std::vector<SinCos> rim_with(const std::vector<SinCos>& regular,
     return steps >= 0 ? steps : steps + count < count ? steps + count : 0;
   };
   const std::array<double, 2> at{steps_to(contours[0]), steps_to(contours[1])};
-  const auto near = [&](double a, double b) {
+  constexpr double kNear = 0.25, kSame = 1e-6;  // in even steps
+  const auto near = [&](double a, double b, double within) {
     const double apart = std::fabs(a - b);
-    return std::min(apart, count - apart) < 0.25;
+    return std::min(apart, count - apart) < within;
   };
-  if (near(at[0], at[1])) return regular;
+  if (near(at[0], at[1], kNear)) return regular;
+  // A point that lies there already stands for itself alone, however near its neighbours are.
+  const auto reach_of = [&](double place) {
+    const bool is_there = std::ranges::any_of(
+        regular, [&](const SinCos& point) { return near(steps_to(point), place, kSame); });
+    return is_there ? kSame : kNear;
+  };
+  const std::array<double, 2> reach{reach_of(at[0]), reach_of(at[1])};
   std::vector<std::pair<double, SinCos>> points{{at[0], contours[0]}, {at[1], contours[1]}};
   for (const SinCos& point : regular) {
     const double k = steps_to(point);
-    if (!near(k, at[0]) && !near(k, at[1])) points.emplace_back(k, point);
+    if (!near(k, at[0], reach[0]) && !near(k, at[1], reach[1])) points.emplace_back(k, point);
   }
   std::ranges::sort(points, {}, [](const auto& point) { return point.first; });
   std::vector<SinCos> result;
