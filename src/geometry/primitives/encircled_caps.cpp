@@ -11,12 +11,12 @@
 #include "geometry/primitives/mesh_builder.hpp"
 
 // Dishes whose silhouette from an eye is a whole circle over the base circle (decision 0111). The
-// planes of both meet in a line that misses the ball; all planes through it cut the ball in circles that do not
-// meet, and these are the rows of the net. The columns are at right angles to them: circles through
-// the two points in which planes through the line touch the ball, of which one, within the
-// silhouette, is the pole. Such a net is the image of one of meridians and parallels under a map
-// that takes circles to circles: its quads are planar, and face the right way however large they
-// are.
+// planes of both meet in a line that misses the ball; all planes through it cut the ball in circles
+// that do not meet, and these are the rows of the net. The columns are at right angles to them:
+// circles through the two points in which planes through the line touch the ball, of which one,
+// within the silhouette, is the pole. Such a net is the image of one of meridians and parallels
+// under a map that takes circles to circles: its quads are planar, and face the right way however
+// large they are.
 
 namespace strake::geometry::tessellation {
 namespace {
