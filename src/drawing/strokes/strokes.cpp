@@ -14,8 +14,14 @@ namespace {
 
 using geometry::kPi;
 
-/// An ellipse narrower than this, mm, is drawn as the straight lines that it is on paper.
-constexpr double kNarrowest = 0.01;
+/// Returns whether an ellipse is drawn as straight lines: seen nearly edge-on it is narrower than a
+/// pen, and viewers of SVG leave gaps in elliptical arcs as flat as that.
+bool is_straight(const PaperCurve& curve) {
+  constexpr double kNoWidth = 0.01, kNarrow = 0.1;  // half the minor axis, mm
+  constexpr double kFlat = 4;                       // times as long as wide
+  const EllipseAxes axes = axes_of(curve);
+  return axes.minor < kNoWidth || (axes.minor < kNarrow && axes.minor * kFlat < axes.major);
+}
 
 /// Returns the point of the curve halfway between two of its points; none for opposite ones.
 std::optional<PaperPoint> halfway(const PaperCurve& c, const PaperPoint& a, const PaperPoint& b) {
@@ -34,7 +40,7 @@ class StrokeFinder {
     stroke_.points = chain.points;
     for (const Line* line : chain.lines) {
       const PaperCurve* curve = curves.of(*line);
-      of_.push_back(curve != nullptr && axes_of(*curve).minor >= kNarrowest ? curve : nullptr);
+      of_.push_back(curve != nullptr && !is_straight(*curve) ? curve : nullptr);
     }
   }
 

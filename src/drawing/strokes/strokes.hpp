@@ -27,7 +27,7 @@ struct Stroke {
 };
 
 /// Finds the runs of a chain. A closed chain is turned to begin where one curve ends and another
-/// begins; a curve that is seen edge-on stays straight.
+/// begins; a curve that is seen nearly edge-on, narrower than a pen, stays straight.
 [[nodiscard]] Stroke stroke_of(const JoinedLines& chain, const PaperCurves& curves);
 
 /// An ellipse by its axes.

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "geometry/primitives/mesh_builder.hpp"
 
 namespace strake::geometry::tessellation {
 
-/// The silhouette of a spherical dish in a view: part of a great circle of its ball.
+/// The silhouette of a spherical dish in a view that meets the base circle: part of a circle of its
+/// ball, a great one unless an eye sees it.
 struct CapContour {
   double ball = 0;    ///< radius
   double centre = 0;  ///< of the ball, along the axis
@@ -20,7 +22,13 @@ struct CapContour {
   /// its axis. Lengths are not zero; `towards` is a unit direction.
   [[nodiscard]] static std::optional<CapContour> of(const SphericalDishPrimitive& p,
                                                     const Vec3d& towards);
+  /// The same from an eye; none where that is in the ball or at its skin, either.
+  [[nodiscard]] static std::optional<CapContour> from(const SphericalDishPrimitive& p,
+                                                      const Vec3d& eye);
 };
+
+/// Returns the ball of a spherical dish: its radius and where its centre lies, nothing else.
+[[nodiscard]] CapContour ball_of(const SphericalDishPrimitive& p);
 
 /// Returns a spherical dish with its silhouette among the edges: `segments` on the base circle, of
 /// which the silhouette's two ends may replace some and near which there may be more, and at least
@@ -29,5 +37,12 @@ struct CapContour {
 [[nodiscard]] std::optional<Tessellation> contoured_cap(const SphericalDishPrimitive& p,
                                                         const TessellationTarget& target,
                                                         int segments, int rows);
+
+/// Returns a spherical dish whose silhouette from the eye is a whole circle over the base circle,
+/// among its edges, with the base circle of `rim`. None where the silhouette is no such circle or
+/// is too near to the base circle.
+[[nodiscard]] std::optional<Tessellation> encircled_cap(const SphericalDishPrimitive& p,
+                                                        const TessellationTarget& target,
+                                                        const std::vector<SinCos>& rim, int rows);
 
 }  // namespace strake::geometry::tessellation

@@ -31,6 +31,9 @@ struct TessellationTarget {
 /// continues.
 inline constexpr double kRimShare = 0.75;
 
+/// In radii: from an eye that is nearer to an axis or a centre than this there is no contour.
+inline constexpr double kNearestEye = 1.02;
+
 [[nodiscard]] Tessellation fault(std::string_view why);
 
 /// Returns where an end circle starts in its own plane: the direction (cos, sin) between the two
@@ -84,9 +87,15 @@ struct EyeContour {
 /// Returns points of a unit circle with a vertex at `phase`.
 [[nodiscard]] std::vector<SinCos> rim(int segments, const SinCos& phase);
 
-/// Returns the same with two more points anywhere: regular points within a quarter of a step of one
-/// are dropped, and the two are left out where they lie so near to each other.
-[[nodiscard]] std::vector<SinCos> rim_with(int segments, const SinCos& phase,
+/// Returns the circle of a pipe of this radius about local Z: as its contour from the eye wants it,
+/// else of `segments` chords with a vertex where circles start.
+[[nodiscard]] std::vector<SinCos> rim_of(const TessellationTarget& target, double radius,
+                                         int segments);
+
+/// Returns a circle with two more points anywhere: points of it within a quarter of an even step of
+/// one are dropped, unless one of them is that very point, and the two are left out where they lie
+/// so near to each other.
+[[nodiscard]] std::vector<SinCos> rim_with(const std::vector<SinCos>& regular,
                                            const std::array<SinCos, 2>& contours);
 
 /// Returns the widest angle between consecutive points, which run counter-clockwise.

@@ -250,7 +250,7 @@ Tessellation make(const SnoutPrimitive& p, const TessellationTarget& target) {
   radius = std::max({radius, p.bottom_radius, p.top_radius});
   int n = circle_segments(radius, kRimShare * target.sag / steepness, kMostSegments);
   if (steepness > 1) n = segments_for(snout, target.sag, n, phase);
-  const auto angles = contours ? rim_with(n, phase, *contours) : rim(n, phase);
+  const auto angles = contours ? rim_with(rim(n, phase), *contours) : rim(n, phase);
   const double sag = steepness == 1 ? sagitta(radius, contours ? widest_step(angles) : 2 * kPi / n)
                                     : sag_of(snout, angles);
   if (widest(snout, angles) < 0) return fault(kCross);

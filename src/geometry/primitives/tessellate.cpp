@@ -55,15 +55,15 @@ std::optional<Vec3d> local_point(const Mat3d& linear, const Vec3d& placed) {
   return local;
 }
 
-/// In radii: from a section nearer than the first there is no contour; from one farther than the
-/// second the far side's chords are less than 1.25 times as long as those of an even circle.
-constexpr double kNearest = 1.02, kFar = 3;
+/// In radii: from a section farther than this the far side's chords are less than 1.25 times as
+/// long as those of an even circle.
+constexpr double kFar = 3;
 
 }  // namespace
 
 std::optional<EyeContour> EyeContour::of(double x, double y, double radius) {
   const double distance = std::sqrt(x * x + y * y);
-  if (!(distance > kNearest * radius)) return std::nullopt;
+  if (!(distance > kNearestEye * radius)) return std::nullopt;
   const double middle = arc_tan2(y, x), half = arc_cos(radius / distance);
   return EyeContour{middle - half, middle + half};
 }
@@ -115,28 +115,41 @@ std::vector<SinCos> rim(int segments, const SinCos& phase) {
   return points;
 }
 
-std::vector<SinCos> rim_with(int segments, const SinCos& phase,
+std::vector<SinCos> rim_of(const TessellationTarget& target, double radius, int segments) {
+  if (auto seen = rim_from_eye(target, radius)) return std::move(*seen);
+  return rim(segments, rim_phase(target));
+}
+
+std::vector<SinCos> rim_with(const std::vector<SinCos>& regular,
                              const std::array<SinCos, 2>& contours) {
-  const std::vector<SinCos> regular = rim(segments, phase);
-  // In steps from the phase, of [0, segments).
-  std::array<double, 2> at{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const SinCos& c = contours[i];
+  const auto count = static_cast<double>(regular.size());
+  const SinCos& phase = regular.front();
+  // In even steps from the first point, of [0, count).
+  const auto steps_to = [&](const SinCos& c) {
     const double angle =
         arc_tan2(c.sin * phase.cos - c.cos * phase.sin, c.cos * phase.cos + c.sin * phase.sin);
-    at[i] = angle / (2 * kPi) * segments;
-    if (at[i] < 0) at[i] += segments;
-    if (!(at[i] < segments)) at[i] = 0;
-  }
-  const auto near = [&](double a, double b) {
-    const double apart = std::fabs(a - b);
-    return std::min(apart, segments - apart) < 0.25;
+    const double steps = angle / (2 * kPi) * count;
+    return steps >= 0 ? steps : steps + count < count ? steps + count : 0;
   };
-  if (near(at[0], at[1])) return regular;
+  const std::array<double, 2> at{steps_to(contours[0]), steps_to(contours[1])};
+  constexpr double kNear = 0.25, kSame = 1e-6;  // in even steps
+  const auto near = [&](double a, double b, double within) {
+    const double apart = std::fabs(a - b);
+    return std::min(apart, count - apart) < within;
+  };
+  if (near(at[0], at[1], kNear)) return regular;
+  // A point that lies there already stands for itself alone, however near its neighbours are.
+  const auto reach_of = [&](double place) {
+    const bool is_there = std::ranges::any_of(
+        regular, [&](const SinCos& point) { return near(steps_to(point), place, kSame); });
+    return is_there ? kSame : kNear;
+  };
+  const std::array<double, 2> reach{reach_of(at[0]), reach_of(at[1])};
   std::vector<std::pair<double, SinCos>> points{{at[0], contours[0]}, {at[1], contours[1]}};
-  for (int k = 0; k < segments; ++k)
-    if (!near(k, at[0]) && !near(k, at[1]))
-      points.emplace_back(k, regular[static_cast<std::size_t>(k)]);
+  for (const SinCos& point : regular) {
+    const double k = steps_to(point);
+    if (!near(k, at[0], reach[0]) && !near(k, at[1], reach[1])) points.emplace_back(k, point);
+  }
   std::ranges::sort(points, {}, [](const auto& point) { return point.first; });
   std::vector<SinCos> result;
   for (const auto& point : points) result.push_back(point.second);

@@ -42,9 +42,10 @@ struct Tessellation {
                                       const std::optional<Vec3d>& towards = std::nullopt);
 
 /// The same for a view in perspective: `eye` is a point of the placed frame, and the silhouettes of
-/// cylinders, snouts, spheres and tori from there are edges of the mesh. Dishes have none, nor has
-/// a cylinder or a sphere whose axis or centre is nearer to the eye than 1.02 radii, nor a torus of
-/// which some section's circle, in its own plane, is nearer than three tube radii to it. End
+/// cylinders, snouts, spheres, dishes and tori from there are edges of the mesh. There is none of a
+/// cylinder, a sphere or a dish whose axis or ball's centre is nearer to the eye than 1.02 radii,
+/// of a dish where it would hardly rise over the base, nor of a torus of which some section's
+/// circle, in its own plane, is nearer than three tube radii to it. End
 /// circles have as many chords on either side of the silhouette, so that those on the far side may
 /// be 1.25 times as long; `sag_mm` of the mesh includes that.
 [[nodiscard]] Tessellation tessellate_from(const Vec3d& eye, const Primitive& primitive,

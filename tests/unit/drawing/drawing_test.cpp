@@ -451,6 +451,22 @@ TEST(Svg, ChordsOfACurveAreArcs) {
   EXPECT_EQ(polygon_path(8, 0, {{50, 50}, {40, 0}, {1e-6, 0}}).find('A'), std::string::npos);
 }
 
+TEST(Svg, EllipsesNarrowerThanAPenAreStraightLines) {
+  const auto has_arcs = [](double major, double minor) {
+    return polygon_path(32, 0, {{50, 50}, {0, major}, {minor, 0}}).find('A') != std::string::npos;
+  };
+  for (const double major : {0.5, 4.0, 40.0}) {
+    EXPECT_TRUE(has_arcs(major, 0.101)) << major;
+    EXPECT_FALSE(has_arcs(major, 0.099)) << major;
+  }
+  // The flattest of all is as long as its corners are apart.
+  EXPECT_EQ(polygon_path(4, 0, {{50, 50}, {40, 0}, {0, 0.05}}), "M90 50L50 50.05 10 50 50 49.95Z");
+  // What is small and round stays a circle.
+  EXPECT_TRUE(has_arcs(0.09, 0.09));
+  EXPECT_TRUE(has_arcs(0.09, 0.03));
+  EXPECT_FALSE(has_arcs(0.005, 0.005));
+}
+
 TEST(Svg, HoldsLayersGroupsAndPathsInMillimetres) {
   const std::string svg = svg_of(laid_out(rectangle()));
   EXPECT_NE(svg.find("width=\"420mm\" height=\"297mm\" viewBox=\"0 0 420 297\""),
