@@ -21,6 +21,8 @@ namespace strake::drawing {
 namespace {
 
 /// How far a break line goes on beyond what it crosses, and how far apart its zigzags are at most.
+/// Beyond what any sheet is wide, zigzags lie farther apart: at a large scale there were millions.
+constexpr double kMostZigzags = 100;
 constexpr double kBeyondMm = 2, kApartMm = 80;
 /// A zigzag's length along the line and its height to each side.
 constexpr double kZigzagMm = 3, kZigzagHeightMm = 2;
@@ -86,7 +88,7 @@ BreakLine break_line(model::ObjectId object, const PaperPoint& a, const PaperPoi
   const PaperPoint unit{(b.x - a.x) / width, (b.y - a.y) / width};
   const double beyond = std::min(kBeyondMm, width / 2);
   const double size = std::min(1.0, width / (2 * kZigzagMm));
-  const double count = std::ceil(width / kApartMm);
+  const double count = std::min(std::ceil(width / kApartMm), kMostZigzags);
   BreakLine line{object, {beside(a, unit, -beyond, 0)}};
   for (double k = 0; k < count; ++k) {
     const double middle = width * (k + 0.5) / count, half = size * kZigzagMm / 2;

@@ -38,7 +38,8 @@ class Boxes {
 
   /// Limits from -1 m to 1 m in x, and far in y and z.
   [[nodiscard]] std::vector<BreakLine> lines(const geometry::Vec3l& direction = {0, -1, 0},
-                                             const parallel::Context& context = {}) const {
+                                             const parallel::Context& context = {},
+                                             double scale = 10) const {
     const auto scene = model::make_scene(model_, {}, {}).value();
     hlr::View view{direction};
     view.limits = geometry::Box3l{*geometry::snap(Vec3d{-1000, -9000, -9000}),
@@ -47,7 +48,7 @@ class Boxes {
     options.hidden = false;
     const auto drawn = hlr::draw(scene, {}, view, options, {});
     EXPECT_TRUE(drawn);
-    const auto laid_out = lay_out(*drawn, model_, {.scale = 10}, {});
+    const auto laid_out = lay_out(*drawn, model_, {.scale = scale}, {});
     EXPECT_TRUE(laid_out);
     auto found = find_break_lines(*laid_out, context);
     EXPECT_TRUE(found);
@@ -95,6 +96,13 @@ TEST(BreakLines, LongOnesHaveSeveralZigzags) {
   const auto lines = Boxes().add({1000, 0, 0}, {1000, 100, 2000}).lines();
   ASSERT_EQ(lines.size(), 1U);
   EXPECT_EQ(lines[0].points.size(), 2U + 4U * 3U);
+}
+
+// 20 km of paper: a zigzag each 80 mm would be 250,000 of them.
+TEST(BreakLines, HowManyZigzagsThereAreIsBounded) {
+  const auto lines = Boxes().add({1000, 0, 0}, {1000, 100, 2000}).lines({0, -1, 0}, {}, 0.0001);
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_EQ(lines[0].points.size(), 2U + 4U * 100U);
 }
 
 TEST(BreakLines, NarrowOnesHaveSmallZigzags) {
