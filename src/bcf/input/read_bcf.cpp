@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -16,15 +18,40 @@ namespace strake::bcf {
 namespace {
 
 constexpr std::size_t kMostOfFile = std::size_t{16} << 20U, kMostOfAll = std::size_t{512} << 20U;
-constexpr std::string_view kMarkup = "/markup.bcf";
+constexpr std::string_view kMarkup = "/markup.bcf", kXmlBlanks = " \t\r\n";
 
-ReadComment read_comment(const pugi::xml_node& node) {
-  ReadComment comment{utc_of(child_text(node, "Date")).value_or(std::string()),
-                      child_text(node, "Author"), child_text(node, "Comment")};
+/// Reads dates of a topic, and tells of those that are none.
+class DateReader {
+ public:
+  DateReader(Diagnostics& diagnostics, const std::string& where)
+      : diagnostics_(diagnostics), where_(where) {}
+
+  /// Returns a date in UTC; nothing where there is none.
+  std::optional<std::string> read(const pugi::xml_node& node, const char* name) {
+    constexpr std::size_t kLongDate = 40;
+    const std::string text = child_text(node, name);
+    std::optional<std::string> date = utc_of(text);
+    if (!date && !trimmed(text, kXmlBlanks).empty())
+      diagnostics_.add(Severity::warning, "bcf-date-invalid",
+                       "the " + std::string(name) + " " +
+                           in_quotes(printable(std::string_view(text).substr(0, kLongDate))) +
+                           " is no date as 2026-01-31T12:00:00+01:00, and is not taken",
+                       where_);
+    return date;
+  }
+
+ private:
+  Diagnostics& diagnostics_;
+  const std::string& where_;
+};
+
+ReadComment read_comment(const pugi::xml_node& node, DateReader& dates) {
+  ReadComment comment{dates.read(node, "Date").value_or(std::string()), child_text(node, "Author"),
+                      child_text(node, "Comment")};
   if (std::string guid = lowered(attribute_text(node, "Guid")); is_guid(guid))
     comment.guid = std::move(guid);
   // An edited comment is what was said last, by whom and when.
-  const std::optional<std::string> changed = utc_of(child_text(node, "ModifiedDate"));
+  const std::optional<std::string> changed = dates.read(node, "ModifiedDate");
   if (!changed) return comment;
   comment.first_date = std::exchange(comment.date, *changed);
   comment.first_author = comment.author;
@@ -34,11 +61,12 @@ ReadComment read_comment(const pugi::xml_node& node) {
 }
 
 /// Takes the comments below a node; those that say nothing are about a viewpoint alone.
-void take_comments(std::vector<ReadComment>& comments, const pugi::xml_node& parent) {
+void take_comments(std::vector<ReadComment>& comments, const pugi::xml_node& parent,
+                   DateReader& dates) {
   for (const pugi::xml_node& node : parent.children()) {
     if (!is_called(node, "Comment")) continue;
-    ReadComment comment = read_comment(node);
-    if (!trimmed(comment.text, " \t\r\n").empty()) comments.push_back(std::move(comment));
+    ReadComment comment = read_comment(node, dates);
+    if (!trimmed(comment.text, kXmlBlanks).empty()) comments.push_back(std::move(comment));
   }
 }
 
@@ -54,7 +82,8 @@ void sort_by_date(std::vector<ReadComment>& comments) {
 }
 
 /// Errors: input where there is no topic.
-Result<ReadTopic> topic_of(const pugi::xml_document& document, const std::string& where) {
+Result<ReadTopic> topic_of(const pugi::xml_document& document, const std::string& where,
+                           Diagnostics& diagnostics) {
   const pugi::xml_node markup = child(document, "Markup");
   const pugi::xml_node node = child(markup, "Topic");
   ReadTopic topic;
@@ -64,10 +93,11 @@ Result<ReadTopic> topic_of(const pugi::xml_document& document, const std::string
   topic.title = child_text(node, "Title");
   topic.status = attribute_text(node, "TopicStatus");
   topic.assignee = child_text(node, "AssignedTo");
-  topic.changed = utc_of(child_text(node, "ModifiedDate")).value_or(std::string());
+  DateReader dates(diagnostics, where);
+  topic.changed = dates.read(node, "ModifiedDate").value_or(std::string());
   topic.changer = child_text(node, "ModifiedAuthor");
-  take_comments(topic.comments, markup);
-  take_comments(topic.comments, child(node, "Comments"));
+  take_comments(topic.comments, markup, dates);
+  take_comments(topic.comments, child(node, "Comments"), dates);
   sort_by_date(topic.comments);
   topic.reference = find_reference(child_text(node, "Description"));
   // A topic that quotes another one's description is about something else.
@@ -123,7 +153,7 @@ class BcfReader {
     pugi::xml_document document;
     if (const Status status = read_xml(document, *text, where); !status)
       return leave_out(status.error());
-    Result<ReadTopic> topic = topic_of(document, where);
+    Result<ReadTopic> topic = topic_of(document, where, file_.diagnostics);
     if (!topic) return leave_out(topic.error());
     file_.topics.push_back(std::move(*topic));
     return {};

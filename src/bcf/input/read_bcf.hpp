@@ -33,7 +33,8 @@ struct ReadTopic {
 struct ReadFile {
   std::string version;            ///< "2.1" or "3.0"
   std::vector<ReadTopic> topics;  ///< by GUID
-  /// The code is "bcf-topic-damaged": topics that could not be read, each by its place.
+  /// By place, topics that could not be read ("bcf-topic-damaged"), and dates that are none
+  /// ("bcf-date-invalid"), which count as absent.
   Diagnostics diagnostics;
 };
 

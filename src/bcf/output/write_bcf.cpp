@@ -153,6 +153,10 @@ bool is_dated(const report::ClashContents& contents) {
   return !contents.bcf.date.empty() || !newest_date(contents.model).empty();
 }
 
+std::uint64_t strange_dates_of_bcf(const report::ClashContents& contents) {
+  return count_strange_dates(contents, plan_topics(contents));
+}
+
 std::string left_out_of_bcf(const report::ClashContents& contents) {
   const LeftOut left_out = plan_topics(contents).left_out;
   std::string text;

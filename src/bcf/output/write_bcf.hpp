@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "strake/core/result.hpp"
@@ -21,6 +22,10 @@ namespace strake::bcf {
 /// Whether it is known when topics were made: by BcfForm::date, or since a model file says when it
 /// was written. Otherwise their date is 1970-01-01.
 [[nodiscard]] bool is_dated(const report::ClashContents& contents);
+
+/// Returns how many dates of decisions and comments about the topics are none: the file has others
+/// in their place, or none where it needs none.
+[[nodiscard]] std::uint64_t strange_dates_of_bcf(const report::ClashContents& contents);
 
 /// Returns what the file does not have, for people; empty where it has all.
 [[nodiscard]] std::string left_out_of_bcf(const report::ClashContents& contents);

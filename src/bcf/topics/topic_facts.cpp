@@ -170,8 +170,12 @@ TopicComment topic_comment(const report::DecisionComment& said, const std::strin
   comment.author = author_of(said.by);
   comment.text = printable_lines(said.text);
   if (!said.first_at.empty()) {
-    comment.changed = std::exchange(comment.date, date_time(said.first_at, form));
-    comment.changer = std::exchange(comment.author, author_of(said.first_by));
+    comment.date = date_time(said.first_at, form);
+    const std::string changer = std::exchange(comment.author, author_of(said.first_by));
+    if (auto changed = stated_time(said.at)) {
+      comment.changed = std::move(*changed);
+      comment.changer = changer;
+    }
   }
   if (!is_guid(said.guid))
     comment.guid =
@@ -227,27 +231,51 @@ std::vector<TopicFile> files_of(const report::ClashContents& contents, const Pla
   return files;
 }
 
+/// Returns when a decision was made, as exactly as it is known; or an empty text.
+const std::string& told_time(const report::Decision& decision) {
+  return decision.at.empty() ? decision.date : decision.at;
+}
+
 /// Sets when and by whom a status was decided about last.
 void set_change(TopicFacts& facts, const report::ClashContents& contents,
                 const PlannedTopic& topic) {
   for (const ResultRef& result : topic.results) {
     const report::DecidedResult* const decided = decided_of(contents, result);
-    if (decided == nullptr || decided->decision->by.empty() || decided->decision->date.empty())
-      continue;
-    const std::string date = date_time(decided->decision->date, contents.bcf);
-    if (date <= facts.changed) continue;
-    facts.changed = date;
+    if (decided == nullptr || decided->decision->by.empty()) continue;
+    auto date = stated_time(told_time(*decided->decision));
+    if (!date || *date <= facts.changed) continue;
+    facts.changed = std::move(*date);
     facts.changer = compared_text(decided->decision->by);
   }
 }
 
 }  // namespace
 
-std::string date_time(const std::string& date, const report::BcfForm& form) {
-  constexpr std::size_t kDay = 10;
-  if (is_day(date)) return date + "T00:00:00Z";
-  if (is_day(std::string_view(date).substr(0, kDay)) && date.size() > kDay) return date;
-  return form.date.empty() ? std::string(kNoDate) : form.date;
+std::optional<std::string> stated_time(std::string_view date) {
+  return is_day(date) ? utc_of(std::string(date) + "T00:00:00") : utc_of(date);
+}
+
+std::string date_time(std::string_view date, const report::BcfForm& form) {
+  if (auto stated = stated_time(date)) return std::move(*stated);
+  return stated_time(form.date).value_or(std::string(kNoDate));
+}
+
+std::uint64_t count_strange_dates(const report::ClashContents& contents, const TopicPlan& plan) {
+  std::uint64_t count = 0;
+  const auto look = [&](std::string_view date) {
+    if (!date.empty() && !stated_time(date)) ++count;
+  };
+  for (const PlannedTopic& topic : plan.topics)
+    for (const ResultRef& result : topic.results) {
+      const report::DecidedResult* const decided = decided_of(contents, result);
+      if (decided == nullptr) continue;
+      look(told_time(*decided->decision));
+      for (const report::DecisionComment& said : decided->decision->comments) {
+        look(said.at);
+        look(said.first_at);
+      }
+    }
+  return count;
 }
 
 std::string newest_date(const model::Model& model) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bcf/topics/topic_plan.hpp"
@@ -38,9 +40,16 @@ struct TopicFacts {
   std::vector<TopicFile> files;        ///< those of its objects
 };
 
-/// Returns a date as the schemas have it, with the time; that of BcfForm::date, or 1970, where a
-/// text is none.
-[[nodiscard]] std::string date_time(const std::string& date, const report::BcfForm& form);
+/// Returns a date, a day or a time with any zone, as the schemas have it: in UTC to the second;
+/// nothing where a text is none, as 2026-02-30 (decision 0112).
+[[nodiscard]] std::optional<std::string> stated_time(std::string_view date);
+
+/// The same, where a text that is none stands for BcfForm::date, or for 1970.
+[[nodiscard]] std::string date_time(std::string_view date, const report::BcfForm& form);
+
+/// Returns how many dates of decisions about topics are none. They are not written.
+[[nodiscard]] std::uint64_t count_strange_dates(const report::ClashContents& contents,
+                                                const TopicPlan& plan);
 
 /// Returns when the newest file of a model says that it was written; empty where none says so.
 [[nodiscard]] std::string newest_date(const model::Model& model);

@@ -25,7 +25,7 @@ namespace {
 constexpr double kBeyondMm = 2, kApartMm = 80;
 /// Break lines of two sides that both end so near to the corner between them meet there.
 constexpr double kMeetMm = 2 * kBeyondMm;
-/// A break line has no more zigzags than that, however long it is.
+/// Beyond what any sheet is wide, zigzags lie farther apart: at a large scale there were millions.
 constexpr double kMostZigzags = 64;
 /// A zigzag's length along the line and its height to each side.
 constexpr double kZigzagMm = 3, kZigzagHeightMm = 2;

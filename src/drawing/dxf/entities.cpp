@@ -81,13 +81,17 @@ void append_ellipse(std::string& out, const EntityHead& head, const PaperPoint& 
 
 void append_text(std::string& out, const EntityHead& head, const TextPlace& place,
                  std::string_view text) {
-  const auto& [at, height, align, turn_deg] = place;
+  constexpr int kBackward = 2;
+  const PaperPoint& at = place.at;
   Groups groups = begin(out, "TEXT", head, "AcDbText");
-  groups.point_in_space(10, at.x, at.y).number(40, height).text(1, shown_text(text));
-  if (turn_deg != 0) groups.number(50, turn_deg);
+  groups.point_in_space(10, at.x, at.y).number(40, place.height).text(1, shown_text(text));
+  if (place.turn_deg != 0) groups.number(50, place.turn_deg);
+  if (place.stretch != 1) groups.number(41, place.stretch);
+  if (place.lean_deg != 0) groups.number(51, place.lean_deg);
   groups.text(7, kTextStyle);
-  if (align != TextAlign::start)
-    groups.whole(72, align == TextAlign::middle ? 1 : 2).point_in_space(11, at.x, at.y);
+  if (place.mirrored) groups.whole(71, kBackward);
+  if (place.align != TextAlign::start)
+    groups.whole(72, place.align == TextAlign::middle ? 1 : 2).point_in_space(11, at.x, at.y);
   groups.text(100, "AcDbText");
 }
 

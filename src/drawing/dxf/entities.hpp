@@ -54,13 +54,17 @@ void append_ellipse(std::string& out, const EntityHead& head, const PaperPoint& 
 
 enum class TextAlign : std::uint8_t { start, middle, end };
 
-/// How a text stands: a point of its base line, the height of a capital, and by how much it is
-/// turned about the point, degrees against the clock.
+/// How a text stands: a point of its base line, the height of a capital square to it, and by how
+/// much it is turned about the point, degrees against the clock.
 struct TextPlace {
   PaperPoint at;
   double height = 2.5;
   TextAlign align = TextAlign::start;
   double turn_deg = 0;
+  double stretch = 1;   ///< how much wider it is than the font
+  double lean_deg = 0;  ///< by how much its uprights lean to where it runs
+  /// It runs to the other side, and all of it is as in a mirror beside the point, before it turns.
+  bool mirrored = false;
 };
 void append_text(std::string& out, const EntityHead& head, const TextPlace& place,
                  std::string_view text);

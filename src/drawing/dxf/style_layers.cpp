@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layers of the styles of objects.
-#include <algorithm>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -60,13 +60,17 @@ StyleLayers add_style_layers(std::span<const Ink* const> views, std::vector<Laye
       used[ink->styles->number_of(line.object)].at(
           static_cast<std::size_t>(ViewLayer::break_line)) = true;
   }
+  std::set<std::string> names;
+  for (const LayerStyle& layer : layers) names.insert(layer.name);
   found.resize(first.styles->all().size());
   for (std::size_t s = 0; s < found.size(); ++s)
     for (std::size_t l = 0; l < kViewLayers; ++l) {
       if (!used[s + 1].at(l)) continue;
       LayerStyle layer = styled_layer(layers[l], static_cast<ViewLayer>(l), first, s + 1);
-      if (std::ranges::find(layers, layer.name, &LayerStyle::name) != layers.end())
+      if (!names.insert(layer.name).second) {
         layer.name += "_" + std::to_string(s + 1);
+        names.insert(layer.name);
+      }
       found[s].at(l) = layers.size();
       layers.push_back(std::move(layer));
     }

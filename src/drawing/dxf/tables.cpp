@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -93,22 +94,22 @@ std::vector<double> even(const std::vector<double>& dash_mm) {
 
 LineTypes line_types(const std::vector<LayerStyle>& layers) {
   LineTypes types;
+  std::map<std::vector<double>, std::size_t> number_of;
   for (const LayerStyle& layer : layers) {
     if (layer.dash_mm.empty()) {
       types.of_layer.emplace_back("Continuous");
       continue;
     }
     const std::vector<double> dashes = even(layer.dash_mm);
-    auto found = std::ranges::find(types.all, dashes, &LineType::dash_mm);
-    if (found == types.all.end()) {
+    const auto [found, is_new] = number_of.try_emplace(dashes, types.all.size());
+    if (is_new) {
       // The usual names with the layer's: these dashes are not those of a program's own CENTER.
       const std::string_view kind = dashes.size() == 2   ? "DASHED_"
                                     : dashes.size() == 4 ? "CENTER_"
                                                          : "PHANTOM_";
       types.all.push_back({std::string(kind) + layer.name, dashes});
-      found = types.all.end() - 1;
     }
-    types.of_layer.push_back(found->name);
+    types.of_layer.push_back(types.all[found->second].name);
   }
   return types;
 }

@@ -23,16 +23,23 @@ namespace {
 class Density {
  public:
   explicit Density(const Sheet& sheet)
-      : size_(std::max(4.0, std::sqrt(sheet.width_mm * sheet.height_mm) / 500)),
+      : width_mm_(sheet.width_mm),
+        height_mm_(sheet.height_mm),
+        size_(std::max(4.0, std::sqrt(sheet.width_mm * sheet.height_mm) / 500)),
         columns_(count(sheet.width_mm)),
         rows_(count(sheet.height_mm)),
         length_(columns_ * rows_) {}
 
+  /// What of a line lies off the sheet does not count: it may be as long as the scale makes it.
   void add(const Line& line) {
     const double dx = line.b_paper.x - line.a_paper.x, dy = line.b_paper.y - line.a_paper.y;
     const double length = std::sqrt(dx * dx + dy * dy);
     const double steps = std::ceil(length * 2 / size_);
-    for (double i = 0; i < steps; ++i) {
+    double from = 0, to = 1;
+    keep_between(line.a_paper.x, dx, width_mm_, from, to);
+    keep_between(line.a_paper.y, dy, height_mm_, from, to);
+    const double last = std::min(std::floor(to * steps), steps - 1);
+    for (double i = std::max(std::ceil(from * steps) - 1, 0.0); i <= last; ++i) {
       const double t = (i + 0.5) / steps;
       length_[index(line.a_paper.y + dy * t, rows_) * columns_ +
               index(line.a_paper.x + dx * t, columns_)] += length / steps;
@@ -50,6 +57,18 @@ class Density {
   }
 
  private:
+  /// Narrows the part of a line, which runs `step` from `at`, to what lies on the sheet; `from` is
+  /// greater than `to` where nothing does.
+  static void keep_between(double at, double step, double most, double& from, double& to) {
+    if (step == 0) {
+      if (at < 0 || at > most) to = -1;
+      return;
+    }
+    const double near = -at / step, far = (most - at) / step;
+    from = std::max(from, std::min(near, far));
+    to = std::min(to, std::max(near, far));
+  }
+
   [[nodiscard]] std::size_t count(double mm) const {
     return static_cast<std::size_t>(std::max(1.0, std::ceil(mm / size_)));
   }
@@ -58,6 +77,7 @@ class Density {
     return cell <= 0 ? 0 : std::min(static_cast<std::size_t>(cell), n - 1);
   }
 
+  double width_mm_, height_mm_;
   double size_;
   std::size_t columns_, rows_;
   std::vector<double> length_;

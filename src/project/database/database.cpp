@@ -146,4 +146,22 @@ Status Database::check_end() {
   return damaged("its last page is cut off");
 }
 
+Result<std::vector<std::vector<std::byte>>> read_parts(Database& database, const char* table,
+                                                       std::int64_t test, const std::string& what) {
+  Result<Statement> select = database.prepare(std::string("SELECT part, data FROM ") + table +
+                                              " WHERE test = ?1 ORDER BY part");
+  if (!select) return select.error();
+  select->bind(1, test);
+  std::vector<std::vector<std::byte>> parts;
+  for (;;) {
+    const Result<bool> there = select->step();
+    if (!there) return there.error();
+    if (!*there) return parts;
+    if (select->integer(0) != static_cast<std::int64_t>(parts.size()))
+      return database.damaged("a part of " + what + " is missing");
+    const std::span<const std::byte> data = select->bytes(1);
+    parts.emplace_back(data.begin(), data.end());
+  }
+}
+
 }  // namespace strake::project

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
@@ -79,6 +81,10 @@ class Database {
   Database& operator=(Database&&) = delete;
 
   [[nodiscard]] const std::filesystem::path& file() const { return file_; }
+  /// Returns how long a transaction waits for another process that writes.
+  [[nodiscard]] std::chrono::milliseconds wait() const {
+    return std::chrono::milliseconds(wait_ms_);
+  }
   [[nodiscard]] Result<Statement> prepare(std::string_view sql);
   /// Runs statements without parameters or rows.
   [[nodiscard]] Status execute(std::string_view sql);
@@ -86,6 +92,8 @@ class Database {
   [[nodiscard]] std::int64_t changes() const;
   /// Returns the error for what SQLite said last: it names the file, and how to mend it.
   [[nodiscard]] Error error(int code) const;
+  /// Returns the error for another process that writes.
+  [[nodiscard]] Error busy() const;
   /// Returns the error for something in the tables that no version of the program has stored.
   [[nodiscard]] Error damaged(std::string_view what) const;
   /// Returns the bytes of a file with the same contents. Errors: memory.
@@ -114,6 +122,13 @@ class Database {
   std::optional<std::pair<std::int64_t, std::int64_t>> immutable_;
 };
 
+/// Returns the parts of a test in their order, of a table with the columns test, part and data.
+/// Errors: input where one is missing; `what` is what they are parts of.
+[[nodiscard]] Result<std::vector<std::vector<std::byte>>> read_parts(Database& database,
+                                                                     const char* table,
+                                                                     std::int64_t test,
+                                                                     const std::string& what);
+
 /// Reads of one moment, unless a transaction sees to that already.
 class ReadScope {
  public:
@@ -135,6 +150,8 @@ class Transaction {
   /// Errors: that another process writes (after the connection's time to wait), that the project
   /// is open for reading only, or that it is on read-only media.
   [[nodiscard]] static Result<Transaction> begin(Database& database);
+  /// The same without waiting: nothing where another process writes.
+  [[nodiscard]] static Result<std::optional<Transaction>> begin_at_once(Database& database);
   ~Transaction();
   Transaction(Transaction&& other) noexcept;
   Transaction& operator=(Transaction&&) = delete;

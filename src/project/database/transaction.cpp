@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <sqlite3.h>
 
+#include <optional>
 #include <utility>
 
 #include "project/database/database.hpp"
@@ -29,6 +30,19 @@ Result<Transaction> Transaction::begin(Database& database) {
   sqlite3_busy_timeout(database.handle_, kRecoveryMs);
   if (!begun) return begun.error();
   return Transaction(database);
+}
+
+Error Database::busy() const { return error(SQLITE_BUSY); }
+
+Result<std::optional<Transaction>> Transaction::begin_at_once(Database& database) {
+  if (database.access_ == Access::read) return database.error(SQLITE_READONLY);
+  sqlite3_busy_timeout(database.handle_, 0);
+  const Status begun = database.execute("BEGIN IMMEDIATE");
+  const bool is_busy = !begun && (sqlite3_errcode(database.handle_) & 0xff) == SQLITE_BUSY;
+  sqlite3_busy_timeout(database.handle_, kRecoveryMs);
+  if (is_busy) return std::optional<Transaction>();
+  if (!begun) return begun.error();
+  return std::optional(Transaction(database));
 }
 
 Transaction::~Transaction() {

@@ -176,39 +176,62 @@ Result<std::map<std::int64_t, report::DecisionStatus>> statuses_at(Database& dat
   }
 }
 
-Result<std::uint64_t> decide(Database& database, std::span<const std::string> keys,
-                             const ClashDecision& decision) {
+ClashDecider::ClashDecider(Database& database, std::map<std::int64_t, std::int64_t> last_runs,
+                           ClashRows rows)
+    : database_(&database), last_runs_(std::move(last_runs)), rows_(std::move(rows)) {}
+
+Result<ClashDecider> ClashDecider::of(Database& database) {
   const Result<std::map<std::int64_t, TestName>> tests = tests_of(database);
   if (!tests) return tests.error();
   Result<ClashRows> rows = ClashRows::of(database);
   if (!rows) return rows.error();
+  std::map<std::int64_t, std::int64_t> last_runs;
+  for (const auto& [id, test] : *tests) last_runs.emplace(id, test.run);
+  return ClashDecider(database, std::move(last_runs), std::move(*rows));
+}
+
+Result<std::uint64_t> ClashDecider::decide(std::span<const std::string> keys,
+                                           const ClashDecision& decision) {
   const ClashDecision stored = as_stored(decision);
   std::uint64_t changed = 0;
   for (const std::string& key : keys) {
-    const Result<std::optional<ClashRow>> known = rows->find(std::string_view(key));
+    const Result<std::optional<ClashRow>> known = rows_.find(std::string_view(key));
     if (!known) return known.error();
     if (!*known) return no_clash(key);
-    const ClashRow& before = **known;
-    const auto test = tests->find(before.test);
-    if (test == tests->end()) return database.damaged("a clash is of no test");
-    const std::int64_t run = test->second.run;
-    const ClashRow after = decided(before, stored, run);
-    if (after == before) continue;
-    ++changed;
-    if (const Status status = rows->update(after); !status) return status.error();
-    ClashEvent event{before.id,
-                     std::nullopt,
-                     stored.at,
-                     stored.by,
-                     before.status(run),
-                     after.status(run),
-                     told(before, after, stored)};
-    const std::string said = stored.comment.value_or(std::string());
-    if (event.comment != said) event.said = Said{.text = said};
-    if (event.before == event.after && event.comment.empty()) continue;
-    if (const Status status = rows->add(event); !status) return status.error();
+    const auto run = last_runs_.find((**known).test);
+    if (run == last_runs_.end()) return database_->damaged("a clash is of no test");
+    const Result<bool> done = decide(**known, stored, run->second);
+    if (!done) return done.error();
+    if (*done) ++changed;
   }
   return changed;
+}
+
+/// Decides about one clash. Returns whether its row changed.
+Result<bool> ClashDecider::decide(const ClashRow& before, const ClashDecision& decision,
+                                  std::int64_t run) {
+  const ClashRow after = decided(before, decision, run);
+  if (after == before) return false;
+  if (const Status status = rows_.update(after); !status) return status.error();
+  ClashEvent event{before.id,
+                   std::nullopt,
+                   decision.at,
+                   decision.by,
+                   before.status(run),
+                   after.status(run),
+                   told(before, after, decision)};
+  const std::string said = decision.comment.value_or(std::string());
+  if (event.comment != said) event.said = Said{.text = said};
+  if (event.before == event.after && event.comment.empty()) return true;
+  if (const Status status = rows_.add(event); !status) return status.error();
+  return true;
+}
+
+Result<std::uint64_t> decide(Database& database, std::span<const std::string> keys,
+                             const ClashDecision& decision) {
+  Result<ClashDecider> decider = ClashDecider::of(database);
+  if (!decider) return decider.error();
+  return decider->decide(keys, decision);
 }
 
 Result<std::vector<TrendRow>> read_trend(Database& database) {
@@ -234,19 +257,35 @@ Result<std::vector<ClashEvent>> read_events(Database& database, const std::strin
   const Result<std::optional<ClashRow>> row = rows->find(std::string_view(key));
   if (!row) return row.error();
   if (!*row) return no_clash(key);
+  Result<ClashEvents> events = ClashEvents::of(database);
+  if (!events) return events.error();
+  return events->read((**row).id);
+}
+
+ClashEvents::ClashEvents(Database& database, Statement select)
+    : database_(&database), select_(std::move(select)) {}
+
+Result<ClashEvents> ClashEvents::of(Database& database) {
   Result<Statement> select = database.prepare(fmt::format(
       "SELECT clash,{} FROM {} WHERE clash = ?1 ORDER BY id", kEventColumns, kEventTables));
   if (!select) return select.error();
-  select->bind(1, (**row).id);
+  return ClashEvents(database, std::move(*select));
+}
+
+Result<std::vector<ClashEvent>> ClashEvents::read(std::int64_t clash) {
+  select_.reset();
+  select_.bind(1, clash);
   std::vector<ClashEvent> events;
   for (;;) {
-    const Result<bool> there = select->step();
+    const Result<bool> there = select_.step();
     if (!there) return there.error();
-    if (!*there) return events;
-    Result<ClashEvent> event = event_of(database, *select);
+    if (!*there) break;
+    Result<ClashEvent> event = event_of(*database_, select_);
     if (!event) return event.error();
     events.push_back(std::move(*event));
   }
+  select_.reset();
+  return events;
 }
 
 }  // namespace strake::project

@@ -47,9 +47,28 @@ struct ClashDecision {
   std::string by, at;
 };
 
-/// Writes a decision about clashes, with an event for each whose status or assignee changes or that
-/// is commented on. Returns how many rows changed. Errors: usage for a key that no clash has;
-/// nothing is to be committed then. To be called within a transaction.
+/// Writes decisions about clashes, with statements that are prepared once. It knows the tests as
+/// they were when it was made, and is used within one transaction.
+class ClashDecider {
+ public:
+  [[nodiscard]] static Result<ClashDecider> of(Database& database);
+
+  /// Writes a decision about clashes, with an event for each whose status or assignee changes or
+  /// that is commented on. Returns how many rows changed. Errors: usage for a key that no clash
+  /// has; nothing is to be committed then.
+  [[nodiscard]] Result<std::uint64_t> decide(std::span<const std::string> keys,
+                                             const ClashDecision& decision);
+
+ private:
+  ClashDecider(Database& database, std::map<std::int64_t, std::int64_t> last_runs, ClashRows rows);
+  Result<bool> decide(const ClashRow& before, const ClashDecision& decision, std::int64_t run);
+
+  Database* database_;
+  std::map<std::int64_t, std::int64_t> last_runs_;  ///< of each test
+  ClashRows rows_;
+};
+
+/// Writes one decision as ClashDecider does. To be called within a transaction.
 [[nodiscard]] Result<std::uint64_t> decide(Database& database, std::span<const std::string> keys,
                                            const ClashDecision& decision);
 
@@ -65,6 +84,20 @@ struct TrendRow {
 };
 /// Returns the runs in their order.
 [[nodiscard]] Result<std::vector<TrendRow>> read_trend(Database& database);
+
+/// Reads what happened to clashes, with a statement that is prepared once.
+class ClashEvents {
+ public:
+  [[nodiscard]] static Result<ClashEvents> of(Database& database);
+
+  /// Returns what happened to the clash of a row, in order.
+  [[nodiscard]] Result<std::vector<ClashEvent>> read(std::int64_t clash);
+
+ private:
+  ClashEvents(Database& database, Statement select);
+  Database* database_;
+  Statement select_;
+};
 
 /// Returns what happened to a clash, in order. Errors: usage for a key that no clash has.
 [[nodiscard]] Result<std::vector<ClashEvent>> read_events(Database& database,

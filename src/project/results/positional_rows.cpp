@@ -26,6 +26,7 @@ report::Decision decision_of(const ClashRow& row, const std::string& test) {
   decision.a = {row.a.file, row.a.id, row.a.name};
   decision.b = {row.b.file, row.b.id, row.b.name};
   decision.assignee = row.assignee;
+  decision.at = row.decided_at;
   return decision;
 }
 

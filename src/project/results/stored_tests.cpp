@@ -30,23 +30,6 @@ std::string called(const Database& database, const std::string& test) {
   return database.file().string() + ": " + result_of(test);
 }
 
-Result<std::vector<Bytes>> read_parts(Database& database, std::int64_t test,
-                                      const std::string& name) {
-  Result<Statement> select =
-      database.prepare("SELECT part, data FROM report_part WHERE test = ?1 ORDER BY part");
-  if (!select) return select.error();
-  select->bind(1, test);
-  std::vector<Bytes> parts;
-  for (;;) {
-    const Result<bool> there = select->step();
-    if (!there) return there.error();
-    if (!*there) return parts;
-    if (select->integer(0) != static_cast<std::int64_t>(parts.size()))
-      return database.damaged("a part of " + result_of(name) + " is missing");
-    parts.push_back(copy_of(select->bytes(1)));
-  }
-}
-
 /// Returns the numbers of the parts, of so many, that have a result which a run took out or put in.
 std::vector<std::size_t> touched_parts(const TestToWrite& test, std::size_t parts) {
   std::vector<bool> is_touched(parts, false);
@@ -236,7 +219,7 @@ Result<std::optional<StoredTest>> read_test(Database& database, const std::strin
   test.snapshot = std::move(then->snapshot);
   test.snapshot_parts = std::move(then->parts);
   test.parts_have_elements = !then->elements.empty();
-  Result<std::vector<Bytes>> parts = read_parts(database, test.id, name);
+  Result<std::vector<Bytes>> parts = read_parts(database, "report_part", test.id, result_of(name));
   if (!parts) return parts.error();
   Result<RememberedReport> results = decode_report({head, kept, std::move(*parts), *seal},
                                                    test.snapshot.identities.size(), what, context);

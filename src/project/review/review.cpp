@@ -48,14 +48,22 @@ Ruling ruling_on_assignee(const ReviewedTopic& topic, const std::string& now,
   return has.empty() ? Ruling::take : Ruling::conflict;
 }
 
+Error no_listed_clash(const std::string& key) {
+  return {ErrorCode::usage, "no clash has the key " + in_quotes(key), {}, {}};
+}
+
 /// What people said, in the form in which it is compared: who, what and when.
 using ComparedSaid = std::tuple<std::string, std::string, std::string>;
 
 class ReviewTaker {
  public:
-  ReviewTaker(Database& database, ClashRows rows, std::vector<ListedClash> clashes,
-              const ReviewRules& rules)
-      : database_(database), rows_(std::move(rows)), clashes_(std::move(clashes)), rules_(rules) {
+  ReviewTaker(ClashRows rows, ClashEvents events, ClashDecider decider,
+              std::vector<ListedClash> clashes, const ReviewRules& rules)
+      : rows_(std::move(rows)),
+        events_(std::move(events)),
+        decider_(std::move(decider)),
+        clashes_(std::move(clashes)),
+        rules_(rules) {
     std::ranges::sort(clashes_, {}, key_of);
   }
 
@@ -65,8 +73,7 @@ class ReviewTaker {
     std::vector<std::string> to_status, to_assignee;
     for (const ReviewedClash& clash : topic.clashes) {
       const auto at = listed(clash.key);
-      if (at == clashes_.end() || at->row.key != clash.key)
-        return Error{ErrorCode::usage, "no clash has the key " + in_quotes(clash.key), {}, {}};
+      if (at == clashes_.end() || at->row.key != clash.key) return no_listed_clash(clash.key);
       if (counts(ruling_on_status(topic, clash, at->status), topic, *at, "the status"))
         to_status.push_back(clash.key);
       if (counts(ruling_on_assignee(topic, at->row.assignee, rules_), topic, *at, "the assignee"))
@@ -102,9 +109,11 @@ class ReviewTaker {
 
   Status decide_about(const std::vector<std::string>& keys, const ClashDecision& decision,
                       std::uint64_t& count) {
-    const Result<std::uint64_t> changed = decide(database_, keys, decision);
+    const Result<std::uint64_t> changed = decider_.decide(keys, decision);
     if (!changed) return changed.error();
     count += *changed;
+    // Its events tell what was decided, which may come back as a comment.
+    for (const std::string& key : keys) known_.erase(listed(key)->row.id);
     return {};
   }
 
@@ -123,92 +132,124 @@ class ReviewTaker {
     return {rules_.compared(comment.by), rules_.compared(comment.text), comment.at};
   }
 
-  /// Whether people said this; where it is not known when, whether they said it at any time.
-  static bool is_known(const std::set<ComparedSaid>& known, const ComparedSaid& said) {
-    if (!std::get<2>(said).empty()) return known.contains(said);
-    const auto same = known.lower_bound(said);
-    return same != known.end() && std::get<0>(*same) == std::get<0>(said) &&
-           std::get<1>(*same) == std::get<1>(said);
-  }
-
-  /// What is known of what was said of the clashes of a topic.
+  /// What is known of what was said of a clash.
   struct KnownComments {
     std::set<ComparedSaid> said;
     /// The last words of comments that other programs name, by their GUIDs.
     std::map<std::string, std::string> by_guid;
-    std::map<std::string, std::string> last;  ///< when the comment of a clash was said, by key
+    std::string last;  ///< when its comment was said
+
+    /// Whether people said this; where it is not known when, whether they said it at any time.
+    [[nodiscard]] bool has(const ComparedSaid& some) const {
+      if (!std::get<2>(some).empty()) return said.contains(some);
+      const auto same = said.lower_bound(some);
+      return same != said.end() && std::get<0>(*same) == std::get<0>(some) &&
+             std::get<1>(*same) == std::get<1>(some);
+    }
   };
 
-  Result<KnownComments> known_comments(const ReviewedTopic& topic) {
-    KnownComments known;
-    for (const ReviewedClash& clash : topic.clashes) {
-      const Result<std::vector<ClashEvent>> events = read_events(database_, clash.key);
-      if (!events) return events.error();
-      const std::string& comment = listed(clash.key)->row.comment;
-      for (const ClashEvent& event : *events) {
-        if (event.run || event.comment.empty()) continue;
-        const report::DecisionComment spoken = event.spoken();
-        known.said.insert(said(spoken));
-        // It may have gone out with all that its event tells.
-        known.said.insert(said({event.at, event.who, event.comment}));
-        if (!spoken.guid.empty()) known.by_guid[spoken.guid] = rules_.compared(spoken.text);
-        // Behind a comment an event tells what else was set.
-        if (!comment.empty() && event.comment.starts_with(comment))
-          known.last[clash.key] = std::max(known.last[clash.key], event.at);
-      }
+  /// What was said of a clash is read once, however many topics and comments are about it.
+  Result<KnownComments*> known_of(const ListedClash& clash) {
+    const auto [at, is_new] = known_.try_emplace(clash.row.id);
+    KnownComments& known = at->second;
+    if (!is_new) return &known;
+    const Result<std::vector<ClashEvent>> events = events_.read(clash.row.id);
+    if (!events) return events.error();
+    for (const ClashEvent& event : *events) {
+      if (event.run || event.comment.empty()) continue;
+      const report::DecisionComment spoken = event.spoken();
+      known.said.insert(said(spoken));
+      // It may have gone out with all that its event tells.
+      known.said.insert(said({event.at, event.who, event.comment}));
+      if (!spoken.guid.empty()) known.by_guid[spoken.guid] = rules_.compared(spoken.text);
+      // Behind a comment an event tells what else was set.
+      const std::string& comment = clash.row.comment;
+      if (!comment.empty() && event.comment.starts_with(comment))
+        known.last = std::max(known.last, event.at);
     }
-    return known;
+    return &known;
   }
+
+  /// A clash of a topic while its comments are taken.
+  struct CommentedClash {
+    ListedClash* clash;
+    KnownComments* known;
+    bool is_changed = false;  ///< a comment of the topic is that of the clash
+  };
 
   Status take_comments(const ReviewedTopic& topic) {
     if (topic.comments.empty()) return {};
-    Result<KnownComments> known = known_comments(topic);
-    if (!known) return known.error();
-    for (report::DecisionComment comment : topic.comments) {
-      const auto named = known->by_guid.find(comment.guid);
-      const bool is_same =
-          named != known->by_guid.end() && named->second == rules_.compared(comment.text);
-      if (is_same || is_known(known->said, said(comment))) {
-        ++taken_.known_comments;
-        continue;
+    std::vector<CommentedClash> clashes;
+    for (const ReviewedClash& clash : topic.clashes) {
+      const auto at = listed(clash.key);
+      if (at == clashes_.end() || at->row.key != clash.key) return no_listed_clash(clash.key);
+      const Result<KnownComments*> known = known_of(*at);
+      if (!known) return known.error();
+      clashes.push_back({&*at, *known});
+    }
+    for (const report::DecisionComment& comment : topic.comments)
+      if (const Status status = take(comment, topic.at, clashes); !status) return status;
+    for (const CommentedClash& clash : clashes)
+      if (const Status status = clash.is_changed ? write_comment(*clash.clash) : Status(); !status)
+        return status;
+    return {};
+  }
+
+  /// Takes a comment that none of the clashes has. It is that of a clash where none was said later.
+  Status take(report::DecisionComment comment, const std::string& decided_at,
+              std::vector<CommentedClash>& clashes) {
+    const std::string words = rules_.compared(comment.text);
+    const ComparedSaid told = said(comment);
+    for (const CommentedClash& clash : clashes) {
+      const auto named = clash.known->by_guid.find(comment.guid);
+      const bool is_same = named != clash.known->by_guid.end() && named->second == words;
+      if (!is_same && !clash.known->has(told)) continue;
+      ++taken_.known_comments;
+      return {};
+    }
+    if (comment.at.empty()) comment.at = decided_at;
+    comment.text = valid_utf8(comment.text);
+    const ComparedSaid now = said(comment);
+    for (CommentedClash& clash : clashes) {
+      KnownComments& known = *clash.known;
+      known.said.insert(now);
+      if (!comment.guid.empty()) known.by_guid[comment.guid] = words;
+      if (comment.at >= known.last) {
+        known.last = comment.at;
+        clash.clash->row.comment = comment.text;
+        clash.is_changed = true;
       }
-      if (comment.at.empty()) comment.at = topic.at;
-      known->said.insert(said(comment));
-      if (!comment.guid.empty()) known->by_guid[comment.guid] = rules_.compared(comment.text);
-      for (const ReviewedClash& clash : topic.clashes) {
-        std::string& latest = known->last[clash.key];
-        if (const Status status = add(comment, clash.key, comment.at >= latest); !status)
-          return status;
-        latest = std::max(latest, comment.at);
-      }
+      if (const Status status = add(comment, *clash.clash); !status) return status;
     }
     return {};
   }
 
-  /// Adds a comment although it says what was said before: somebody else says it, or again. It is
-  /// that of the clash where none was said later.
-  Status add(const report::DecisionComment& comment, const std::string& key, bool is_last) {
-    Result<std::optional<ClashRow>> found = rows_.find(std::string_view(key));
-    if (!found) return found.error();
-    if (!*found) return {};
-    ClashRow row = std::move(**found);
-    const std::string text = valid_utf8(comment.text);
-    if (is_last) {
-      row.comment = listed(key)->row.comment = text;
-      if (const Status status = rows_.update(row); !status) return status;
-    }
-    const DecisionStatus now = row.status(listed(key)->last_run);
+  /// Adds a comment although it says what was said before: somebody else says it, or again.
+  Status add(const report::DecisionComment& comment, const ListedClash& clash) {
     ++taken_.comments;
-    ClashEvent event{row.id, std::nullopt, comment.at, comment.by, now, now, text};
+    ClashEvent event{clash.row.id, std::nullopt, comment.at,  comment.by,
+                     clash.status, clash.status, comment.text};
     if (!comment.guid.empty())
-      event.said = Said{text, comment.guid, comment.topic, comment.first_at, comment.first_by};
+      event.said =
+          Said{comment.text, comment.guid, comment.topic, comment.first_at, comment.first_by};
     return rows_.add(event);
   }
 
-  Database& database_;
+  /// Writes the comment of a clash; what else its row says may be later than the list.
+  Status write_comment(const ListedClash& clash) {
+    Result<std::optional<ClashRow>> found = rows_.find(clash.row.id);
+    if (!found) return found.error();
+    if (!*found) return no_listed_clash(clash.row.key);
+    (**found).comment = clash.row.comment;
+    return rows_.update(**found);
+  }
+
   ClashRows rows_;
+  ClashEvents events_;
+  ClashDecider decider_;
   std::vector<ListedClash> clashes_;  ///< by key
   const ReviewRules& rules_;
+  std::map<std::int64_t, KnownComments> known_;  ///< by row
   TakenReview taken_;
 };
 
@@ -220,7 +261,12 @@ Result<TakenReview> take_review(Database& database, const std::vector<ReviewedTo
   if (!rows) return rows.error();
   Result<std::vector<ListedClash>> clashes = list_clashes(database, {});
   if (!clashes) return clashes.error();
-  ReviewTaker taker(database, std::move(*rows), std::move(*clashes), rules);
+  Result<ClashEvents> events = ClashEvents::of(database);
+  if (!events) return events.error();
+  Result<ClashDecider> decider = ClashDecider::of(database);
+  if (!decider) return decider.error();
+  ReviewTaker taker(std::move(*rows), std::move(*events), std::move(*decider), std::move(*clashes),
+                    rules);
   for (const ReviewedTopic& topic : topics)
     if (const Status status = taker.take(topic); !status) return status.error();
   return taker.finish();

@@ -91,23 +91,6 @@ Result<Snapshot> decode_one_row(std::span<const std::byte> bytes, const std::str
   return snapshot;
 }
 
-Result<std::vector<Bytes>> read_snapshot_parts(Database& database, std::int64_t test) {
-  Result<Statement> select =
-      database.prepare("SELECT part, data FROM snapshot_part WHERE test = ?1 ORDER BY part");
-  if (!select) return select.error();
-  select->bind(1, test);
-  std::vector<Bytes> parts;
-  for (;;) {
-    const Result<bool> there = select->step();
-    if (!there) return there.error();
-    if (!*there) return parts;
-    if (select->integer(0) != static_cast<std::int64_t>(parts.size()))
-      return database.damaged("a part of what a result was computed from is missing");
-    const std::span<const std::byte> data = select->bytes(1);
-    parts.emplace_back(data.begin(), data.end());
-  }
-}
-
 /// Puts the values of a part where the snapshot has them.
 Status decode_snapshot_part(std::span<const std::byte> bytes, PartOfObjects part,
                             const std::string& what, StoredSnapshot& stored) {
@@ -172,7 +155,8 @@ Status write_snapshot_parts(Database& database, std::int64_t test,
 Result<StoredSnapshot> read_snapshot(Database& database, std::int64_t test,
                                      std::span<const std::byte> head, const std::string& what,
                                      const parallel::Context& context) {
-  const Result<std::vector<Bytes>> parts = read_snapshot_parts(database, test);
+  const Result<std::vector<Bytes>> parts =
+      read_parts(database, "snapshot_part", test, "what a result was computed from");
   if (!parts) return parts.error();
   if (parts->empty()) {
     Result<Snapshot> whole = decode_one_row(head, what);

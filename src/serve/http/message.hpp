@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -67,8 +68,14 @@ class Service {
 
   /// Looks at a request whose body is still to come. Returns the answer that refuses it.
   [[nodiscard]] virtual std::optional<Answer> refuse(const Request& request) = 0;
-  /// Answers a request that was not refused, whole.
+  /// Answers a request that was not refused, whole. Whoever asks waits as long as it takes.
   [[nodiscard]] virtual Answer answer(const Request& request) = 0;
+  /// The same, but for what has to wait for something: nothing, and it is asked again soon, with
+  /// how long it has waited by then. Others are answered meanwhile.
+  [[nodiscard]] virtual std::optional<Answer> answer_or_wait(const Request& request,
+                                                             std::chrono::milliseconds /*waited*/) {
+    return answer(request);
+  }
 };
 
 }  // namespace strake::serve

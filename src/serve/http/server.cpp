@@ -11,6 +11,8 @@
 #include <charconv>
 #include <exception>
 #include <map>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -23,11 +25,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kLongestWait{1000};
+/// How long it is until what waits is asked again.
+constexpr std::chrono::milliseconds kUntilAskedAgain{50};
 
 /// A request that comes in.
 struct Exchange {
   Request request;
   bool is_answered = false;
+  std::optional<Clock::time_point> waits_since = std::nullopt;  ///< whole, and not answered yet
 };
 
 /// A connection, and how long it may go on as it does.
@@ -81,7 +86,9 @@ struct Server::State {
   State(State&&) = delete;
   State& operator=(State&&) = delete;
   ~State() {
-    if (daemon != nullptr) MHD_stop_daemon(daemon);
+    if (daemon == nullptr) return;
+    resume_waiting();
+    MHD_stop_daemon(daemon);
   }
 
   static MHD_Result on_request(void* self, MHD_Connection* connection, const char* url,
@@ -102,6 +109,7 @@ struct Server::State {
     *exchange = nullptr;
     // Another request may follow on the same connection.
     State& state = *static_cast<State*>(self);
+    state.waiting.erase(connection);
     if (why == MHD_REQUEST_TERMINATED_COMPLETED_OK)
       state.allow(connection, state.limits.silence, state.limits.sending);
   }
@@ -135,6 +143,27 @@ struct Server::State {
     // An answer that took long to make is not the client's silence.
     allow(connection, limits.receiving, limits.receiving);
     return send(connection, text);
+  }
+
+  /// Answers a request that is whole, or lets its connection rest until it is asked again.
+  MHD_Result answer_or_wait(MHD_Connection* connection, Exchange& exchange) {
+    const Clock::time_point now = Clock::now();
+    if (!exchange.waits_since) exchange.waits_since = now;
+    const auto waited =
+        std::chrono::duration_cast<std::chrono::milliseconds>(now - *exchange.waits_since);
+    if (const auto made = service->answer_or_wait(exchange.request, waited))
+      return answer(connection, *made, exchange);
+    waiting.insert(connection);
+    // It is not the client that takes its time.
+    allow(connection, limits.silence, limits.sending);
+    MHD_suspend_connection(connection);
+    return MHD_YES;
+  }
+
+  /// Has the next run ask again what waits.
+  void resume_waiting() {
+    for (MHD_Connection* const connection : waiting) MHD_resume_connection(connection);
+    waiting.clear();
   }
 
   /// The headers are there.
@@ -172,8 +201,7 @@ struct Server::State {
   /// A piece of the body is there, or all of it was.
   MHD_Result go_on(MHD_Connection* connection, std::string_view piece, std::size_t& size,
                    Exchange& exchange) {
-    if (size == 0 && !exchange.is_answered)
-      return answer(connection, service->answer(exchange.request), exchange);
+    if (size == 0 && !exchange.is_answered) return answer_or_wait(connection, exchange);
     // What a client sends to its end although it was refused is not kept.
     if (!exchange.is_answered) {
       if (exchange.request.body.size() + piece.size() > limits.body_bytes) return MHD_NO;
@@ -196,7 +224,8 @@ struct Server::State {
   /// Returns how long to wait for bytes, in milliseconds.
   [[nodiscard]] int wait_ms() const {
     MHD_UNSIGNED_LONG_LONG wait = 0;
-    const auto longest = static_cast<MHD_UNSIGNED_LONG_LONG>(kLongestWait.count());
+    const auto longest = static_cast<MHD_UNSIGNED_LONG_LONG>(
+        (waiting.empty() ? kLongestWait : kUntilAskedAgain).count());
     if (MHD_get_timeout(daemon, &wait) != MHD_YES) wait = longest;
     return static_cast<int>(std::min(wait, longest));
   }
@@ -206,6 +235,8 @@ struct Server::State {
   MHD_Daemon* daemon = nullptr;
   Service* service = nullptr;  ///< while it serves
   std::map<MHD_Connection*, Connection> connections;
+  std::set<MHD_Connection*> waiting;  ///< suspended
+  Clock::time_point asked_again;      ///< when what waits was resumed last
 };
 
 Server::Server(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -221,7 +252,8 @@ Result<Server> Server::listen(std::uint16_t port, const ServerLimits& limits) {
   auto state = std::make_unique<State>(limits);
   state->port = socket->port();
   state->daemon = MHD_start_daemon(
-      MHD_USE_EPOLL, 0, nullptr, nullptr, &State::on_request, state.get(), MHD_OPTION_LISTEN_SOCKET,
+      MHD_USE_EPOLL | MHD_ALLOW_SUSPEND_RESUME, 0, nullptr, nullptr, &State::on_request,
+      state.get(), MHD_OPTION_LISTEN_SOCKET,
       socket->descriptor(),                                                          //
       MHD_OPTION_CONNECTION_LIMIT, limits.connections,                               //
       MHD_OPTION_CONNECTION_MEMORY_LIMIT, limits.head_bytes,                         //
@@ -250,6 +282,10 @@ Status Server::serve(Service& service, const std::stop_token& stop) {
     if (::poll(files.data(), files.size(), state_->wait_ms()) < 0 && errno != EINTR)
       return Error{ErrorCode::internal, "the server cannot wait for its clients", {}, {}};
     const Clock::time_point begun = Clock::now();
+    if (begun - state_->asked_again >= kUntilAskedAgain) {
+      state_->resume_waiting();
+      state_->asked_again = begun;
+    }
     if (MHD_run(state_->daemon) != MHD_YES)
       return Error{ErrorCode::internal, "the server cannot go on", {}, {}};
     state_->end_overdue(Clock::now() - begun);

@@ -80,12 +80,22 @@ std::optional<Answer> Site::refuse(const Request& request) {
 }
 
 Answer Site::answer(const Request& request) {
+  // Who has waited longer than anybody does is told so.
+  return answer_or_wait(request, std::chrono::milliseconds::max()).value_or(Answer());
+}
+
+std::optional<Answer> Site::answer_or_wait(const Request& request,
+                                           std::chrono::milliseconds waited) {
   const bool is_page = request.path == kPagePath;
   if (const Status there = contents_.database.check_in_place(); !there)
     return guarded(is_page ? told_answer(there.error()) : error_answer(there.error()));
   if (is_page) return guarded(page());
   if (request.path == kStatePath) return guarded(state(request));
-  return guarded(decide(request));
+  auto begun = project::Transaction::begin_at_once(contents_.database);
+  if (!begun) return guarded(error_answer(begun.error()));
+  if (*begun) return guarded(decide(request, std::move(**begun)));
+  if (waited < contents_.database.wait()) return std::nullopt;
+  return guarded(error_answer(contents_.database.busy()));
 }
 
 Status Site::prepare() {
@@ -120,19 +130,17 @@ Answer Site::state(const Request& request) {
   return json_answer(HttpStatus::ok, std::move(*told));
 }
 
-Answer Site::decide(const Request& request) {
+Answer Site::decide(const Request& request, project::Transaction transaction) {
   Result<DecisionRequest> asked = read_decision_request(request.body);
   if (!asked) return error_answer(asked.error());
   asked->decision.by = contents_.by;
   asked->decision.at = contents_.utc_now();
-  Result<project::Transaction> transaction = project::Transaction::begin(contents_.database);
-  if (!transaction) return error_answer(transaction.error());
   const Result<project::DecisionsAsSeen> done =
       project::decide_as_seen(contents_.database, asked->keys, asked->decision, asked->seen);
   if (!done) return error_answer(done.error());
   Result<std::string> told = project_answer(contents_.database, asked->seen.event, &*done);
   if (!told) return error_answer(told.error());
-  if (const Status status = transaction->commit(); !status) return error_answer(status.error());
+  if (const Status status = transaction.commit(); !status) return error_answer(status.error());
   return json_answer(done->refused.empty() ? HttpStatus::ok : HttpStatus::conflict,
                      std::move(*told));
 }

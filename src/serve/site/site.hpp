@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "project/database/database.hpp"
@@ -42,11 +44,14 @@ class Site final : public Service {
   [[nodiscard]] Status prepare();
   [[nodiscard]] std::optional<Answer> refuse(const Request& request) override;
   [[nodiscard]] Answer answer(const Request& request) override;
+  /// A decision waits while another program writes to the project, as long as the connection does.
+  [[nodiscard]] std::optional<Answer> answer_or_wait(const Request& request,
+                                                     std::chrono::milliseconds waited) override;
 
  private:
   [[nodiscard]] Answer page();
   [[nodiscard]] Answer state(const Request& request);
-  [[nodiscard]] Answer decide(const Request& request);
+  [[nodiscard]] Answer decide(const Request& request, project::Transaction transaction);
 
   Gate gate_;
   SiteContents contents_;

@@ -64,6 +64,8 @@ class Bcf:
         comments = list(topic.find('Comments') if three else markup.findall('Comment'))
         views = list(topic.find('Viewpoints') if three else markup.findall('Viewpoints'))
         changed = [c.findtext('ModifiedDate') for c in comments if c.find('ModifiedDate') is not None]
+        if topic.find('ModifiedDate') is not None:
+            changed.append(topic.findtext('ModifiedDate'))
         for date in [topic.findtext('CreationDate'), *(c.findtext('Date') for c in comments), *changed]:
             self.check(DATE.fullmatch(date), f'the date {date}')
         for guid in [e.get('Guid') for e in [*comments, *views]]:
@@ -71,6 +73,7 @@ class Bcf:
         return {'guid': folder, 'title': topic.findtext('Title'), 'status': topic.get('TopicStatus'),
                 'type': topic.get('TopicType'), 'priority': topic.findtext('Priority'),
                 'labels': [e.text for e in (topic.find('Labels') if three else topic.findall('Labels'))],
+                'modified': (topic.findtext('ModifiedDate'), topic.findtext('ModifiedAuthor')),
                 'created': topic.findtext('CreationDate'), 'author': topic.findtext('CreationAuthor'),
                 'assignee': topic.findtext('AssignedTo'), 'description': topic.findtext('Description'),
                 'files': [e.findtext('Filename') for e in markup.iter('File')],
@@ -171,3 +174,13 @@ def assign(topic, name):
         element = ElementTree.Element('AssignedTo')
         topic.insert(list(topic).index(topic.find('Description')), element)
     element.text = name
+
+
+def approve(topic, date, author):
+    """Approves a topic, and says when and by whom it was changed."""
+    topic.set('TopicStatus', 'Approved')
+    for name, value in (('ModifiedDate', date), ('ModifiedAuthor', author)):
+        element = topic.find(name)
+        if element is None:
+            element = ElementTree.SubElement(topic, name)
+        element.text = value

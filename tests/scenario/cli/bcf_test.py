@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """bcf_test.py STRAKE: clashes as BCF for other programs, and what people decided there taken back into the project."""
+import contextlib
 import csv
 import io
 import json
 import os
 import random
+import sqlite3
 import struct
 import time
 import unittest
@@ -13,7 +15,7 @@ import xml.etree.ElementTree as ElementTree
 import zipfile
 from pathlib import Path
 
-from bcf_file import Bcf, add_comment, assign, rewrite
+from bcf_file import Bcf, add_comment, approve, assign, rewrite
 from bcf_project import BcfProject
 from hostile_names_test import FILES, LONG, NAMES
 from row_project import ROW, RowProject, cubes
@@ -354,6 +356,71 @@ class BcfBack(BcfProject):
         self.assertIn('3 comments added', self.take().stderr)
         time.sleep(1.1)  # the clock of the second take is another
         self.assertIn('0 comments added, 3 comments were there', self.take().stderr)
+
+    def test_when_a_topic_was_changed_has_its_time(self):
+        key = self.listed()[0]['key']
+        self.set(key, '--status', 'approved', '--by', 'Eve')
+        (at,), = self.query(f"SELECT decided_at FROM clash WHERE key = '{key}'")
+        self.assertRegex(at, r'T\d\d:\d\d:\d\dZ$')
+        for version in ('2.1', '3.0'):
+            self.out('--bcf-version', version, name='now.bcf')
+            topics = Bcf(self.folder / 'now.bcf', self.fail).topics
+            self.assertEqual([t['modified'] for t in topics if t['status'] == 'Approved'], [(at, 'Eve')])
+        # Of another zone it is the same moment.
+        self.edit(lambda topic, markup: None if topic.get('TopicStatus') == 'Approved'
+                  else approve(topic, '2026-02-03T01:30:00+02:00', 'Ann'), source='now.bcf')
+        self.take()
+        self.out(name='now.bcf')
+        self.assertEqual(sorted(t['modified'] for t in Bcf(self.folder / 'now.bcf', self.fail).topics),
+                         [('2026-02-02T23:30:00Z', 'Ann')] * 2 + [(at, 'Eve')])
+
+    def test_a_date_that_is_none_is_told_and_not_handed_on(self):
+        def change(topic, markup):
+            if 'c0' in topic.findtext('Title'):
+                approve(topic, '2026-02-30T10:00:00Z', 'Ann')
+            add_comment(markup, '1' * 8 + '-1111-4111-8111-111111111111', '2026-13-01T00:00:00', 'Ann', 'when?')
+        self.edit(change)
+        told = self.take().stderr
+        self.assertRegex(told, "bcf-date-invalid, first of 4: .*the (Modified)?Date '2026-")
+        with contextlib.closing(sqlite3.connect(self.folder / 'ship.strake')) as project, project:
+            project.execute("UPDATE clash SET decided_at = '2026-02-30T10:00:00Z' WHERE decision = 'approved'")
+            project.execute("UPDATE event SET at = 'then' WHERE comment = 'when?'")
+        for version in ('2.1', '3.0'):
+            told = self.out('--bcf-version', version, name='now.bcf').stderr
+            self.assertIn('4 dates of decisions and comments are none, and were not written', told)
+            topics = Bcf(self.folder / 'now.bcf', self.fail).topics
+            self.assertEqual({t['modified'] for t in topics}, {(None, None)})
+            self.assertEqual([len(t['comments']) for t in topics], [1, 1, 1])
+
+    def test_comments_of_a_group_keep_their_guids_in_its_topic(self):
+        """Each clash of the group has the comment in the project; in the topic it is one, under the GUID that it came with."""
+        guid = '11111111-1111-4111-8111-111111111111'
+
+        def change(topic, markup):
+            if topic.findtext('Title').startswith('2 '):
+                add_comment(markup, guid, '2026-02-03T12:00:00Z', 'Ann', 'both')
+
+        def reword(topic, markup):
+            for comment in markup.iter('Comment'):
+                if comment.get('Guid') == guid:
+                    comment.find('Comment').text = 'all'
+                    ElementTree.SubElement(comment, 'ModifiedDate').text = '2026-02-04T10:00:00+01:00'
+        said = []
+        for step, source in ((change, 'g.bcf'), (reword, 'g.bcf')):
+            self.out('--group-by', 'element', name='g.bcf')
+            self.edit(step, source)
+            self.assertIn('2 comments added', self.take().stderr)
+            self.out('--group-by', 'element', name='g.bcf')
+            topics = Bcf(self.folder / 'g.bcf', self.fail).topics
+            said.append([(*c, *e) for t in topics for c, e in zip(zip(t['comment_guids'], t['comments']), t['edited'])])
+        first = ('2026-02-03T12:00:00Z', 'Ann')
+        self.assertEqual(said, [[(guid, (*first, 'both'), None, None)],
+                                [(guid, (*first, 'all'), '2026-02-04T09:00:00Z', 'Ann')]])
+        # Alone each clash has it under another GUID, of which no two are the same, and it is known when it comes back.
+        self.out(name='now.bcf')
+        alone = [g for t in Bcf(self.folder / 'now.bcf', self.fail).topics for g in t['comment_guids']]
+        self.assertEqual((len(alone), len(set(alone)), guid in alone), (2, 2, False))
+        self.assertIn('0 comments added', self.take(name='now.bcf').stderr)
 
     def test_misuse(self):
         key = self.listed()[0]['key']

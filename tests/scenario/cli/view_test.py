@@ -9,6 +9,7 @@ import signal
 import socket
 import sqlite3
 import subprocess
+import threading
 import time
 from contextlib import contextmanager
 
@@ -206,6 +207,33 @@ class View(Scenario):
             (self.folder / 'away.strake').rename(self.folder / 'p.strake')
             self.decide(self.keys[:1], status='approved')
         self.assertEqual(self.statuses(), {self.keys[0]: 'approved', self.keys[1]: 'new'})
+
+    def test_a_decision_that_waits_for_the_project_keeps_nobody_waiting(self):
+        with self.served('--wait', '60'):
+            other = sqlite3.connect(self.folder / 'p.strake', isolation_level=None)
+            other.execute('BEGIN IMMEDIATE')
+            done = []
+            waits = threading.Thread(target=lambda: done.append(self.decide(self.keys[:1], status='approved')))
+            waits.start()
+            try:
+                for _ in range(4):
+                    time.sleep(.2)
+                    self.assertEqual(self.ask('GET', '/api/state?event=0').status, 200)
+                    self.assertEqual(self.ask('GET', '/', Strake_Token=self.token).status, 200)
+                self.assertTrue(waits.is_alive())
+            finally:
+                other.execute('ROLLBACK')
+                other.close()
+                waits.join(60)
+            self.assertEqual(done[0]['changed'], 1)
+        with self.served('--wait', '1'):
+            other = sqlite3.connect(self.folder / 'p.strake', isolation_level=None)
+            other.execute('BEGIN IMMEDIATE')
+            told = self.ask('POST', '/api/decide', json.dumps({'run': 1, 'event': 9, 'keys': self.keys, 'status': 'new'}))
+            other.close()
+            self.assertEqual(told.status, 503, told.text)
+            self.assertIn('another program writes to the project', told.text)
+        self.assertEqual(self.statuses()[self.keys[0]], 'approved')
 
     def test_slow_and_broken_clients_keep_nobody_waiting(self):
         with self.served():

@@ -149,6 +149,24 @@ TEST(Ink, PensFollowTheDensityWhereTheLinesAre) {
   EXPECT_DOUBLE_EQ(ink_of(from_top({})).pens.edge, 0.5);
 }
 
+// At 100000:1 a view reaches many kilometres beyond its sheet.
+TEST(Ink, WhatLiesOffTheSheetIsNotDense) {
+  NeutralDrawing drawing = from_top({line({0, 290}, {400, 290}, kVisible)});
+  const double edge = choose_pens(drawing).edge;
+  const double far = 5e8;
+  for (int i = 0; i < 200; ++i) {
+    const double y = 10 + i * 0.001;
+    drawing.lines.push_back(line({421, y}, {far, y}, kVisible));
+    drawing.lines.push_back(line({-far, y - 20}, {far, y - 20}, kVisible));
+    drawing.lines.push_back(line({-far, -far}, {-1, far}, kVisible));
+  }
+  EXPECT_DOUBLE_EQ(choose_pens(drawing).edge, edge);
+  // What runs across it counts there alone.
+  for (int i = 0; i < 60; ++i)
+    drawing.lines.push_back(line({10 + i * 0.6, -far}, {10 + i * 0.6, far}, kVisible));
+  EXPECT_DOUBLE_EQ(choose_pens(drawing).edge, 0.18);
+}
+
 TEST(Ink, PensAreALineGroupOfTheStandard) {
   const auto pens_on = [](double width_mm, double height_mm, double step) {
     NeutralDrawing drawing = from_top({line({0, 290}, {400, 290}, kVisible)});

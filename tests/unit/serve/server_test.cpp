@@ -5,8 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
@@ -37,6 +40,29 @@ class Echo final : public Service {
     for (const auto& [name, value] : request.arguments) said += " " + name + "=" + value;
     return text_answer(HttpStatus::ok, said + " " + request.body);
   }
+};
+
+/// Lets /wait wait for as long as it is told to; all else it answers at once.
+class Patient final : public Service {
+ public:
+  std::optional<Answer> refuse(const Request& /*request*/) override { return std::nullopt; }
+  Answer answer(const Request& request) override {
+    return text_answer(HttpStatus::ok, request.path);
+  }
+  std::optional<Answer> answer_or_wait(const Request& request,
+                                       std::chrono::milliseconds waited) override {
+    longest_ = std::max(longest_.load(), waited.count());
+    if (request.path == "/wait" && !done_) return std::nullopt;
+    return answer(request);
+  }
+  void end_waiting() { done_ = true; }
+  [[nodiscard]] std::chrono::milliseconds longest() const {
+    return std::chrono::milliseconds(longest_);
+  }
+
+ private:
+  std::atomic<bool> done_{false};
+  std::atomic<std::chrono::milliseconds::rep> longest_{0};
 };
 
 ServerLimits small_limits() {
@@ -169,6 +195,37 @@ TEST_F(ServerTest, many_read_at_once_and_one_that_stops_reading_stops_none) {
         [&, i] { sizes[i] = body_of(Client(served_->port()).ask(get("/large"))).size(); });
   readers.clear();
   for (const std::size_t size : sizes) EXPECT_EQ(size, (std::size_t{8} << 20U) + 1);
+}
+
+TEST_F(ServerTest, who_waits_keeps_nobody_waiting) {
+  Patient patient;
+  // It waits longer than a client may take to send a request.
+  ServerLimits limits = small_limits();
+  limits.sending = limits.silence = 1s;
+  Served served(Server::listen(0, limits).value(), patient);
+  Client waiting(served.port()), also(served.port());
+  waiting.send("POST /wait HTTP/1.1\r\nHost: x\r\nContent-Length: 2\r\n\r\nhi");
+  also.send(get("/wait"));
+  for (int i = 0; i < 3; ++i) {
+    std::this_thread::sleep_for(500ms);
+    EXPECT_EQ(body_of(Client(served.port()).ask(get("/a"))), "/a\n");
+  }
+  EXPECT_GE(patient.longest(), 1s);
+  patient.end_waiting();
+  EXPECT_EQ(body_of(waiting.receive()), "/wait\n");
+  EXPECT_EQ(body_of(also.receive()), "/wait\n");
+  EXPECT_EQ(body_of(waiting.ask(get("/b"))), "/b\n") << "the connection goes on";
+}
+
+TEST_F(ServerTest, a_stop_ends_it_while_some_wait_and_some_of_them_went_away) {
+  Patient patient;
+  Served served(Server::listen(0).value(), patient);
+  Client waiting(served.port());
+  waiting.send(get("/wait"));
+  for (int i = 0; i < 5; ++i) Client(served.port()).send(get("/wait"));
+  EXPECT_EQ(code_of(Client(served.port()).ask(get("/a"))), 200);
+  std::this_thread::sleep_for(200ms);
+  EXPECT_TRUE(served.stop());
 }
 
 TEST_F(ServerTest, clients_that_go_away_end_nothing) {

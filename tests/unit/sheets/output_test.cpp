@@ -2,14 +2,17 @@
 // What PDF and DXF make of the marks and the ink of a sheet.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "sheets/spec/text_metrics.hpp"
 #include "strake/sheets/write.hpp"
 #include "support/pdf_reader.hpp"
 
@@ -102,6 +105,56 @@ TEST(SheetOutput, HiddenLinesHaveOneStyleInDxfWhereTheSheetHasOne) {
     if (layer.at(2).starts_with("AM_3")) colors.insert(layer.at(420));
   const auto hidden = static_cast<std::size_t>(LineClass::hidden);
   EXPECT_EQ(colors, std::set<std::string>{std::to_string(red_of(hidden) * 0x10000)});
+}
+
+/// Where a TEXT of DXF has the unit of a font along its base line and above it, y upwards.
+struct TextAxes {
+  double ax = 0, ay = 0, bx = 0, by = 0;
+};
+TextAxes axes_of(const std::map<int, std::string>& text) {
+  const auto number = [&](int code, double usual) {
+    const auto at = text.find(code);
+    return at == text.end() ? usual : std::stod(at->second);
+  };
+  constexpr double kDegree = 3.14159265358979323846 / 180;
+  const double size = number(40, 0) * kFontSize, side = number(71, 0) == 2 ? -1 : 1;
+  const double c = std::cos(number(50, 0) * kDegree), s = std::sin(number(50, 0) * kDegree);
+  const double along = side * number(41, 1) * size;
+  const double lean = side * std::tan(number(51, 0) * kDegree) * size;
+  return {along * c, along * s, lean * c - size * s, lean * s + size * c};
+}
+
+TEST(SheetOutput, TextsOfATemplateAreTransformedInDxfAsTheyAreInSvg) {
+  struct Case {
+    const char* transform;
+    TextAxes axes;  // of the unit, y upwards
+    bool mirrored;
+  };
+  const double t30 = std::tan(std::acos(-1.0) / 6), h = std::sqrt(0.5);
+  for (const Case& one : std::initializer_list<Case>{
+           {"translate(3,4)", {1, 0, 0, 1}, false},
+           {"rotate(90)", {0, -1, 1, 0}, false},
+           {"scale(2,1)", {2, 0, 0, 1}, false},
+           {"skewX(-30)", {1, 0, t30, 1}, false},
+           {"skewY(30)", {1, -t30, 0, 1}, false},
+           {"scale(-1,1)", {-1, 0, 0, 1}, true},
+           {"scale(1,-1)", {1, 0, 0, -1}, true},
+           {"rotate(45) scale(-1,1) skewX(-30)", {-h, h, h - t30 * h, h + t30 * h}, true},
+           {"matrix(1 2 3 -1 0 0)", {1, -2, -3, -1}, true}}) {
+    Sheet sheet;
+    sheet.artwork.emplace();
+    sheet.artwork->view_box = "0 0 420 297";
+    sheet.artwork->elements =
+        std::string("<text font-size='10' transform='") + one.transform + "'>AB</text>";
+    const auto texts = records_of_dxf(dxf_of(sheet), "TEXT");
+    ASSERT_EQ(texts.size(), 1U) << one.transform;
+    const TextAxes axes = axes_of(texts[0]);
+    EXPECT_NEAR(axes.ax, 10 * one.axes.ax, 0.02) << one.transform;
+    EXPECT_NEAR(axes.ay, 10 * one.axes.ay, 0.02) << one.transform;
+    EXPECT_NEAR(axes.bx, 10 * one.axes.bx, 0.02) << one.transform;
+    EXPECT_NEAR(axes.by, 10 * one.axes.by, 0.02) << one.transform;
+    EXPECT_EQ(texts[0].contains(71), one.mirrored) << one.transform;
+  }
 }
 
 TEST(SheetOutput, EveryClassHasItsColourInPdf) {

@@ -11,6 +11,7 @@
 #include "cli/output/console.hpp"
 #include "cli/verbs/clash/clash_project.hpp"
 #include "core/output_format.hpp"
+#include "core/text/counted.hpp"
 #include "publish/form_words.hpp"
 
 namespace strake::cli {
@@ -108,6 +109,10 @@ void tell_left_out(Console& console, const std::string& file,
         fmt::format("{}: its topics are dated 1970-01-01, for no model file says when it was "
                     "written (--bcf-date)",
                     file));
+  if (const std::uint64_t strange = bcf::strange_dates_of_bcf(contents); strange > 0)
+    console.warn(fmt::format("{}: {} of decisions and comments {} none, and {} not written", file,
+                             counted(strange, "date"), strange == 1 ? "is" : "are",
+                             strange == 1 ? "was" : "were"));
   if (const std::string text = bcf::left_out_of_bcf(contents); !text.empty())
     console.note(
         fmt::format("{}: without {} (--bcf-most, --bcf-contacts, --group-by)", file, text));

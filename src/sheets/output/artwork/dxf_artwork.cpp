@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -110,21 +111,44 @@ class DxfCanvas final : public ArtworkCanvas {
   }
 
   void write(const ArtworkText& text) override {
-    const Affine& m = text.to_paper;
-    const double size = std::hypot(m.c, m.d), along = std::hypot(m.a, m.b);
-    if (!(size > 0 && along > 0)) return;
     const Align align = text.anchored ? text.style.anchor : Align::start;
     const double share = align == Align::start ? 0 : align == Align::middle ? 0.5 : 1;
-    const double turn = geometry::arc_tan2(-m.b, m.a) * 180 / geometry::kPi;
+    std::optional<drawing::dxf::TextPlace> place = place_of(text.to_paper);
+    if (!place) return;
+    place->at = text.to_paper(share * text.width, 0);
+    place->align = dxf_align_of(align);
     paper_.use_pen({{*text.style.fill, 0}});
-    paper_.add_text(layer_,
-                    {m(share * text.width, 0), std::round(size / kFontSize * 1e3) / 1e3,
-                     dxf_align_of(align), std::round(turn * 1e6) / 1e6 + 0.0},
-                    text.text);
+    paper_.add_text(layer_, *place, text.text);
     paper_.use_pen({});
   }
 
  private:
+  /// Returns how a text stands but for its point: turned after it was mirrored, after it was made
+  /// to lean, after it was stretched, which every transform is. Nothing for one that is squeezed to
+  /// a line, or leans more than TEXT may.
+  static std::optional<drawing::dxf::TextPlace> place_of(const Affine& m) {
+    constexpr double kMostDegrees = 85;
+    // Along the base line and upwards, where y points up.
+    const double det = m.b * m.c - m.a * m.d;
+    const double side = det < 0 ? -1 : 1;
+    const double along = std::hypot(m.a, m.b);
+    if (!(std::fabs(det) > 0 && along > 0)) return std::nullopt;
+    const double x = side * m.a / along, y = -side * m.b / along;
+    const double height = std::fabs(det) / along, lean = side * (x * m.c - y * m.d);
+    const auto degrees = [](double opposite, double adjacent) {
+      const double angle = geometry::arc_tan2(opposite, adjacent) * 180 / geometry::kPi;
+      return std::round(angle * 1e6) / 1e6 + 0.0;
+    };
+    drawing::dxf::TextPlace place;
+    place.height = std::round(height / kFontSize * 1e3) / 1e3;
+    place.turn_deg = degrees(y, x);
+    place.stretch = std::round(along / height * 1e6) / 1e6;
+    place.lean_deg = degrees(lean, height);
+    place.mirrored = side < 0;
+    if (!(place.height > 0) || std::fabs(place.lean_deg) > kMostDegrees) return std::nullopt;
+    return place;
+  }
+
   drawing::dxf::PaperSpace& paper_;
   std::size_t layer_;
   drawing::LetterWidths widths_;
