@@ -2,6 +2,7 @@
 #include "tiles/found_merge.hpp"
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <queue>
@@ -73,7 +74,9 @@ class Source {
 
   void skip_empty() {
     while (part_ < batch_.size() && batch_[part_].pairs.empty()) ++part_;
-    if (part_ == batch_.size()) batch_ = {}, part_ = 0;
+    if (part_ < batch_.size()) return;
+    batch_ = {};
+    part_ = 0;
   }
 
   const FoundFile& file_;
@@ -114,8 +117,9 @@ Status merge_found(std::span<const FoundFile> found, std::size_t test, clash::Ti
       continue;
     }
     const clash::Options& options = found[first.source].test(test).tile.report.options;
-    do source.append_to(join, options);
-    while (source.is_unpacked() && (waiting.empty() || source.key() < waiting.top().key));
+    do {
+      source.append_to(join, options);
+    } while (source.is_unpacked() && (waiting.empty() || source.key() < waiting.top().key));
     wait(first.source);
   }
   return {};
