@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "clash/broad_phase/broad_phase.hpp"
-#include "clash/results/reported.hpp"
 #include "clash/results/result_counts.hpp"
 #include "clash/results/result_hash.hpp"
 #include "clash/rules/rule_matcher.hpp"
@@ -26,23 +25,6 @@ void add_to(NotReported::Counts& all, const NotReported::Counts& more) {
   all.contact += more.contact;
   all.clearance_violation += more.clearance_violation;
   all.allowed += more.allowed;
-}
-
-/// Brings values into the order of `from`, which names the place of each, and which this uses up.
-void permute(std::vector<Pair>& values, std::vector<std::uint32_t>& from) {
-  for (std::uint32_t start = 0; start < from.size(); ++start) {
-    if (from[start] == start) continue;
-    Pair first = std::move(values[start]);
-    std::uint32_t at = start;
-    while (from[at] != start) {
-      const std::uint32_t next = from[at];
-      values[at] = std::move(values[next]);
-      from[at] = at;
-      at = next;
-    }
-    values[at] = std::move(first);
-    from[at] = at;
-  }
 }
 
 }  // namespace
@@ -74,14 +56,6 @@ bool TileJoin::fits(const TileReport& tile) const {
 void TileJoin::add(TileReport tile, std::span<const std::uint32_t> objects) {
   Report& report = tile.report;
   const auto number = [&](model::ObjectId& id) { id = model::ObjectId{objects[index(id)]}; };
-  const auto behind = static_cast<std::uint32_t>(all_.regions.size());
-  for (Pair& pair : report.pairs) {
-    number(pair.a);
-    number(pair.b);
-    if (listed_regions(pair, all_.options) > 0) pair.first_region += behind;
-  }
-  all_.pairs.insert(all_.pairs.end(), report.pairs.begin(), report.pairs.end());
-  all_.regions.insert(all_.regions.end(), report.regions.begin(), report.regions.end());
   for (ExemptedPair& pair : report.exempted_pairs) {
     number(pair.a);
     number(pair.b);
@@ -137,20 +111,10 @@ void TileJoin::add_rules(const Report& tile) {
   }
 }
 
-void TileJoin::put_pairs_in_order() {
-  struct Place {
-    std::uint64_t objects = 0;
-    std::uint32_t pair = 0;
-  };
-  std::vector<Place> places(all_.pairs.size());
-  for (std::uint32_t p = 0; p < places.size(); ++p)
-    places[p] = {(std::uint64_t{index(all_.pairs[p].a)} << 32U) | index(all_.pairs[p].b), p};
-  std::ranges::sort(places, {}, &Place::objects);
-  std::vector<std::uint32_t> from(places.size());
-  for (std::size_t p = 0; p < places.size(); ++p) from[p] = places[p].pair;
-  places = {};
-  permute(all_.pairs, from);
-  if (!all_.regions.empty()) put_regions_in_order(all_);
+void TileJoin::append(Pair pair, std::span<const Region> regions) {
+  if (!regions.empty()) pair.first_region = static_cast<std::uint32_t>(all_.regions.size());
+  all_.pairs.push_back(std::move(pair));
+  all_.regions.insert(all_.regions.end(), regions.begin(), regions.end());
 }
 
 Status TileJoin::check_boxes() const {
@@ -165,7 +129,6 @@ Status TileJoin::check_boxes() const {
 Result<Report> TileJoin::finish(const parallel::Context& context) && {
   if (const Status s = check_boxes(); !s) return s.error();
   if (context.stop.stop_requested()) return Error{ErrorCode::cancelled, "was cancelled", {}, {}};
-  put_pairs_in_order();
   std::ranges::sort(all_.exempted_pairs, [](const ExemptedPair& x, const ExemptedPair& y) {
     return std::tie(x.a, x.b, x.rule) < std::tie(y.a, y.b, y.rule);
   });

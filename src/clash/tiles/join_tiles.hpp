@@ -43,9 +43,13 @@ class TileJoin {
   /// Whether the report of a cell is of this test.
   [[nodiscard]] bool fits(const TileReport& tile) const;
 
-  /// Adds the report of a cell that fits, whose objects have these numbers in the model, ascending.
-  /// Cells may come in any order.
+  /// Adds what the report of a cell says besides its pairs and their regions. It fits, and its
+  /// objects have these numbers in the model, ascending. Cells may come in any order.
   void add(TileReport tile, std::span<const std::uint32_t> objects);
+
+  /// Appends a pair of a cell, whose objects have their numbers in the model, and those of its
+  /// regions that are listed. Pairs come in the order of their objects.
+  void append(Pair pair, std::span<const Region> regions);
 
   /// Returns the report of all. Errors: input where there are so many pairs of boxes for each part
   /// that boxes along its faces are needed; cancelled.
@@ -54,7 +58,6 @@ class TileJoin {
  private:
   void add_counts(const Report& tile);
   void add_rules(const Report& tile);
-  void put_pairs_in_order();
   [[nodiscard]] Status check_boxes() const;
 
   const WholeTest& test_;

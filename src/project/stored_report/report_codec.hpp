@@ -55,10 +55,28 @@ struct PartRange {
 /// Whether two reports over one model say the same, bit for bit; what the runs took does not count.
 [[nodiscard]] Result<bool> is_same_result(const clash::Report& x, const clash::Report& y);
 
+/// The level of zstd at which parts are stored, and that for those that are read once and soon.
+inline constexpr int kStoredLevel = 1, kPassingLevel = -5;
+
 /// Encode a report without its pairs, its regions and its log, and one part of these.
 [[nodiscard]] Result<std::vector<std::byte>> encode_head(const clash::Report& report);
 [[nodiscard]] Result<std::vector<std::byte>> encode_part(const ReportRows& report,
-                                                         const PartRange& range);
+                                                         const PartRange& range,
+                                                         int level = kStoredLevel);
+
+/// The pairs of one part, and their regions: Pair::first_region is one more than the place in
+/// `regions`, or 0 where none are listed.
+struct DecodedPart {
+  std::vector<clash::Pair> pairs;
+  std::vector<clash::Region> regions;
+  std::vector<std::int64_t> rows;
+};
+
+/// Returns the part of this number of a report over so many objects, of which the head is decoded.
+/// Errors: input; `what` is what they call it.
+[[nodiscard]] Result<DecodedPart> decode_part(std::span<const std::byte> bytes,
+                                              const clash::Report& head, std::size_t objects,
+                                              std::size_t part, const std::string& what);
 
 /// Returns what tells the bytes of a report from any others: by it a part that is missing, or one
 /// of an earlier run, is not taken for a result. `parts` are the hashes of the bytes of the parts.

@@ -70,14 +70,6 @@ void write_regions(BlobWriter& out, std::span<const Region> regions) {
   put([](const Region& r) { return r.depth_complete; });
 }
 
-/// The pairs and regions of one part, with places of regions in the part.
-struct DecodedPart {
-  std::vector<Pair> pairs;
-  std::vector<Region> regions;
-  std::vector<std::int64_t> rows;
-  std::vector<std::uint32_t> partners;  ///< clash::PartnerBlocks::of
-};
-
 void read_pairs(BlobReader& in, DecodedPart& part) {
   read_pairs(in, part.pairs);
   ColumnsInto<Pair>(in, part.pairs).next<std::uint32_t>([](Pair& p, std::uint32_t v) {
@@ -140,19 +132,6 @@ void check_part(BlobReader& in, const DecodedPart& part, const Limits& limits) {
   for (const Region& region : part.regions)
     if (region.allowed < -1 || region.allowed >= rules || !is_finite(region.point_mm))
       return in.refuse("a region is allowed by no rule, or nowhere");
-}
-
-Result<DecodedPart> decode_part(std::span<const std::byte> bytes, const Limits& limits,
-                                const std::string& what) {
-  DecodedPart part;
-  Result<BlobReader> in = BlobReader::open(bytes, what);
-  if (!in) return in.error();
-  read_pairs(*in, part);
-  read_regions(*in, part.regions);
-  check_part(*in, part, limits);
-  if (const Status status = in->finish(); !status) return status.error();
-  part.partners = clash::partners_of(part.pairs);
-  return part;
 }
 
 /// Puts parts one behind the other.
@@ -282,12 +261,25 @@ Result<bool> is_same_result(const clash::Report& x, const clash::Report& y) {
   return *head_x == *head_y;
 }
 
-Result<std::vector<std::byte>> encode_part(const ReportRows& report, const PartRange& range) {
+Result<std::vector<std::byte>> encode_part(const ReportRows& report, const PartRange& range,
+                                           int level) {
   BlobWriter out;
   write_pairs(out, report, range);
   write_regions(out, {report.report.regions.data() + range.first_region,
                       range.last_region - range.first_region});
-  return out.finish();
+  return out.finish(level);
+}
+
+Result<DecodedPart> decode_part(std::span<const std::byte> bytes, const clash::Report& head,
+                                std::size_t objects, std::size_t number, const std::string& what) {
+  DecodedPart part;
+  Result<BlobReader> in = BlobReader::open(bytes, what);
+  if (!in) return in.error();
+  read_pairs(*in, part);
+  read_regions(*in, part.regions);
+  check_part(*in, part, {head, objects, number});
+  if (const Status status = in->finish(); !status) return status.error();
+  return part;
 }
 
 Result<RememberedReport> decode_report(const EncodedReport& encoded, std::size_t objects,
@@ -301,15 +293,17 @@ Result<RememberedReport> decode_report(const EncodedReport& encoded, std::size_t
   Result<clash::Report> head = decode_head(encoded.head, objects, what);
   if (!head) return head.error();
   all.report = std::move(*head);
-  Result<std::vector<DecodedPart>> parts =
-      parallel::transform(context, {.name = "decode results", .n = encoded.parts.size()},
-                          [&](std::size_t k) -> Result<DecodedPart> {
-                            return decode_part(encoded.parts[k], {all.report, objects, k},
+  clash::PartnerBlocks& partners = all.partners.emplace();
+  partners.of.resize(encoded.parts.size());
+  Result<std::vector<DecodedPart>> parts = parallel::transform(
+      context, {.name = "decode results", .n = encoded.parts.size()},
+      [&](std::size_t k) -> Result<DecodedPart> {
+        Result<DecodedPart> part = decode_part(encoded.parts[k], all.report, objects, k,
                                                what + ", part " + std::to_string(k));
-                          });
+        if (part) partners.of[k] = clash::partners_of(part->pairs);
+        return part;
+      });
   if (!parts) return parts.error();
-  all.partners.emplace();
-  for (DecodedPart& part : *parts) all.partners->of.push_back(std::move(part.partners));
   if (const Status joined = join(*parts, all, context); !joined) return joined.error();
   return all;
 }

@@ -17,6 +17,7 @@
 #include "rules/object_facts.hpp"
 #include "strake/generate/ship.hpp"
 #include "strake/io/writer.hpp"
+#include "strake/parallel/team.hpp"
 #include "support/io_files.hpp"
 #include "support/same_reports.hpp"
 #include "tiles/blob_file.hpp"
@@ -214,6 +215,10 @@ TEST(TiledClash, finds_what_is_found_in_the_whole_model) {
       const CutRun run = files.cut(bytes);
       ASSERT_EQ(run.cells.size() == 1, bytes > 1'000'000'000);
       expect_same(whole, files.by_tiles(run));
+      for (const unsigned workers : {2U, 3U, 8U}) {
+        parallel::Team team(workers);
+        expect_same(whole, join_found(run, files.found(run), {.team = &team}).value());
+      }
     }
   }
 }
