@@ -24,7 +24,7 @@ constexpr std::size_t kMostRuns = 8;
 /// Letters that hang reach so far below the line on which a text stands, in heights of a capital.
 constexpr double kHanging = 0.25;
 
-/// Returns how far above a run texts may stand, the best first.
+/// Returns how far above a run texts may stand, the best first (decision 0110).
 std::vector<double> heights_above(const StraightRun& run, double height_mm) {
   const double apart = kClearanceMm + kHanging * height_mm + 0.05;
   std::vector<double> above;

@@ -2,8 +2,6 @@
 // Tags that lie along what they name, as the numbers of pipes do.
 #pragma once
 
-// Decision 0110 says where a text along a pipe may lie.
-
 #include <optional>
 #include <string>
 
