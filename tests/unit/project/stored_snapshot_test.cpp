@@ -113,7 +113,7 @@ TEST_F(StoredSnapshotTest, OnlyPartsThatChangedAreWritten) {
 }
 
 TEST_F(StoredSnapshotTest, PartsThatStandAreNotHashed) {
-  Snapshot snapshot = of(10'000);
+  const Snapshot snapshot = of(10'000);
   ASSERT_TRUE(write_snapshot(*database_, 5, snapshot, {}, {}, context_));
   const std::vector<Hash128> parts = read().value().parts;
   const std::vector<std::int64_t> before = rows();

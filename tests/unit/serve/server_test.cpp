@@ -202,7 +202,7 @@ TEST_F(ServerTest, who_waits_keeps_nobody_waiting) {
   // It waits longer than a client may take to send a request.
   ServerLimits limits = small_limits();
   limits.sending = limits.silence = 1s;
-  Served served(Server::listen(0, limits).value(), patient);
+  const Served served(Server::listen(0, limits).value(), patient);
   Client waiting(served.port()), also(served.port());
   waiting.send("POST /wait HTTP/1.1\r\nHost: x\r\nContent-Length: 2\r\n\r\nhi");
   also.send(get("/wait"));
@@ -220,7 +220,7 @@ TEST_F(ServerTest, who_waits_keeps_nobody_waiting) {
 TEST_F(ServerTest, a_stop_ends_it_while_some_wait_and_some_of_them_went_away) {
   Patient patient;
   Served served(Server::listen(0).value(), patient);
-  Client waiting(served.port());
+  const Client waiting(served.port());
   waiting.send(get("/wait"));
   for (int i = 0; i < 5; ++i) Client(served.port()).send(get("/wait"));
   EXPECT_EQ(code_of(Client(served.port()).ask(get("/a"))), 200);
