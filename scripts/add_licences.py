@@ -38,7 +38,7 @@ def with_licences(metadata: bytes, names: list[str]) -> bytes:
     """The metadata with a line for each, behind the headers that are there."""
     headers, blank, description = metadata.partition(b"\n\n")
     lines = "".join(f"\nLicense-File: {name}" for name in names)
-    return headers + lines.encode() + blank + description
+    return headers.rstrip(b"\n") + lines.encode() + (blank + description if blank else b"\n")
 
 
 def main(wheel: Path, into: Path, folders: list[Path]) -> None:

@@ -18,20 +18,23 @@
 
 namespace strake::cli {
 
+#ifdef __GLIBC__
 namespace {
 
 /// Bytes by which a heap grows beyond what is asked for, and of which a worker's heap that is empty
 /// is not given back: their pages would be taken again in the next region (decision 0113). It is
-/// little of an address space that has a limit, all of which may be needed.
+/// little of memory that has a limit, all of which may be needed.
 int room_of_heaps() {
   constexpr rlim_t kRoom = rlim_t{64} << 20U, kShare = 64;
-  rlimit space{};
-  if (getrlimit(RLIMIT_AS, &space) != 0 || space.rlim_cur == RLIM_INFINITY)
-    return static_cast<int>(kRoom);
-  return static_cast<int>(std::min(kRoom, space.rlim_cur / kShare));
+  rlim_t room = kRoom;
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA})
+    if (rlimit space{}; getrlimit(resource, &space) == 0 && space.rlim_cur != RLIM_INFINITY)
+      room = std::min(room, space.rlim_cur / kShare);
+  return static_cast<int>(room);
 }
 
 }  // namespace
+#endif
 
 void keep_freed_memory() {
 #ifdef __GLIBC__

@@ -484,7 +484,7 @@ def clash(
 
     Raises: UsageError; InputError for a rules file; KeyboardInterrupt at Ctrl-C.
     """
-    options = {name: value for name, value in locals().items() if name in CLASH_OPTIONS}
+    options = {name: value for name, value in dict(locals()).items() if name in CLASH_OPTIONS}
     core = model_core(model)
     request = request_of(len(model), a, b, **options)
     return Clashes(_core.clash(core, request, run_options(threads, progress)), model)
@@ -536,6 +536,14 @@ def _sort(value: Any, name: str) -> str:
     return one_of(value, ("depth", "volume", "size"), name)
 
 
+def _classes(value: Any, name: str) -> list[str]:
+    return [one_of(one, ("hit", "contact", "clearance", "clearance_violation"), name) for one in texts(value, name)]
+
+
+def _group_by(value: Any, name: str) -> str:
+    return one_of(value, ("element", "proximity", "test", "files", "assembly"), name) if value else optional_text(value, name)
+
+
 def _optional_path(value: Any, name: str) -> str:
     return "" if value is None else str(path(value, name))
 
@@ -565,11 +573,11 @@ _TAKES: dict[str, tuple[str, Callable[[Any, str], Any]]] = {
     "volumes": ("volumes", truth),
     "curves": ("curves", truth),
     "regions": ("regions", count),
-    "group_by": ("group_by", optional_text),
+    "group_by": ("group_by", _group_by),
     "group_distance": ("group_distance_mm", optional_length),
     "group_contacts": ("group_contacts", truth),
     "sort": ("sort", _sort),
-    "classes": ("classes", texts),
+    "classes": ("classes", _classes),
     "list_exempted": ("list_exempted", truth),
     "log_pairs": ("log_pairs", truth),
     "sag": ("sag_mm", optional_sag),

@@ -212,7 +212,7 @@ def draw(
 
     Raises: UsageError, with the argument as `where`; InputError for a view that reaches too far; KeyboardInterrupt.
     """
-    options = {name: value for name, value in locals().items() if name in DRAW_OPTIONS}
+    options = {name: value for name, value in dict(locals()).items() if name in DRAW_OPTIONS}
     core = model_core(model)
     request = draw_request(view, pick(select, len(model), "select"), **options)
     # Not what tells of progress: it may hold on to the drawing, and its bar is closed later on.

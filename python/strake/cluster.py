@@ -177,7 +177,7 @@ def clash(
         memory: what a worker may take, as "1GiB" or in bytes: tiles are cut so small.
         worker_threads: how many threads a worker uses for a tile.
         threads, progress: of what this process does itself.
-        test: what strake.clash() takes besides.
+        test: what strake.clash() takes besides, but log_pairs.
 
     The model of the result has all names and no geometry.
 
@@ -224,8 +224,8 @@ def draw(
         files, scheduler, folder, memory, worker_threads, unit, up_axis, georeference, threads, progress: as in clash().
         view: as strake.draw() takes it.
         select: a selection, or several; None: all.
-        options: what strake.draw() takes besides, but flush_seams=False; and keep_hidden=True, which finds hidden lines though
-            they are not shown, as .json and .view have them.
+        options: what strake.draw() takes besides, but flush_seams=False, centre_lines, hatch, style and single_line; and
+            keep_hidden=True, which finds hidden lines though they are not shown, as .json and .view have them.
 
     An object has its lines in one tile, which also has whatever may hide or cross these: what lies before it along the
     view. Hidden lines that were not asked for are found when the drawing is asked for them, by a second run with the same

@@ -149,6 +149,10 @@ class _Words:
         return {options[word].name: value for word, value in self.given.items() if word in options}
 
 
+# What turns a flag of the program off, as "--volumes=false".
+_OFF = ("false", "off", "no", "disable", "f", "n", "0", "-")
+
+
 def _taken_apart(words: Sequence[str], verb: str, options: dict[str, _Option]) -> _Words:
     taken, rest = _Words(), list(words)
     while rest:
@@ -171,7 +175,11 @@ def _taken_apart(words: Sequence[str], verb: str, options: dict[str, _Option]) -
                 f"strake {verb} has it on one machine only", name, f"leave it out, or --scheduler; docs/cluster.md lists {verb}'s"
             )
         elif option.value is None:
-            taken.given[name] = True
+            # The program has read the words before, and its flags take values.
+            if value.lower() in _OFF:
+                taken.given.pop(name, None)
+            else:
+                taken.given[name] = True
         else:
             _add(taken, name, option, value if joined else rest.pop(0))
     if not taken.outputs:

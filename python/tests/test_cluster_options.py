@@ -154,3 +154,20 @@ def test_what_does_not_go_together(rods: Path, tmp_path: Path, monkeypatch: pyte
     assert done.returncode == 2 and "some" in done.stderr
     done = strake.run_program([*words, "--sag", "0.1um"], check=False)
     assert done.returncode == 2 and "finer than the grid" in done.stderr
+
+
+def test_a_flag_that_is_off_is_off(rods: Path, tmp_path: Path, small_tiles: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("STRAKE_PYTHON", sys.executable)
+    small_tiles.append(40_000)
+    for flag in ("--obstructions", "--insulation", "--volumes"):
+        files = [tmp_path / "whole.json", tmp_path / "tiled.json"]
+        for file, where in zip(files, ([], ["--scheduler", "local"]), strict=True):
+            strake.run_program(["clash", str(rods), f"{flag}=false", "--quiet", "-o", str(file), *where])
+        assert files[0].read_bytes() == files[1].read_bytes()
+
+
+def test_wrong_words_are_told_before_anything_is_cut(rods: Path) -> None:
+    with pytest.raises(strake.UsageError, match="'hits' is none of the words"):
+        strake.cluster.clash(rods, classes="hits")
+    with pytest.raises(strake.UsageError, match="'elements' is none of the words"):
+        strake.cluster.clash(rods, group_by="elements")

@@ -34,8 +34,9 @@ void SheetPixels::draw(const drawing::Line& line, double pixels_per_mm) {
   const double dx = line.b_paper.x * pixels_per_mm - x, dy = line.b_paper.y * pixels_per_mm - y;
   const double length = std::max(std::fabs(dx), std::fabs(dy));
   // A line of the sheet has no more steps than the sheet has pixels along a side.
-  const auto steps =
-      std::min<std::size_t>(static_cast<std::size_t>(std::ceil(length)), kLongerSide);
+  const auto steps = length < static_cast<double>(kLongerSide)
+                         ? static_cast<std::size_t>(std::ceil(length))
+                         : std::size_t{kLongerSide};
   for (std::size_t i = 0; i <= steps; ++i) {
     const double t = steps == 0 ? 0 : static_cast<double>(i) / static_cast<double>(steps);
     const double column = std::floor(x + t * dx), row = std::floor(y + t * dy);

@@ -82,7 +82,7 @@ struct EarlierSignatures {
 /// are found without a look at all.
 struct PartnerBlocks {
   static constexpr std::uint32_t kObjects = 1024;  ///< in a block, by their numbers
-  /// Of each block, as the a of results, the blocks of their b, ascending.
+  /// Of each block, as the a of results, the blocks of their b, ascending, each below of.size().
   std::vector<std::vector<std::uint32_t>> of;
 };
 

@@ -91,9 +91,11 @@ std::optional<Answer> Site::answer_or_wait(const Request& request,
     return guarded(is_page ? told_answer(there.error()) : error_answer(there.error()));
   if (is_page) return guarded(page());
   if (request.path == kStatePath) return guarded(state(request));
+  Result<DecisionRequest> asked = read_decision_request(request.body);
+  if (!asked) return guarded(error_answer(asked.error()));
   auto begun = project::Transaction::begin_at_once(contents_.database);
   if (!begun) return guarded(error_answer(begun.error()));
-  if (*begun) return guarded(decide(request, std::move(**begun)));
+  if (*begun) return guarded(decide(std::move(*asked), std::move(**begun)));
   if (waited < contents_.database.wait()) return std::nullopt;
   return guarded(error_answer(contents_.database.busy()));
 }
@@ -130,15 +132,13 @@ Answer Site::state(const Request& request) {
   return json_answer(HttpStatus::ok, std::move(*told));
 }
 
-Answer Site::decide(const Request& request, project::Transaction transaction) {
-  Result<DecisionRequest> asked = read_decision_request(request.body);
-  if (!asked) return error_answer(asked.error());
-  asked->decision.by = contents_.by;
-  asked->decision.at = contents_.utc_now();
+Answer Site::decide(DecisionRequest asked, project::Transaction transaction) {
+  asked.decision.by = contents_.by;
+  asked.decision.at = contents_.utc_now();
   const Result<project::DecisionsAsSeen> done =
-      project::decide_as_seen(contents_.database, asked->keys, asked->decision, asked->seen);
+      project::decide_as_seen(contents_.database, asked.keys, asked.decision, asked.seen);
   if (!done) return error_answer(done.error());
-  Result<std::string> told = project_answer(contents_.database, asked->seen.event, &*done);
+  Result<std::string> told = project_answer(contents_.database, asked.seen.event, &*done);
   if (!told) return error_answer(told.error());
   if (const Status status = transaction.commit(); !status) return error_answer(status.error());
   return json_answer(done->refused.empty() ? HttpStatus::ok : HttpStatus::conflict,

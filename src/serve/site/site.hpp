@@ -12,6 +12,7 @@
 #include "project/review/decide_as_seen.hpp"
 #include "serve/gate/gate.hpp"
 #include "serve/http/message.hpp"
+#include "serve/site/decision_request.hpp"
 #include "strake/core/result.hpp"
 
 namespace strake::serve {
@@ -51,7 +52,7 @@ class Site final : public Service {
  private:
   [[nodiscard]] Answer page();
   [[nodiscard]] Answer state(const Request& request);
-  [[nodiscard]] Answer decide(const Request& request, project::Transaction transaction);
+  [[nodiscard]] Answer decide(DecisionRequest asked, project::Transaction transaction);
 
   Gate gate_;
   SiteContents contents_;

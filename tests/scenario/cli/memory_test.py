@@ -60,6 +60,12 @@ class Memory(Scenario):
                 self.assertIn(6, codes)
                 self.assertEqual(codes[-1], 0)
 
+    def test_a_small_run_needs_little_data(self):
+        size = 48 * MIB
+        done = self.run_strake('info', 'ship.glb', '--threads', 1,
+                               preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (size, size)))
+        self.assertEqual(done.returncode, 0, done.stderr)
+
 
 if __name__ == '__main__':
     main()
