@@ -274,7 +274,7 @@ const Value* TableReader::table(std::string_view key) {
   reading_.fault(
       found->at,
       "'" + std::string(key) + "' is " + std::string(type_name(*found)) + ", not a table",
-      "write [" + std::string(key) + "] with single brackets, and its keys below");
+      "write [" + within(what_) + std::string(key) + "] with single brackets, and its keys below");
   return nullptr;
 }
 

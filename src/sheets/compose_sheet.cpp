@@ -511,10 +511,15 @@ class Composer {
         std::vector<PaperBox> taken;
         for (const Marks* marks : {&view.grid, &view.notes, &view.match_lines})
           std::ranges::move(taken_boxes(*marks), std::back_inserter(taken));
+        const std::size_t paths = view.match_lines.paths.size(),
+                          texts = view.match_lines.texts.size();
         const auto line =
             draw_match_line(neighbour, what_.number, {spec, place, places_[v].lines, labelled_[v]},
                             letters, taken, view.match_lines);
         if (line) clear_below(*line, view);
+        if (line && leaves_paper(view.match_lines, paths, texts, paper()))
+          warn("note-off-the-sheet", "the match line or its text reaches beyond the paper",
+               spec.where);
         any = any || line;
       }
       if (!any && spec.match_lines_own)

@@ -86,8 +86,7 @@ class ContouredCap {
     Row base = low;
     base.insert(base.end(), high.rbegin() + 1, high.rend() - 1);
     builder_.polygon(base, true);
-    return std::move(builder_).take(
-        std::max(surface_sag(most, tilts), sagitta(radius_, widest_step(rim))));
+    return std::move(builder_).take(surface_sag(most, tilts, widest_step(rim)));
   }
 
  private:
@@ -256,7 +255,10 @@ class ContouredCap {
     }
   }
 
-  [[nodiscard]] double surface_sag(const Arc& most, const std::vector<double>& tilts) const {
+  /// Facets between the rim and the next row have the chords of the one and the height of the
+  /// other.
+  [[nodiscard]] double surface_sag(const Arc& most, const std::vector<double>& tilts,
+                                   double rim_step) const {
     double across = std::max(from_apex_ - tilts.front(), tilts.back() + from_apex_);
     for (std::size_t i = 0; i + 1 < tilts.size(); ++i)
       across = std::max(across, tilts[i] - tilts[i + 1]);
@@ -267,6 +269,7 @@ class ContouredCap {
       from = to;
     }
     along = std::max(along, most.half_angle - from) * most.radius / contour_.ball;
+    along = std::max(along, rim_step * radius_ / contour_.ball);
     return contour_.ball * (along * along + across * across) / 8;
   }
 

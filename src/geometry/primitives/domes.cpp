@@ -187,6 +187,10 @@ std::optional<Tessellation> elliptical_from_eye(const EllipticalDishPrimitive& p
   const double stretch = p.height / p.radius;
   TessellationTarget of_ball = target;
   of_ball.eye->z /= stretch;
+  // What is stretched is as much farther from the surface.
+  if (stretch > 1)
+    segments = static_cast<int>(
+        std::min(std::ceil(segments * std::sqrt(stretch)), double{kMostDomeSegments}));
   auto seen = cap_from_eye(SphericalDishPrimitive{p.radius, p.radius}, of_ball, segments, rows);
   if (!seen) return std::nullopt;
   for (Vec3d& v : seen->mesh.vertices) v.z *= stretch;
@@ -277,8 +281,14 @@ Tessellation make(const SphericalDishPrimitive& p, const TessellationTarget& tar
                                kMostDomeSegments / 2));
   if (target.towards)
     if (auto cap = contoured_cap(p, target, n, rows)) return std::move(*cap);
+  // Of more than half a ball, the columns spread, and take more of them to come as near.
   if (target.eye)
-    if (auto seen = cap_from_eye(p, target, n, rows)) return std::move(*seen);
+    for (int finer = 1; finer <= 4; finer *= 2) {
+      auto seen = cap_from_eye(p, target, std::min(n * finer, kMostDomeSegments),
+                               std::min(rows * finer, kMostDomeSegments / 2));
+      if (!seen) break;
+      if (seen->mesh.sag_mm <= 1.5 * target.sag || finer == 4) return std::move(*seen);
+    }
   std::vector<ProfilePoint> profile{{p.radius, 0}};
   for (int k = 1; k < rows; ++k) {
     // Depth under the apex without cancellation: radius·(1 - cos) = the sagitta of twice the angle.

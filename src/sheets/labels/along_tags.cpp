@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "sheets/arrangement/view_paper.hpp"
 #include "sheets/labels/paper/sheet_lines.hpp"
 #include "sheets/labels/straight_runs.hpp"
+#include "sheets/spec/paper_segments.hpp"
 #include "sheets/spec/text_metrics.hpp"
 
 namespace strake::sheets {
@@ -48,7 +50,15 @@ AlongTags::AlongTags(const Sheet& sheet, const model::Model& model, const SheetA
 std::optional<Text> AlongTags::place(const PlacedView& view, model::ObjectId object,
                                      const std::string& text, double height_mm) {
   const double width = text_width(text) * height_mm;
-  const std::vector<StraightRun> runs = straight_runs(view, model_, object);
+  std::vector<StraightRun> runs = straight_runs(view, model_, object);
+  // At a large scale a run is kilometres long on a sheet of a metre.
+  std::erase_if(runs, [&](StraightRun& run) {
+    const auto on_sheet = clipped(run.line, room_.area);
+    if (on_sheet) run.line = *on_sheet;
+    return !on_sheet;
+  });
+  std::ranges::stable_sort(runs, std::greater<>(),
+                           [](const StraightRun& run) { return length_of(run.line); });
   for (std::size_t r = 0; r < std::min(runs.size(), kMostRuns); ++r) {
     const auto& [a, b] = runs[r].line;
     const double length = length_of(runs[r].line), spare = length - width - 2 * kBeyondMm;

@@ -197,6 +197,20 @@ TEST(AlongTags, OfParallelPipesKeepClearOfEachOther) {
   }
 }
 
+// Sixteen metres of paper: the text lies where the pipe is on the sheet, in the middle of that.
+TEST(AlongTags, StandOnTheSheetWhateverReachesBeyondIt) {
+  const Sheet sheet = sheet_of(
+      pipes({{"LEFT", {-4e5, 0, 0}, {-1000, 0, 0}}, {"RIGHT", {1000, 0, 0}, {4e5, 0, 0}}}));
+  ASSERT_EQ(sheet.views[0].tags.texts.size(), 2U);
+  for (const Text& text : sheet.views[0].tags.texts) {
+    EXPECT_EQ(text.turn_deg, 0);
+    if (text.text == "LEFT")
+      EXPECT_NEAR(text.at.x, 125, 15);
+    else
+      EXPECT_NEAR(text.at.x, 430, 25);
+  }
+}
+
 TEST(AlongTags, LieAlongTheLinesOfWhatIsNotRound) {
   const auto d = test::drawn(
       "[[view]]\nname=\"v\"\ndirection=\"front\"\nscale=\"1:50\"\nposition=[\"150mm\",\"120mm\"]\n"

@@ -124,8 +124,8 @@ class DxfCanvas final : public ArtworkCanvas {
 
  private:
   /// Returns how a text stands but for its point: turned after it was mirrored, after it was made
-  /// to lean, after it was stretched, which every transform is. Nothing for one that is squeezed to
-  /// a line, or leans more than TEXT may.
+  /// to lean, no more than TEXT may, after it was stretched, which every transform is. Nothing for
+  /// one that is squeezed to a line.
   static std::optional<drawing::dxf::TextPlace> place_of(const Affine& m) {
     constexpr double kMostDegrees = 85;
     // Along the base line and upwards, where y points up.
@@ -145,7 +145,8 @@ class DxfCanvas final : public ArtworkCanvas {
     place.stretch = std::round(along / height * 1e6) / 1e6;
     place.lean_deg = degrees(lean, height);
     place.mirrored = side < 0;
-    if (!(place.height > 0) || std::fabs(place.lean_deg) > kMostDegrees) return std::nullopt;
+    if (!(place.height > 0)) return std::nullopt;
+    place.lean_deg = std::clamp(place.lean_deg, -kMostDegrees, kMostDegrees);
     return place;
   }
 
