@@ -110,9 +110,9 @@ void tell_left_out(Console& console, const std::string& file,
                     "written (--bcf-date)",
                     file));
   if (const std::uint64_t strange = bcf::strange_dates_of_bcf(contents); strange > 0)
-    console.warn(fmt::format("{}: {} of decisions and comments {} none; others stand in {} place, or none",
-                             file, counted(strange, "date"), strange == 1 ? "is" : "are",
-                             strange == 1 ? "its" : "their"));
+    console.warn(fmt::format(
+        "{}: {} of decisions and comments {} none; others stand in {} place, or none", file,
+        counted(strange, "date"), strange == 1 ? "is" : "are", strange == 1 ? "its" : "their"));
   if (const std::string text = bcf::left_out_of_bcf(contents); !text.empty())
     console.note(
         fmt::format("{}: without {} (--bcf-most, --bcf-contacts, --group-by)", file, text));
