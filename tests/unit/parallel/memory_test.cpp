@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -31,8 +30,7 @@ struct Numbered {
 
 /// Takes memory, writes it full and gives it back, so that what comes next finds it so.
 void soil_memory(std::size_t bytes) {
-  std::vector<unsigned char> soil(bytes);
-  std::memset(soil.data(), 0xab, soil.size());
+  const std::vector<unsigned char> soil(bytes, 0xab);
   EXPECT_EQ(std::ranges::count(soil, 0xab), static_cast<std::ptrdiff_t>(bytes));
 }
 
