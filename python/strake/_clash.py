@@ -541,7 +541,9 @@ def _classes(value: Any, name: str) -> list[str]:
 
 
 def _group_by(value: Any, name: str) -> str:
-    return one_of(value, ("element", "proximity", "test", "files", "assembly"), name) if value else optional_text(value, name)
+    if value is None or (isinstance(value, str) and not value):
+        return ""
+    return one_of(value, ("element", "proximity", "test", "files", "assembly"), name)
 
 
 def _optional_path(value: Any, name: str) -> str:
