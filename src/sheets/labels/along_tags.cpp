@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
+#include <tuple>
 #include <vector>
 
 #include "sheets/arrangement/view_paper.hpp"
@@ -57,8 +57,10 @@ std::optional<Text> AlongTags::place(const PlacedView& view, model::ObjectId obj
     if (on_sheet) run.line = *on_sheet;
     return !on_sheet;
   });
-  std::ranges::stable_sort(runs, std::greater<>(),
-                           [](const StraightRun& run) { return length_of(run.line); });
+  std::ranges::sort(runs, {}, [](const StraightRun& run) {
+    const auto& [a, b] = run.line;
+    return std::tuple(-length_of(run.line), a.x, a.y, b.x, b.y, run.half_mm);
+  });
   for (std::size_t r = 0; r < std::min(runs.size(), kMostRuns); ++r) {
     const auto& [a, b] = runs[r].line;
     const double length = length_of(runs[r].line), spare = length - width - 2 * kBeyondMm;

@@ -50,12 +50,13 @@ TEST(Snapshot, what_stands_is_not_looked_at) {
   const std::vector<std::uint32_t> mapped = unchanged(then, now, {}).value();
   for (std::uint32_t o = 0; o < kObjects; ++o)
     EXPECT_EQ(mapped[o], o == kRange + 7 ? model::kNoObject : o);
-  for (const auto& spoil : std::vector<void (*)(Snapshot&)>{
-           [](Snapshot& s) { s.names = {}; }, [](Snapshot& s) { s.names = {3, 5}; },
-           [](Snapshot& s) { s.whole = {1, 3}; }, [](Snapshot& s) { s.ranges.clear(); },
-           [](Snapshot& s) { s.identities.pop_back(); }}) {
-    Snapshot other = now;
-    spoil(other);
+  for (Snapshot (*const spoiled)(Snapshot) :
+       std::vector<Snapshot (*)(Snapshot)>{[](Snapshot s) { return s.names = {}, s; },
+                                           [](Snapshot s) { return s.names = {3, 5}, s; },
+                                           [](Snapshot s) { return s.whole = {1, 3}, s; },
+                                           [](Snapshot s) { return s.ranges.clear(), s; },
+                                           [](Snapshot s) { return s.identities.pop_back(), s; }}) {
+    const Snapshot other = spoiled(now);
     EXPECT_TRUE(ranges_that_stand(then, other).empty());
   }
 }
