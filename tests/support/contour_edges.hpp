@@ -110,6 +110,25 @@ inline double worst_end_from(const Vec3d& eye, const Primitive& primitive, const
   return worst;
 }
 
+/// How many vertices of a pipe on its end at z >= 0 are met by one of a dish's rim at z = 0, beside
+/// it to within so much across the axis, and how many are not.
+struct RimMeeting {
+  std::size_t met = 0, missed = 0;
+};
+inline RimMeeting rims_of(const Tessellation& dish, const Tessellation& pipe, double beside) {
+  std::vector<Vec3d> rim;
+  for (const Vec3d& v : dish.mesh.vertices)
+    if (std::fabs(v.z) < 1e-9) rim.push_back(v);
+  RimMeeting rims;
+  for (const Vec3d& v : pipe.mesh.vertices) {
+    if (v.z < 0) continue;
+    const bool is_met = std::ranges::any_of(
+        rim, [&](const Vec3d& w) { return std::hypot(v.x - w.x, v.y - w.y) < beside; });
+    ++(is_met ? rims.met : rims.missed);
+  }
+  return rims;
+}
+
 /// The ends of lines where only one of them ends; more than two lines nowhere.
 inline std::vector<Vec3d> loose_ends(const std::vector<std::pair<Vec3d, Vec3d>>& lines) {
   std::map<std::array<double, 3>, int> ends;

@@ -163,18 +163,10 @@ TEST(Contours, RimsOfPipeAndSphericalDishMeet) {
     const Vec3d towards = draw.direction();
     const Tessellation t = tessellate(dish, {}, 0.5, towards);
     const Tessellation pipe = tessellate(CylinderPrimitive{radius, 1000}, {}, 0.5, towards);
-    std::vector<Vec3d> rim;
-    for (const Vec3d& v : t.mesh.vertices)
-      if (std::fabs(v.z) < 1e-9) rim.push_back(v);
-    std::size_t here = 0;
-    for (const Vec3d& v : pipe.mesh.vertices) {
-      if (v.z < 0) continue;
-      const bool is_met = std::ranges::any_of(
-          rim, [&](const Vec3d& w) { return std::hypot(v.x - w.x, v.y - w.y) < 1e-9; });
-      ++(is_met ? met : missed);
-      here += is_met ? 0U : 1U;
-    }
-    EXPECT_LE(here, 2U) << i;
+    const test::RimMeeting rims = test::rims_of(t, pipe, 1e-9);
+    met += rims.met;
+    missed += rims.missed;
+    EXPECT_LE(rims.missed, 2U) << i;
   }
   EXPECT_GT(met, 20 * missed);
 }

@@ -104,18 +104,10 @@ TEST(ContoursFromAnEye, RimsOfPipeAndDishMeet) {
     const Tessellation t = tessellate_from(eye, dish, {}, 0.5);
     const Tessellation pipe =
         tessellate_from(eye + Vec3d{0, 0, 500}, CylinderPrimitive{radius, 1000}, {}, 0.5);
-    std::vector<Vec3d> rim;
-    for (const Vec3d& v : t.mesh.vertices)
-      if (std::fabs(v.z) < 1e-9) rim.push_back(v);
-    std::size_t here = 0;
-    for (const Vec3d& v : pipe.mesh.vertices) {
-      if (v.z < 0) continue;
-      const bool is_met = std::ranges::any_of(
-          rim, [&](const Vec3d& w) { return std::hypot(v.x - w.x, v.y - w.y) < 1e-6; });
-      ++(is_met ? met : missed);
-      here += is_met ? 0U : 1U;
-    }
-    EXPECT_LE(here, i % 2 == 0 ? 2U : 0U) << i;
+    const test::RimMeeting rims = test::rims_of(t, pipe, 1e-6);
+    met += rims.met;
+    missed += rims.missed;
+    EXPECT_LE(rims.missed, i % 2 == 0 ? 2U : 0U) << i;
   }
   EXPECT_GT(met, 20 * missed);
 }
