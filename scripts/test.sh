@@ -11,7 +11,7 @@ case "${1:-}" in
 esac
 need build test
 scripts/npm.sh
-[ "$preset" = nightly ] && { need docs step; scripts/sanitize.sh; }
+[ "$preset" = nightly ] && { need docs step; scripts/sanitize.sh --all; }
 configure_and_build "$preset"
 scripts/format.sh --check
 if [ "$preset" = nightly ]; then
