@@ -40,7 +40,7 @@ class Evaluation {
     for (const CaseRecord& one : record.cases) wanted_.erase(one.name);
     for (const StudyRecord& study : record.studies) wanted_.erase(study.name);
     std::erase_if(record.peers, [&](const PeerRecord& peer) {
-      return wanted_.contains(peer.name) && hooks.peers && may_be_asked_again(peer);
+      return wanted_.contains(peer.name) && hooks.peers && may_be_retried(peer);
     });
     for (const PeerRecord& peer : record.peers) wanted_.erase(peer.name);
     for (const ViewCase& view : view_cases())

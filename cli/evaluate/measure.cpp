@@ -63,7 +63,7 @@ class StageMeter {
   }
 
   /// Returns how far the two runs of the same are apart, as part of their time.
-  [[nodiscard]] double noise() const { return noise_of(stage_); }
+  [[nodiscard]] double noise() const { return timing_noise(stage_); }
 
   StageRecord take(std::string name) {
     stage_.name = std::move(name);

@@ -155,7 +155,7 @@ Result<std::vector<std::filesystem::path>> model_files(
   return paths;
 }
 
-Result<Loaded> load_project(Session& session, OpenedProject& opened,
+Result<LoadedModel> load_project(Session& session, OpenedProject& opened,
                             const model::SceneOptions& options,
                             std::span<const rules::FileSettings> said_of_files) {
   Result<std::vector<std::filesystem::path>> files =
@@ -167,7 +167,7 @@ Result<Loaded> load_project(Session& session, OpenedProject& opened,
   }();
   if (!stored) return stored.error();
   tell_of_model(session, stored->model);
-  Result<Loaded> loaded = place(session, std::move(stored->model), options);
+  Result<LoadedModel> loaded = place(session, std::move(stored->model), options);
   if (!loaded) return loaded;
   loaded->files = std::move(*files);
   loaded->shape_hashes = std::move(stored->shape_hashes);

@@ -229,7 +229,7 @@ class Engine {
     // The log has the classes of all, whatever is reported of them.
     if (options_.engine.log_pairs)
       if (const Status s = log_pairs(evaluated(), objects_, rules_, context_, report); !s) return s;
-    if (const Status s = keep_reported(results, sets_, context_, report); !s) return s;
+    if (const Status s = filter_reported(results, sets_, context_, report); !s) return s;
     if (report.options.engine.most_regions > 0 || !report.allowed.empty()) {
       if (const Status s = aggregate_regions(results, context_, report); !s) return s;
     } else {

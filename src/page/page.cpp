@@ -29,8 +29,8 @@ void visit_pairs(const clash::Findings& findings, clash::Class cls, const Visit&
 
 /// Returns what is wanted of the model: what clashes first, then what is near; contacts are mostly
 /// meant, and come last.
-ShownWishes wishes_of(const PageContents& contents) {
-  ShownWishes wishes{.how = contents.shown};
+ShowPriorities wishes_of(const PageContents& contents) {
+  ShowPriorities wishes{.how = contents.shown};
   if (contents.clash == nullptr) {
     wishes.drawn = contents.drawn;
     for (std::uint32_t o = 0; o < contents.model.objects.size(); ++o)
@@ -52,7 +52,7 @@ ShownWishes wishes_of(const PageContents& contents) {
 /// Returns which objects the page names: those of results, and those that it shows.
 std::vector<bool> named_objects(const PageContents& contents, const ShownObjects& shown) {
   std::vector<bool> named(contents.model.objects.size(), false);
-  for (std::size_t o = 0; o < shown.of.size(); ++o) named[o] = shown.of[o] != Shown::nothing;
+  for (std::size_t o = 0; o < shown.of.size(); ++o) named[o] = shown.of[o] != ShownAs::nothing;
   if (contents.clash == nullptr) return named;
   for (const clash::Report& test : contents.clash->findings.tests)
     for (const clash::Pair& pair : test.pairs)

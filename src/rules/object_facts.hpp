@@ -22,6 +22,6 @@ struct ObjectFacts {
 };
 
 /// Sets whether bodies of a model are of these categories.
-void look_for_categories(const model::Model& model, ObjectFacts& facts);
+void detect_categories(const model::Model& model, ObjectFacts& facts);
 
 }  // namespace strake::rules

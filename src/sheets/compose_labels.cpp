@@ -18,9 +18,9 @@ namespace {
 constexpr const char* kRoomMend = " (smaller letters, fewer tags or a larger sheet make room)";
 
 /// Tells of labels that a sheet lacks.
-class LabelTeller {
+class LabelDiagnostics {
  public:
-  LabelTeller(const SheetSpec& what, std::span<const std::vector<bool>> picked, Sheet& sheet)
+  LabelDiagnostics(const SheetSpec& what, std::span<const std::vector<bool>> picked, Sheet& sheet)
       : what_(what), picked_(picked), sheet_(sheet) {}
 
   /// Tells of the tags of all tables, whose lists come table by table.
@@ -128,7 +128,7 @@ Status compose_labels(const SheetSpec& what, const model::Model& model,
           balloons_of(what.parts_lists[l], notes.listed[l], model.objects.size(), sheet));
   if (const Status status = write_labels(labels, model, room, sheet, context.stop); !status)
     return status;
-  LabelTeller teller(what, picked, sheet);
+  LabelDiagnostics teller(what, picked, sheet);
   teller.tell(labels.tags);
   for (const BalloonList& list : labels.balloons) teller.tell(list);
   return {};

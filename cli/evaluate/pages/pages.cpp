@@ -59,7 +59,7 @@ std::string resolution(const EvaluationRecord& record) {
   std::string where;
   for (const CaseRecord& one : record.cases)
     for (const StageRecord& stage : one.stages)
-      if (const double noise = noise_of(stage); noise >= worst) {
+      if (const double noise = timing_noise(stage); noise >= worst) {
         worst = noise;
         where = one.name + ", " + stage.name;
       }

@@ -107,7 +107,7 @@ Section speedups(const EvaluationRecord& record, const std::string& stage) {
              ? percent(s->serial_share)
              : fmt::format("{} {}", percent(s->serial_share), s->serial_region),
          number(s->amdahl), number(s->bound), number(1000 * s->alone_s, 1), number(s->by_cpu),
-         percent(noise_of(measured)), measured.differences.empty() ? "yes" : "NO"});
+         percent(timing_noise(measured)), measured.differences.empty() ? "yes" : "NO"});
     chart.names.push_back(one.name);
     chart.series.front().values.push_back(s->speedup);
   });

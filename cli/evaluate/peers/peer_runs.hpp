@@ -25,7 +25,7 @@ struct PeerPrograms {
                                           double scale, const std::stop_token& stop);
 
 /// Whether a peer that was not there, or failed, may have an answer now.
-[[nodiscard]] bool may_be_asked_again(const PeerRecord& record);
+[[nodiscard]] bool may_be_retried(const PeerRecord& record);
 
 /// Returns what became of a peer, in a line.
 [[nodiscard]] std::string outcome_line(const PeerRecord& record);

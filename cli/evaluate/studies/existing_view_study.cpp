@@ -30,7 +30,7 @@ struct Seconds {
 };
 
 /// Those of several rounds.
-class Rounds {
+class RoundTimes {
  public:
   void add(double all, const parallel::RunReport& report) {
     all_.push_back(all);
@@ -57,7 +57,7 @@ struct ExistingView {
 };
 
 /// A drawing that was made from an existing view.
-struct Followed {
+struct FollowedView {
   hlr::Redrawn redrawn;
   std::size_t changed = 0;  ///< objects
   Seconds seconds;
@@ -107,7 +107,7 @@ class ViewRuns {
 
   Result<ExistingView> make_view() {
     ExistingView made;
-    Rounds rounds;
+    RoundTimes rounds;
     for (std::uint64_t round = 0; round < input_.settings.repeat; ++round) {
       parallel::RunReport report;
       const auto start = std::chrono::steady_clock::now();
@@ -143,9 +143,9 @@ class ViewRuns {
   }
 
   /// What a run takes that has the earlier drawing in memory: signatures, their comparison, lines.
-  Result<Followed> follow_rounds(const ExistingView& existing, const model::Scene& scene) {
-    Followed followed;
-    Rounds rounds;
+  Result<FollowedView> follow_rounds(const ExistingView& existing, const model::Scene& scene) {
+    FollowedView followed;
+    RoundTimes rounds;
     for (std::uint64_t round = 0; round < input_.settings.repeat; ++round) {
       hlr::Drawing drawing = existing.drawing;
       drawing.pieces.reserve(drawing.pieces.size() + drawing.pieces.size() / 16);

@@ -29,14 +29,14 @@ struct Unit {
 };
 
 /// A unit of work that no run has, and why.
-struct Forbidden {
+struct InadmissibleUnit {
   std::string_view algorithm, name, reason;
 };
 
 constexpr std::string_view kLocal = "local hidden lines", kGlobal = "global hidden lines",
                            kClash = "clash detection";
 
-constexpr std::array<Forbidden, 5> kForbidden{{
+constexpr std::array<InadmissibleUnit, 5> kForbidden{{
     {kLocal, "reference plane",
      "all planes of an object write to the same lines, which would have to be locked for each "
      "test, or joined after"},
@@ -84,7 +84,7 @@ Status run_units(const StudyInput& input, const std::vector<Unit>& units, StudyR
     const bool is_first = &unit == &units.front();
     if (is_first) first = std::move(*run);
     const StudyRun& done = is_first ? first : *run;
-    const parallel::RegionReport region = whole_of(done.regions, unit.regions);
+    const parallel::RegionReport region = merged_report(done.regions, unit.regions);
     std::string same =
         is_first ? "-" : equal(done, first, unit.algorithm + ", " + unit.name, study);
     add_unit_row(unit.algorithm, unit.name, unit_cells(done, region, std::move(same)),
@@ -165,7 +165,7 @@ Status study_granularity(const StudyInput& input, StudyRecord& study) {
   if (!scene) return scene.error();
   for (const hlr::Stage stage : {hlr::Stage::local, hlr::Stage::global}) {
     if (const Status s = run_units(input, units_of_lines(*scene, stage), study); !s) return s;
-    for (const Forbidden& one : kForbidden)
+    for (const InadmissibleUnit& one : kForbidden)
       if (one.algorithm == (stage == hlr::Stage::local ? kLocal : kGlobal))
         add_unit_row(one.algorithm, one.name, {}, "not run: " + std::string(one.reason), study);
   }

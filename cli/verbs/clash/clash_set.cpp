@@ -82,7 +82,7 @@ Result<std::vector<std::string>> keys_by_selection(Session& session, OpenedProje
                                                    const std::vector<std::string>& texts) {
   const Result<std::vector<model::Selection>> selections = parse_selections(texts, "--select");
   if (!selections) return selections.error();
-  const Result<Loaded> loaded = load_project(session, opened, {});
+  const Result<LoadedModel> loaded = load_project(session, opened, {});
   if (!loaded) return loaded.error();
   const Result<std::vector<bool>> picked =
       pick_any(session, loaded->scene, *selections, "--select");

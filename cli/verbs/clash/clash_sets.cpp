@@ -50,7 +50,7 @@ Result<SetRequest> set_request(const SetInput& input) {
   return SetRequest{std::move(*a), std::move(*b), input.self};
 }
 
-Result<ChosenSets> choose_sets(Session& session, const Loaded& loaded, const SetRequest& request) {
+Result<ChosenSets> choose_sets(Session& session, const LoadedModel& loaded, const SetRequest& request) {
   if (request.a.empty() && request.b.empty())
     return ChosenSets{
         request.self ? clash::one_set(loaded.scene) : clash::sets_by_file(*loaded.model), {}};
@@ -64,7 +64,7 @@ Result<ChosenSets> choose_sets(Session& session, const Loaded& loaded, const Set
   for (const Side& side : {Side{request.a, chosen.sets.in_a, chosen.sets.name_a, "--a"},
                            Side{request.b, chosen.sets.in_b, chosen.sets.name_b, "--b"}}) {
     if (side.selections.empty()) continue;
-    Result<Picked> picked = pick_all(session, loaded.scene, side.selections);
+    Result<SelectedObjects> picked = pick_all(session, loaded.scene, side.selections);
     if (!picked) return picked.error();
     side.members = std::move(picked->any);
     side.name = joined(side.selections);

@@ -46,7 +46,7 @@ std::string brute_force_cost(const hlr::BruteForceWork& work, unsigned workers) 
       workers == 1 ? "" : "s");
 }
 
-Status tell_brute_force_cost(Session& session, const model::Scene& scene,
+Status print_brute_force_cost(Session& session, const model::Scene& scene,
                              const std::vector<bool>& drawn, const hlr::View& view,
                              const hlr::Options& options) {
   const auto timer = session.step("count the work");

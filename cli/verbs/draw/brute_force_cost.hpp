@@ -15,7 +15,7 @@ namespace strake::cli {
 [[nodiscard]] std::string brute_force_cost(const hlr::BruteForceWork& work, unsigned workers);
 
 /// Says on standard error what the brute force will cost, before it starts.
-[[nodiscard]] Status tell_brute_force_cost(Session& session, const model::Scene& scene,
+[[nodiscard]] Status print_brute_force_cost(Session& session, const model::Scene& scene,
                                            const std::vector<bool>& drawn, const hlr::View& view,
                                            const hlr::Options& options);
 

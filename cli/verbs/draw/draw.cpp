@@ -63,7 +63,7 @@ Status check_drawing_outputs(Session& session, const DrawOptions& given) {
 /// Draws the model files, or a project as if its model came from them.
 Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
                             const DrawRequest& request) {
-  Result<Loaded> loaded = [&]() -> Result<Loaded> {
+  Result<LoadedModel> loaded = [&]() -> Result<LoadedModel> {
     if (given.project.file.empty()) return load(session, given.input, request.scene);
     Result<OpenedProject> opened = open_project(session, given.project, project::Access::read);
     if (!opened) return opened.error();
@@ -78,7 +78,7 @@ Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
   if (!lines) return lines.error();
   const auto drawing = put_on_paper(session, *lines, *loaded->model, prepared->layout);
   if (!drawing) return drawing.error();
-  tell_drawing(session, *drawing, *loaded->model);
+  report_drawing(session, *drawing, *loaded->model);
   if (const Status status = write_drawing(session, given, *drawing, *loaded->model, &loaded->scene);
       !status)
     return status.error();

@@ -42,7 +42,7 @@ Result<PreparedView> prepare_view(Session& session, const DrawRequest& request,
   Result<std::vector<bool>> drawn = pick_any(session, scene, request.selections, "--select");
   if (!drawn) return drawn.error();
   prepared.drawn = std::move(*drawn);
-  if (const Status status = mind_far_objects(session, scene, request.view, !request.far_objects,
+  if (const Status status = resolve_far_objects(session, scene, request.view, !request.far_objects,
                                              prepared.drawn, prepared.layout);
       !status)
     return status.error();
@@ -66,7 +66,7 @@ Result<hlr::Drawing> solve(Session& session, const DrawRequest& request,
                            const PreparedView& prepared, const model::Scene& scene) {
   if (prepared.options.solver == hlr::Solver::brute_force)
     if (const Status told =
-            tell_brute_force_cost(session, scene, prepared.drawn, request.view, prepared.options);
+            print_brute_force_cost(session, scene, prepared.drawn, request.view, prepared.options);
         !told)
       return told.error();
   const auto timer = session.step("hidden lines");
@@ -131,7 +131,7 @@ void tell_conventions(Session& session, const drawing::Conventions& conventions,
 
 }  // namespace
 
-void tell_drawing(Session& session, const drawing::NeutralDrawing& drawing,
+void report_drawing(Session& session, const drawing::NeutralDrawing& drawing,
                   const model::Model& model) {
   count_work(session.stats(), drawing);
   print_drawing_summary(session.console(), drawing, model);

@@ -20,7 +20,7 @@ std::string sheet_text(const drawing::PlaneBox& box, const drawing::LayoutOption
 
 }  // namespace
 
-Status mind_far_objects(Session& session, const model::Scene& scene, const hlr::View& view,
+Status resolve_far_objects(Session& session, const model::Scene& scene, const hlr::View& view,
                         bool leave_out, std::vector<bool>& drawn, drawing::LayoutOptions& layout) {
   const Result<drawing::FarObjects> far =
       drawing::find_far_objects(scene, drawn, view, session.context());

@@ -14,7 +14,7 @@ namespace strake::cli {
 /// Looks for objects that lie so far from all others that they decide the scale of a view. It takes
 /// them out of `drawn` and names them in `layout` where they are to be left out, and warns of them
 /// otherwise. Errors: cancelled.
-[[nodiscard]] Status mind_far_objects(Session& session, const model::Scene& scene,
+[[nodiscard]] Status resolve_far_objects(Session& session, const model::Scene& scene,
                                       const hlr::View& view, bool leave_out,
                                       std::vector<bool>& drawn, drawing::LayoutOptions& layout);
 

@@ -158,7 +158,7 @@ std::uint64_t strange_dates_of_bcf(const report::ClashContents& contents) {
 }
 
 std::string left_out_of_bcf(const report::ClashContents& contents) {
-  const LeftOut left_out = plan_topics(contents).left_out;
+  const LeftOutCounts left_out = plan_topics(contents).left_out;
   std::string text;
   if (left_out.groups > 0) text = counted(left_out.groups, "group");
   if (left_out.results > 0) text = counted(left_out.results, "result");

@@ -75,7 +75,7 @@ bool is_guid(std::string_view text) {
   return true;
 }
 
-std::string mark_of(std::string_view assignee) {
+std::string assignee_digest(std::string_view assignee) {
   if (assignee.empty()) return "none";
   constexpr std::size_t kDigits = 8;
   return report::uuid_from_key(report::kClashNamespace, "assignee:" + std::string(assignee))

@@ -21,7 +21,7 @@ struct ReferredClash {
 
 struct Reference {
   std::string group;          ///< clash::Group::id; empty: the topic is about one clash
-  std::string assignee_mark;  ///< mark_of() of whom the topic was assigned to
+  std::string assignee_mark;  ///< assignee_digest() of whom the topic was assigned to
   std::vector<ReferredClash> clashes;
 
   /// Returns the status that the topic was written with: the least of those of its clashes.
@@ -44,7 +44,7 @@ inline constexpr std::size_t kMostReferred = 1000;
 [[nodiscard]] bool is_guid(std::string_view text);
 
 /// Returns eight digits by which an assignee is known again; "none" for nobody.
-[[nodiscard]] std::string mark_of(std::string_view assignee);
+[[nodiscard]] std::string assignee_digest(std::string_view assignee);
 
 /// Returns the reference as a line of a description.
 [[nodiscard]] std::string reference_line(const Reference& reference);

@@ -93,11 +93,11 @@ Reference reference_of(const report::ClashContents& contents, const PlannedTopic
                        std::string_view assignee) {
   Reference reference;
   if (topic.group != nullptr) reference.group = topic.group->id;
-  reference.assignee_mark = mark_of(assignee);
+  reference.assignee_mark = assignee_digest(assignee);
   const std::size_t named = std::min(topic.results.size(), kMostReferred);
   for (std::size_t r = 0; r < named; ++r)
     reference.clashes.push_back({key_of(contents, topic.results[r]),
-                                 current_status(decided_of(contents, topic.results[r]))});
+                                 current_status(decision_about(contents, topic.results[r]))});
   return reference;
 }
 
@@ -141,7 +141,7 @@ std::vector<std::string> labels_of(const report::ClashContents& contents,
 std::string assignee_of(const report::ClashContents& contents, const PlannedTopic& topic) {
   std::string common;
   for (std::size_t r = 0; r < topic.results.size(); ++r) {
-    const report::DecidedResult* const decided = decided_of(contents, topic.results[r]);
+    const report::DecidedResult* const decided = decision_about(contents, topic.results[r]);
     const std::string assignee =
         decided == nullptr ? std::string() : compared_text(decided->decision->assignee);
     if (r > 0 && assignee != common) return {};
@@ -193,7 +193,7 @@ std::vector<TopicComment> comments_of(const report::ClashContents& contents,
                                       const PlannedTopic& topic, const std::string& guid) {
   std::map<std::string, TopicComment> by_guid;
   for (const ResultRef& result : topic.results) {
-    const report::DecidedResult* const decided = decided_of(contents, result);
+    const report::DecidedResult* const decided = decision_about(contents, result);
     if (decided == nullptr) continue;
     for (const report::DecisionComment& said : said_of(*decided->decision)) {
       TopicComment comment = topic_comment(said, guid, contents.bcf);
@@ -240,7 +240,7 @@ const std::string& told_time(const report::Decision& decision) {
 void set_change(TopicFacts& facts, const report::ClashContents& contents,
                 const PlannedTopic& topic) {
   for (const ResultRef& result : topic.results) {
-    const report::DecidedResult* const decided = decided_of(contents, result);
+    const report::DecidedResult* const decided = decision_about(contents, result);
     if (decided == nullptr || decided->decision->by.empty()) continue;
     auto date = stated_time(told_time(*decided->decision));
     if (!date || *date <= facts.changed) continue;
@@ -267,7 +267,7 @@ std::uint64_t count_strange_dates(const report::ClashContents& contents, const T
   };
   for (const PlannedTopic& topic : plan.topics)
     for (const ResultRef& result : topic.results) {
-      const report::DecidedResult* const decided = decided_of(contents, result);
+      const report::DecidedResult* const decided = decision_about(contents, result);
       if (decided == nullptr) continue;
       look(told_time(*decided->decision));
       for (const report::DecisionComment& said : decided->decision->comments) {

@@ -145,26 +145,26 @@ class Namer {
 
  private:
   /// An assembly, or a file: ordered by what lasts. Neighbours of one name differ in `group`.
-  struct Whole {
+  struct AssemblyOrFile {
     std::string file, path, name;
     model::GroupId group = model::GroupId::none;
-    friend auto operator<=>(const Whole&, const Whole&) = default;
+    friend auto operator<=>(const AssemblyOrFile&, const AssemblyOrFile&) = default;
   };
 
-  [[nodiscard]] Whole whole_of(model::ObjectId id) const {
+  [[nodiscard]] AssemblyOrFile whole_of(model::ObjectId id) const {
     const std::string& file = model_.files[model_.object(id).file].label;
     const model::GroupId assembly = assemblies_->of(id);
     if (assembly == model::GroupId::none) return {file, {}, file, assembly};
     return {file, assemblies_->path(assembly), model_.groups[index(assembly)].name, assembly};
   }
 
-  [[nodiscard]] std::pair<Whole, Whole> wholes_of(const Group& group) const {
+  [[nodiscard]] std::pair<AssemblyOrFile, AssemblyOrFile> wholes_of(const Group& group) const {
     const Pair& pair = pair_of(group);
     return std::minmax(whole_of(pair.a), whole_of(pair.b));
   }
 
-  [[nodiscard]] static std::string name_of(const std::pair<Whole, Whole>& wholes, bool by_path) {
-    const auto text = [by_path](const Whole& whole) {
+  [[nodiscard]] static std::string name_of(const std::pair<AssemblyOrFile, AssemblyOrFile>& wholes, bool by_path) {
+    const auto text = [by_path](const AssemblyOrFile& whole) {
       return by_path && !whole.path.empty() ? whole.path : whole.name;
     };
     return wholes.first == wholes.second ? "within " + text(wholes.first)
@@ -172,8 +172,8 @@ class Namer {
   }
 
   void name_by_assembly(Group& group, Hasher& hasher) const {
-    const std::pair<Whole, Whole> wholes = wholes_of(group);
-    for (const Whole& whole : {wholes.first, wholes.second}) hasher.add(whole.file).add(whole.path);
+    const std::pair<AssemblyOrFile, AssemblyOrFile> wholes = wholes_of(group);
+    for (const AssemblyOrFile& whole : {wholes.first, wholes.second}) hasher.add(whole.file).add(whole.path);
     group.name = name_of(wholes, false);
   }
 

@@ -76,7 +76,7 @@ Result<bool> have_same_names(const Report& earlier, const model::Model& model,
   return earlier.kept && earlier.kept->elements == *names;
 }
 
-void let_go_of_hashed_contacts(const KeptForChanges& kept, std::span<const std::uint64_t> names,
+void mark_hashed_contacts_changed(const KeptForChanges& kept, std::span<const std::uint64_t> names,
                                ObjectMap& map) {
   const RenamedObjects renamed(kept.elements, names, map);
   for (const UnlistedContact& contact : kept.unlisted)

@@ -11,8 +11,8 @@
 namespace strake::clash {
 namespace {
 
-/// What becomes of a result.
-enum class Fate : std::uint8_t {
+/// Whether a result is reported, and what decides it.
+enum class ReportDecision : std::uint8_t {
   reported,
   volume_open,  ///< reported, though it may have less in common than asked for
   by_relation,  ///< not reported
@@ -24,13 +24,13 @@ class Reported {
   Reported(const PartResults& results, const Sets& sets, const Reporting& reporting)
       : results_(results), sets_(sets), reporting_(reporting) {}
 
-  [[nodiscard]] Fate of(const Pair& pair) const {
-    if (!has_relation(pair)) return Fate::by_relation;
+  [[nodiscard]] ReportDecision of(const Pair& pair) const {
+    if (!has_relation(pair)) return ReportDecision::by_relation;
     const CommonVolume* const common = results_.found[pair.first_region].common;
-    if (!(reporting_.min_volume_mm3 > 0) || common == nullptr) return Fate::reported;
-    if (pair.cls != Class::hit) return Fate::reported;  // an allowed hit goes by its volume as well
-    if (common->is_less_than(reporting_.min_volume_mm3)) return Fate::by_volume;
-    return common->may_be_less_than(reporting_.min_volume_mm3) ? Fate::volume_open : Fate::reported;
+    if (!(reporting_.min_volume_mm3 > 0) || common == nullptr) return ReportDecision::reported;
+    if (pair.cls != Class::hit) return ReportDecision::reported;  // an allowed hit goes by its volume as well
+    if (common->is_less_than(reporting_.min_volume_mm3)) return ReportDecision::by_volume;
+    return common->may_be_less_than(reporting_.min_volume_mm3) ? ReportDecision::volume_open : ReportDecision::reported;
   }
 
  private:
@@ -66,7 +66,7 @@ std::uint64_t& count_of(NotReported::Counts& counts, Class cls, bool allowed) {
   return cls == Class::contact ? counts.contact : counts.clearance_violation;
 }
 
-Status keep_reported(const PartResults& results, const Sets& sets, const parallel::Context& context,
+Status filter_reported(const PartResults& results, const Sets& sets, const parallel::Context& context,
                      Report& report) {
   // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 4096;
@@ -79,16 +79,16 @@ Status keep_reported(const PartResults& results, const Sets& sets, const paralle
   std::vector<Pair> kept;
   for (std::size_t i = 0; i < fates->size(); ++i) {
     Pair& pair = report.pairs[i];
-    const Fate fate = (*fates)[i];
-    if (report.kept && (fate == Fate::by_relation || fate == Fate::by_volume))
+    const ReportDecision fate = (*fates)[i];
+    if (report.kept && (fate == ReportDecision::by_relation || fate == ReportDecision::by_volume))
       report.kept->unreported.push_back(
-          {pair.a, pair.b, pair.cls, pair.allowed >= 0, fate == Fate::by_volume});
-    if (fate == Fate::by_relation) {
+          {pair.a, pair.b, pair.cls, pair.allowed >= 0, fate == ReportDecision::by_volume});
+    if (fate == ReportDecision::by_relation) {
       ++count_of(report.not_reported.by_relation, pair.cls, pair.allowed >= 0);
-    } else if (fate == Fate::by_volume) {
+    } else if (fate == ReportDecision::by_volume) {
       ++count_of(report.not_reported.by_volume, pair.cls, pair.allowed >= 0);
     } else {
-      if (fate == Fate::volume_open) pair.flags |= kUncertain;
+      if (fate == ReportDecision::volume_open) pair.flags |= kUncertain;
       kept.push_back(pair);
     }
   }

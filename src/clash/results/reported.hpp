@@ -14,7 +14,7 @@ namespace strake::clash {
 /// counts it in `not_reported`. A hit of which the bracket of its volume leaves open whether it is
 /// reported stays, flagged kUncertain. `pairs` still carry the number of their first result in
 /// Pair::first_region. Errors: cancelled.
-[[nodiscard]] Status keep_reported(const PartResults& results, const Sets& sets,
+[[nodiscard]] Status filter_reported(const PartResults& results, const Sets& sets,
                                    const parallel::Context& context, Report& report);
 
 /// Returns how many regions of a pair are listed, those that a rule allows too.

@@ -144,7 +144,7 @@ bool takes_part(const PlaneSegment& line, double least) {
   // compared.
   constexpr double kBelow = 1 - 1e-9;
   const double length = line.length();
-  return line.rank != Rank::none && length > 0 && length > least * kBelow;
+  return line.rank != OverlapRank::none && length > 0 && length > least * kBelow;
 }
 
 }  // namespace

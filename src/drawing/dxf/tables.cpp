@@ -38,7 +38,7 @@ Groups& begin_record(Groups& groups, std::string_view type, Handle handle, Handl
 }
 
 /// Appends what a window that opens on model space shows: all of it.
-void append_viewports(Groups& groups, const Extent& model) {
+void append_viewports(Groups& groups, const DxfExtent& model) {
   constexpr double kWindow = 1.6;  // a window is about as much wider than high
   const PaperPoint middle = model.empty() ? PaperPoint{} : model.middle();
   const double height =

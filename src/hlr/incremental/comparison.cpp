@@ -55,7 +55,7 @@ void keep_in_order(std::span<const std::uint32_t> now, std::span<const geometry:
 
 }  // namespace
 
-void tell_hatches_apart(std::span<const Hatch> earlier, std::span<const Hatch> now,
+void mark_changed_hatches(std::span<const Hatch> earlier, std::span<const Hatch> now,
                         std::span<const geometry::Box3l> boxes, Comparison& comparison) {
   if (earlier.empty() && now.empty()) return;
   const bool comparable = !earlier.empty() && !now.empty();

@@ -26,7 +26,7 @@ struct Comparison {
 
 /// Makes others of objects that stayed, as far as they have another hatch. `boxes`: of the earlier
 /// drawing. Where one of the two has no hatches at all, all are others.
-void tell_hatches_apart(std::span<const Hatch> earlier, std::span<const Hatch> now,
+void mark_changed_hatches(std::span<const Hatch> earlier, std::span<const Hatch> now,
                         std::span<const geometry::Box3l> boxes, Comparison& comparison);
 
 /// Compares by a mapping and the boxes of earlier objects, see EarlierDrawing. Lines of an object

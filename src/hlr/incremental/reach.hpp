@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hlr/incremental/comparison.hpp"
-#include "hlr/incremental/paper.hpp"
+#include "hlr/incremental/bounds_projection.hpp"
 #include "hlr/prepare/view_job.hpp"
 #include "model/scene/view_tessellation.hpp"
 #include "strake/core/result.hpp"

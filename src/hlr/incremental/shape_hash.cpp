@@ -19,7 +19,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers are hashed as they lie");
 
 /// Gathers numbers to be hashed at once; keeps its memory from shape to shape.
-class Words {
+class HashedNumbers {
  public:
   void add(std::uint64_t word) { words_.push_back(word); }
   void add(double value) { add(std::bit_cast<std::uint64_t>(value + 0.0)); }
@@ -38,7 +38,7 @@ class Words {
   std::vector<std::uint64_t> words_;
 };
 
-void add(Words& words, const geometry::Primitive& primitive) {
+void add(HashedNumbers& words, const geometry::Primitive& primitive) {
   words.add(std::uint64_t{primitive.index()});
   std::visit(
       [&](const auto& kind) {
@@ -48,7 +48,7 @@ void add(Words& words, const geometry::Primitive& primitive) {
       primitive);
 }
 
-void add(Words& words, const geometry::Part& part, const geometry::Vec3i& from) {
+void add(HashedNumbers& words, const geometry::Part& part, const geometry::Vec3i& from) {
   const std::uint64_t flags = (part.flags.inverted ? 1U : 0U) | (part.flags.open ? 2U : 0U) |
                               (part.flags.non_manifold ? 4U : 0U) |
                               (part.flags.unknown_sag ? 8U : 0U);
@@ -73,8 +73,8 @@ Result<std::vector<HashedShape>> hash_shapes(const model::Scene& scene,
                                              const parallel::Context& context) {
   return parallel::transform_with(
       context, {.name = "signatures: shapes", .n = scene.shapes.size(), .grain = 64},
-      [] { return Words(); },
-      [&](Words& words, std::size_t s) {
+      [] { return HashedNumbers(); },
+      [&](HashedNumbers& words, std::size_t s) {
         const model::GridShape& shape = scene.shapes[s];
         words.add(std::uint64_t{shape.parts.size()});
         if (shape.single_line) words.add(std::uint64_t{1});

@@ -63,9 +63,9 @@ void add(Hasher& hasher, const Options& options) {
 }
 
 /// What a drawing sees of objects, as words that are hashed.
-class ObjectWords {
+class ObjectHasher {
  public:
-  ObjectWords(const model::Scene& scene, const View& view, const Options& options,
+  ObjectHasher(const model::Scene& scene, const View& view, const Options& options,
               std::span<const HashedShape> shapes, const model::ViewTessellation& plan)
       : scene_(scene),
         options_(options),
@@ -160,7 +160,7 @@ Result<Signatures> signatures(const model::Scene& scene, const std::vector<bool>
   result.boxes = std::move(*boxes);
   const auto shapes = hash_shapes(scene, context);
   if (!shapes) return shapes.error();
-  const ObjectWords all(scene, view, options, *shapes, plan);
+  const ObjectHasher all(scene, view, options, *shapes, plan);
   auto objects = parallel::transform_with(
       context,
       {.name = "signatures: objects", .n = scene.model->objects.size(), .grain = kObjectsPerBlock},

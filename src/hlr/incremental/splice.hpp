@@ -16,7 +16,7 @@
 namespace strake::hlr {
 
 /// A run of elements of one of two arrays.
-struct Run {
+struct ElementRun {
   std::size_t first = 0, last = 0;
   bool fresh = false;  ///< of the new array
   [[nodiscard]] std::size_t size() const { return last - first; }
@@ -26,7 +26,7 @@ struct Run {
 /// memory where that holds them, as most of a drawing does not change. Errors: cancelled, out of
 /// memory; then `kept` is of no use.
 template <class T>
-[[nodiscard]] Status splice(std::span<const Run> runs, std::span<const T> fresh,
+[[nodiscard]] Status splice(std::span<const ElementRun> runs, std::span<const T> fresh,
                             std::vector<T>& kept, const parallel::Context& context) {
   std::vector<std::size_t> begin(runs.size() + 1);
   for (std::size_t r = 0; r < runs.size(); ++r) begin[r + 1] = begin[r] + runs[r].size();

@@ -48,7 +48,7 @@ class RunCoverage {
  public:
   /// `side` says which run of the map `run` is.
   RunCoverage(const ClashDocument& run, const FileMap& files, Run side)
-      : run_(run), files_(files), other_side_(other_run(side)) {
+      : run_(run), files_(files), other_side_(opposite_run(side)) {
     for (const DocumentTest& test : run.tests) tests_.emplace(test.name, &test);
   }
 

@@ -73,7 +73,7 @@ void append_attributes(Row& row, const ClashContents& contents, model::ObjectId 
 template <class Row>
 void append_decision(Row& row, const ClashContents& contents, std::size_t test,
                      const clash::Pair& p) {
-  const DecidedResult* const decided = decided_of(contents, test, p);
+  const DecidedResult* const decided = decision_about(contents, test, p);
   if (decided == nullptr) {
     row.word(p.allowed < 0 ? name(DecisionStatus::undecided) : "")
         .blank(kDecidedColumns.size() - 1);

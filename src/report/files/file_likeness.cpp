@@ -100,7 +100,7 @@ bool may_have_most(const RunFiles& run, const FileContents& file,
   return false;
 }
 
-bool is_no_chance(std::uint64_t ids, const FileContents& file, const FileContents& other) {
+bool exceeds_chance(std::uint64_t ids, const FileContents& file, const FileContents& other) {
   return ids >= fewest_ids(file.places.size(), other.places.size(),
                            count_common(file.places, other.places));
 }

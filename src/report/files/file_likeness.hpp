@@ -50,7 +50,7 @@ struct FileLikeness {
 }
 
 /// Whether so many ids in common are too many for chance.
-[[nodiscard]] bool is_no_chance(std::uint64_t ids, const FileContents& file,
+[[nodiscard]] bool exceeds_chance(std::uint64_t ids, const FileContents& file,
                                 const FileContents& other);
 
 /// Whether a count is so much larger than that of a rival that it is no chance.

@@ -35,7 +35,7 @@ struct SoughtFile {
 };
 
 /// Two files that may be one.
-struct Candidate {
+struct MatchCandidate {
   std::size_t before = 0, after = 0;
   FileLikeness likeness;
 };
@@ -68,19 +68,19 @@ class FileMatcher {
   }
 
   void take_renamed() {
-    std::vector<Candidate> open = candidates();
-    const auto decided = [this](const Candidate& c) {
+    std::vector<MatchCandidate> open = candidates();
+    const auto decided = [this](const MatchCandidate& c) {
       return !sought_before_[c.before].is_free() || !sought_after_[c.after].is_free();
     };
     for (bool found = true; found;) {
-      std::vector<Candidate> best;
-      for (const Candidate& c : open)
+      std::vector<MatchCandidate> best;
+      for (const MatchCandidate& c : open)
         if (beats_all_rivals(c, open)) best.push_back(c);
-      for (const Candidate& c : best) take(c.before, c.after, FileRelation::renamed);
+      for (const MatchCandidate& c : best) take(c.before, c.after, FileRelation::renamed);
       found = !best.empty();
       std::erase_if(open, decided);
     }
-    for (const Candidate& c : open) {
+    for (const MatchCandidate& c : open) {
       sought_before_[c.before].rivals.push_back(c.after);
       sought_after_[c.after].rivals.push_back(c.before);
     }
@@ -149,8 +149,8 @@ class FileMatcher {
            may_have_most(before_, old_file, new_file.ids);
   }
 
-  [[nodiscard]] std::vector<Candidate> candidates() const {
-    std::vector<Candidate> found;
+  [[nodiscard]] std::vector<MatchCandidate> candidates() const {
+    std::vector<MatchCandidate> found;
     for (std::size_t x = 0; x < sought_before_.size(); ++x)
       for (std::size_t y = 0; sought_before_[x].is_free() && y < sought_after_.size(); ++y) {
         if (!sought_after_[y].is_free() || !may_be_one(before_.files[x], after_.files[y])) continue;
@@ -160,9 +160,9 @@ class FileMatcher {
     return found;
   }
 
-  [[nodiscard]] static bool beats_all_rivals(const Candidate& c,
-                                             const std::vector<Candidate>& all) {
-    return std::ranges::all_of(all, [&](const Candidate& other) {
+  [[nodiscard]] static bool beats_all_rivals(const MatchCandidate& c,
+                                             const std::vector<MatchCandidate>& all) {
+    return std::ranges::all_of(all, [&](const MatchCandidate& other) {
       const bool shares_old = other.before == c.before, shares_new = other.after == c.after;
       return shares_old == shares_new || is_clearly_more_alike(c.likeness, other.likeness);
     });
@@ -185,7 +185,7 @@ class FileMatcher {
       const auto count =
           static_cast<std::uint64_t>(std::ranges::count_if(own.files[part].ids, moved));
       if (is_most(count, own.files[part].ids.size()) &&
-          is_no_chance(count, own.files[part], other.files[w]))
+          exceeds_chance(count, own.files[part], other.files[w]))
         wholes.emplace_back(count, w);
     }
     std::ranges::sort(wholes, std::greater<>());

@@ -17,7 +17,7 @@ constexpr std::size_t kLeastName = 8, kMostSource = 24, kIndent = 4;
 constexpr std::string_view kGap = "  ", kBothNames = "a, and b below it";
 
 /// Where the two names of a row stand.
-enum class NamesStand : std::uint8_t {
+enum class NameLayout : std::uint8_t {
   beside,   ///< both behind the numbers
   stacked,  ///< a behind the numbers, b below it
   below,    ///< each on a line of its own, below the numbers
@@ -91,7 +91,7 @@ class PairTable {
           sources.push_back(printable(side.source));
         }
     lead_ = common_lead(names);
-    sources = cut_apart(sources, kMostSource);
+    sources = shorten_distinctly(sources, kMostSource);
     std::size_t side = 0;
     for (const PairBlock& block : blocks_)
       for (const PairRow& row : block.rows) {
@@ -106,7 +106,7 @@ class PairTable {
 
   [[nodiscard]] Line title() const {
     const std::string source(head_.source);
-    const bool beside = stand_ == NamesStand::beside;
+    const bool beside = stand_ == NameLayout::beside;
     return {
         {"class", "status", "d mm", "d range mm", "volume mm3", "relation", "x mm", "y mm", "z mm"},
         {source, beside ? "a" : std::string(kBothNames)},
@@ -140,9 +140,9 @@ class PairTable {
     }
     name_a_ = a;
     if (numbers_ + 2 * source_ + a + kGap.size() + b <= head_.width) return;
-    stand_ = NamesStand::stacked;
+    stand_ = NameLayout::stacked;
     if (numbers_ + source_ + std::max({a, b, kBothNames.size()}) <= head_.width) return;
-    stand_ = NamesStand::below;
+    stand_ = NameLayout::below;
     const std::size_t taken = kIndent + source_;
     cut_names(head_.width > taken + kLeastName ? head_.width - taken : kLeastName);
   }
@@ -153,7 +153,7 @@ class PairTable {
       names.push_back(line.a.name);
       names.push_back(line.b.name);
     }
-    names = cut_apart(names, room);
+    names = shorten_distinctly(names, room);
     for (std::size_t l = 0; l < lines_.size(); ++l) {
       lines_[l].a.name = std::move(names[2 * l]);
       lines_[l].b.name = std::move(names[2 * l + 1]);
@@ -178,11 +178,11 @@ class PairTable {
 
   [[nodiscard]] std::string text_of(const Line& line) const {
     std::string first = numbers_text(line), second, third;
-    const std::string indent(stand_ == NamesStand::below ? kIndent : numbers_, ' ');
-    if (stand_ == NamesStand::beside) {
+    const std::string indent(stand_ == NameLayout::below ? kIndent : numbers_, ' ');
+    if (stand_ == NameLayout::beside) {
       first += text_of({line.a.source, left_aligned(line.a.name, name_a_)});
       first += std::string(kGap) + text_of(line.b);
-    } else if (stand_ == NamesStand::stacked) {
+    } else if (stand_ == NameLayout::stacked) {
       first += text_of(line.a);
       second = indent + text_of(line.b);
     } else {
@@ -202,7 +202,7 @@ class PairTable {
   std::vector<std::size_t> widths_;       ///< of the columns of Line::numbers; 0: left out
   std::size_t numbers_ = 0, source_ = 0;  ///< columns that they take, with gaps
   std::size_t name_a_ = 0;
-  NamesStand stand_ = NamesStand::beside;
+  NameLayout stand_ = NameLayout::beside;
 };
 
 }  // namespace

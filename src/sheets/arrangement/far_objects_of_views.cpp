@@ -106,7 +106,7 @@ class FarObjectsOfViews {
 
 }  // namespace
 
-Result<std::vector<std::vector<model::ObjectId>>> mind_far_objects(
+Result<std::vector<std::vector<model::ObjectId>>> resolve_far_objects(
     const SheetSpec& what, const model::Scene& scene, std::span<std::vector<bool>* const> drawn,
     Diagnostics& diagnostics, const parallel::Context& context) {
   FarObjectsOfViews views(what, scene, drawn, diagnostics);

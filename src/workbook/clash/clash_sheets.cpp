@@ -97,9 +97,9 @@ void append_box_cells(SheetRow& row, const geometry::Box3d& box) {
 
 }  // namespace
 
-Sheet clash_sheet(const ClashContents& contents, const report::GroupNumbers& numbers) {
+Worksheet clash_sheet(const ClashContents& contents, const report::GroupNumbers& numbers) {
   const auto rows = std::make_shared<const ResultRows>(contents, numbers);
-  Sheet sheet{.name = "Clashes",
+  Worksheet sheet{.name = "Clashes",
               .columns = columns_of(contents, {report::kResultColumns, report::kDecidedColumns}),
               .rows = rows->size(),
               .cells = {}};
@@ -109,8 +109,8 @@ Sheet clash_sheet(const ClashContents& contents, const report::GroupNumbers& num
   return sheet;
 }
 
-Sheet group_sheet(const ClashContents& contents) {
-  Sheet sheet{.name = "Groups",
+Worksheet group_sheet(const ClashContents& contents) {
+  Worksheet sheet{.name = "Groups",
               .columns = {{"group", 29},
                           {"name", 50},
                           {"results", 10},
@@ -142,7 +142,7 @@ Sheet group_sheet(const ClashContents& contents) {
   return sheet;
 }
 
-Sheet joint_sheet(const ClashContents& contents, const std::vector<report::PipeJoint>& joints) {
+Worksheet joint_sheet(const ClashContents& contents, const std::vector<report::PipeJoint>& joints) {
   return {.name = "Joints",
           .columns = columns_of(contents, {report::kJointColumns}),
           .rows = joints.size(),
@@ -151,8 +151,8 @@ Sheet joint_sheet(const ClashContents& contents, const std::vector<report::PipeJ
           }};
 }
 
-Sheet not_compared_sheet(const ClashContents& contents) {
-  Sheet sheet{.name = "Not compared",
+Worksheet not_compared_sheet(const ClashContents& contents) {
+  Worksheet sheet{.name = "Not compared",
               .columns = {{"test", 18},
                           {"why", 26},
                           {"a_id", 22},

@@ -40,9 +40,9 @@ std::vector<ResultRef> worst_results(const ClashContents& contents) {
 
 }  // namespace
 
-Result<Sheet> picture_sheet(const ClashContents& contents, const parallel::Context& context) {
+Result<Worksheet> picture_sheet(const ClashContents& contents, const parallel::Context& context) {
   constexpr double kPictureWidth = 46, kPictureHeight = 190;
-  Sheet sheet{.name = "Pictures",
+  Worksheet sheet{.name = "Pictures",
               .columns = {{"picture", kPictureWidth},
                           {"class", 22},
                           {"d_mm", 13},

@@ -15,7 +15,7 @@ const std::string kKeyOne = "0c8x2kq9w3e4r5t6y7v8b9n0mz", kKeyTwo = "1c8x2kq9w3e
 
 Reference group_of_two() {
   return {"9f3c",
-          mark_of("Ann"),
+          assignee_digest("Ann"),
           {{kKeyOne, DecisionStatus::reviewed}, {kKeyTwo, DecisionStatus::active}}};
 }
 
@@ -30,7 +30,7 @@ TEST(Reference, ComesBackHoweverItIsLaidOut) {
     const std::optional<Reference> found = find_reference(some);
     ASSERT_TRUE(found) << some;
     EXPECT_EQ(found->group, "9f3c");
-    EXPECT_EQ(found->assignee_mark, mark_of("Ann"));
+    EXPECT_EQ(found->assignee_mark, assignee_digest("Ann"));
     ASSERT_EQ(found->clashes.size(), 2U);
     EXPECT_EQ(found->clashes[0].key, kKeyOne);
     EXPECT_EQ(found->clashes[0].status, DecisionStatus::reviewed);
@@ -40,8 +40,8 @@ TEST(Reference, ComesBackHoweverItIsLaidOut) {
 }
 
 TEST(Reference, IsTheLastOne) {
-  const Reference mine{{}, mark_of({}), {{kKeyTwo, DecisionStatus::undecided}}};
-  const Reference named{{}, mark_of("Eve"), {{kKeyOne, DecisionStatus::approved}}};
+  const Reference mine{{}, assignee_digest({}), {{kKeyTwo, DecisionStatus::undecided}}};
+  const Reference named{{}, assignee_digest("Eve"), {{kKeyOne, DecisionStatus::approved}}};
   const auto found = find_reference("A: " + reference_line(named) + "\n" + reference_line(mine));
   ASSERT_TRUE(found);
   EXPECT_EQ(guid_of(*found), clash_guid(kKeyTwo));
@@ -69,8 +69,8 @@ TEST(Reference, GuidsTellClashesGroupsAndPartsApart) {
   EXPECT_NE(clash_guid(kKeyOne), clash_guid(kKeyTwo));
   EXPECT_NE(clash_guid(kKeyOne), group_guid(kKeyOne));
   EXPECT_NE(part_guid(clash_guid(kKeyOne), "a"), part_guid(clash_guid(kKeyTwo), "a"));
-  EXPECT_EQ(mark_of({}), "none");
-  EXPECT_NE(mark_of("Ann"), mark_of("Bob"));
+  EXPECT_EQ(assignee_digest({}), "none");
+  EXPECT_NE(assignee_digest("Ann"), assignee_digest("Bob"));
 }
 
 }  // namespace

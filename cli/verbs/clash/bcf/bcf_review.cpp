@@ -92,9 +92,9 @@ class TopicMatcher {
 
   void set_status(project::ReviewedTopic& reviewed, const bcf::ReadTopic& topic) {
     if (topic.status.empty()) return;
-    const std::optional<bcf::SaidStatus> said = bcf::said_status(topic.status);
+    const std::optional<bcf::ParsedStatus> said = bcf::parse_topic_status(topic.status);
     if (said)
-      reviewed.status = {bcf::decided_status(*said), *said == bcf::SaidStatus::open};
+      reviewed.status = {bcf::decided_status(*said), *said == bcf::ParsedStatus::open};
     else
       ++matched_.strange_words[bcf::short_name(topic.status, kLongTopicName)];
   }
