@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <set>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "cli/evaluate/placed_model.hpp"
 #include "cli/evaluate/statistics.hpp"
 #include "cli/evaluate/studies/studies.hpp"
+#include "core/stopwatch.hpp"
 #include "strake/clash/clash.hpp"
 
 namespace strake::cli {
@@ -163,9 +163,8 @@ class Evaluation {
 
   void narrate(const std::string& what) const {
     if (done_ == 0) return hooks_.narrate(what);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start_;
     hooks_.narrate(
-        fmt::format("{}; about {:.0f} s to go", what, taken.count() * (to_do_ - done_) / done_));
+        fmt::format("{}; about {:.0f} s to go", what, watch_.seconds() * (to_do_ - done_) / done_));
   }
 
   EvaluationRecord& record_;
@@ -173,7 +172,7 @@ class Evaluation {
   const EvaluationHooks& hooks_;
   std::set<std::string> wanted_;
   double to_do_ = 0, done_ = 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,7 +27,7 @@ class Stats {
    private:
     Stats& stats_;
     std::string phase_;
-    std::chrono::steady_clock::time_point start_;
+    Stopwatch watch_;
     double start_cpu_s_ = 0;
   };
 

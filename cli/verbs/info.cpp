@@ -12,7 +12,6 @@
 #include <variant>
 #include <vector>
 
-#include "cli/output/attribute_list.hpp"
 #include "cli/output/diagnostics_json.hpp"
 #include "cli/output/object_list.hpp"
 #include "cli/run/load.hpp"

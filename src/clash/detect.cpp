@@ -19,7 +19,6 @@
 #include "clash/results/reported.hpp"
 #include "clash/results/result_counts.hpp"
 #include "clash/results/result_hash.hpp"
-#include "clash/results/unlisted_contacts.hpp"
 #include "clash/rules/options.hpp"
 #include "clash/rules/rule_matcher.hpp"
 #include "clash/volumes/common_volumes.hpp"

@@ -10,7 +10,6 @@
 #include "page/geometry/model_blocks.hpp"
 #include "page/geometry/shown_objects.hpp"
 #include "page/page_head.hpp"
-#include "page/page_policy.hpp"
 #include "page/page_template.hpp"
 #include "page/results/page_objects.hpp"
 #include "page/results/result_blocks.hpp"

@@ -12,8 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/run/person.hpp"
-#include "cli/run/utc_time.hpp"
+#include "cli/run/authorship.hpp"
 #include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "project/model/file_rows.hpp"

@@ -1,28 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/verbs/draw/draw_run.hpp"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <fmt/core.h>
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/run/load.hpp"
 #include "cli/run/object_selection.hpp"
+#include "cli/run/session.hpp"
 #include "cli/verbs/draw/brute_force_cost.hpp"
 #include "cli/verbs/draw/draw_summary.hpp"
-#include "cli/verbs/draw/far_objects.hpp"
 #include "cli/verbs/draw/styles/style_option.hpp"
 #include "core/number.hpp"
 #include "core/output_format.hpp"
 #include "drawing/drawing_writers.hpp"
+#include "drawing/layout/far_objects.hpp"
+#include "drawing/layout/view_plane.hpp"
 #include "publish/drawing_formats.hpp"
+#include "strake/core/result.hpp"
+#include "strake/drawing/drawing.hpp"
 #include "strake/drawing/write.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/model/scene.hpp"
 
 namespace strake::cli {
+namespace {
+
+/// "1:50 on 420 x 297 mm"
+std::string sheet_text(const drawing::PlaneBox& box, const drawing::LayoutOptions& layout) {
+  const drawing::Sheet sheet = drawing::choose_sheet(box, layout);
+  return fmt::format("{} on {} x {} mm", sheet.scale_text, sheet.width_mm, sheet.height_mm);
+}
+
+/// Looks for objects that lie so far from all others that they decide the scale of a view. It takes
+/// them out of `drawn` and names them in `layout` where they are to be left out, and warns of them
+/// otherwise. Errors: cancelled.
+Status resolve_far_objects(Session& session, const model::Scene& scene, const hlr::View& view,
+                        bool leave_out, std::vector<bool>& drawn, drawing::LayoutOptions& layout) {
+  const Result<drawing::FarObjects> far =
+      drawing::find_far_objects(scene, drawn, view, session.context());
+  if (!far) return far.error();
+  if (far->objects.empty()) return {};
+  const std::string text = drawing::far_objects_text(*far, *scene.model);
+  const bool one = far->objects.size() == 1;
+  if (!leave_out) {
+    session.console().note(fmt::format(
+        "warning far-object: {}: the view is about {} for {}, without {} {} (--limits auto leaves "
+        "{} out)",
+        text, sheet_text(far->whole, layout), one ? "it" : "them", one ? "it" : "them",
+        sheet_text(far->rest, layout), one ? "it" : "them"));
+    return {};
+  }
+  drawing::leave_out(*far, *scene.model, drawn);
+  layout.far_left_out = far->objects;
+  session.stats().count("far objects left out", far->objects.size());
+  session.console().note(fmt::format("note far-object-left-out: {} and {} left out (--limits auto)",
+                                     text, one ? "is" : "are"));
+  return {};
+}
+
+}  // namespace
 
 Status draw_pipes_as_lines(Session& session, const DrawRequest& request, model::Scene& scene) {
   if (!request.single_line) return {};

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +19,7 @@
 #include "cli/verbs/draw/draw_run.hpp"
 #include "cli/verbs/draw/draw_summary.hpp"
 #include "cli/verbs/draw/view_settings.hpp"
+#include "core/stopwatch.hpp"
 #include "project/snapshot/snapshot.hpp"
 #include "project/views/drawing_codec.hpp"
 #include "project/views/stored_views.hpp"
@@ -44,17 +44,6 @@ struct ViewOfProject {
 struct SolvedView {
   hlr::Drawing drawing;
   ViewWork work;
-};
-
-/// Wall seconds of a piece of work.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 /// Seconds of the steps of hidden lines, from when it was made.

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cli/run/load.hpp"
-#include "cli/run/utc_time.hpp"
+#include "cli/run/authorship.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/project/project_verbs.hpp"
 #include "core/output_format.hpp"

@@ -18,7 +18,6 @@
 #include "core/number.hpp"
 #include "core/text/counted.hpp"
 #include "core/text/dates.hpp"
-#include "report/clash/attribute_columns.hpp"
 #include "report/clash/contents.hpp"
 
 namespace strake::bcf {

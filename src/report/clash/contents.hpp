@@ -2,8 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "strake/clash/group.hpp"
+#include "strake/model/model.hpp"
 #include "strake/report/clash.hpp"
 #include "strake/report/decisions.hpp"
 
@@ -24,5 +28,10 @@ namespace strake::report {
                                                      const clash::ResultRef& result) {
   return decision_about(contents, result.test, pair_of(contents, result));
 }
+
+/// Returns what an object states under a name, itself or by the nearest group above that does;
+/// several values of the name with "; " between. Nothing where none states it.
+[[nodiscard]] std::optional<std::string> stated_text(const model::Model& model, model::ObjectId id,
+                                                     std::string_view attribute);
 
 }  // namespace strake::report

@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "clash/results/clash_key.hpp"
-#include "report/clash/attribute_columns.hpp"
 #include "report/clash/contents.hpp"
 #include "report/text/formatting.hpp"
 #include "strake/report/clash.hpp"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
-#include "report/clash/attribute_columns.hpp"
 #include "report/clash/contents.hpp"
 #include "report/text/formatting.hpp"
 #include "report/text/ordered_lines.hpp"

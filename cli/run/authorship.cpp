@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/run/person.hpp"
+#include "cli/run/authorship.hpp"
 
+#include <array>
+#include <chrono>
+#include <fmt/chrono.h>
 #include <pwd.h>
 #include <unistd.h>
 
-#include <array>
-
 namespace strake::cli {
+
+std::string utc_time() {
+  const auto now =
+      std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}Z", now);
+}
 
 std::string person() {
   passwd entry{};
