@@ -12,6 +12,7 @@
 
 #include "cli/run/load.hpp"
 #include "cli/run/authorship.hpp"
+#include "cli/run/write_files.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/project/project_verbs.hpp"
 #include "core/output_format.hpp"
@@ -43,15 +44,8 @@ Status tell_of_files(Session& session, project::Project& project, const project:
 }
 
 Status write_outputs(Session& session, const FileOptions& given, const project::Changes& changes) {
-  for (const std::string& file : given.outputs) {
-    const Result<project::ChangeWriter> writer = find_writer(project::change_writers(), file);
-    if (!writer) return writer.error();
-    const Status status = session.write(file, [&](Session::Sink sink) {
-      writer->write(changes, sink);
-      return Status{};
-    });
-    if (!status) return status;
-  }
+  if (const Status status = write_files(session, given.outputs, project::change_writers(), changes); !status)
+    return status;
   if (!session.json())
     return session.write_stdout(project::changes_text(changes, {.width = terminal_width()}));
   return session.write_stdout([&](Session::Sink sink) {
