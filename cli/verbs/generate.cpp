@@ -9,6 +9,7 @@
 #include <streambuf>
 #include <string>
 
+#include "cli/run/write_files.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
 #include "io/model_writers.hpp"

@@ -24,11 +24,8 @@ std::string joined(const std::vector<model::Selection>& selections) {
 
 void add_set_options(CLI::App& command, SetInput& options) {
   const auto set = [&](const char* name, std::vector<std::string>& texts, const char* help) {
-    return command.add_option(name, texts, help)
+    return may_repeat(command.add_option(name, texts, help))
         ->type_name("SELECTION")
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->group("Sets");
   };
   CLI::Option* const a = set("--a", options.a,

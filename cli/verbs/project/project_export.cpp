@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/run/write_files.hpp"
 #include "cli/verbs/clash/clash_lines.hpp"
 #include "cli/verbs/project/project_verbs.hpp"
 #include "core/output_format.hpp"
