@@ -64,7 +64,7 @@ class Evaluation {
         if (const Status status = run_study(study); !status) return status;
     for (const PeerCase& peer : peer_cases())
       if (hooks_.peers && wanted_.contains(std::string(peer.name)))
-        if (const Status status = ask(peer); !status) return status;
+        if (const Status status = run_peer_case(peer); !status) return status;
     return {};
   }
 
@@ -134,7 +134,7 @@ class Evaluation {
     return hooks_.save("study " + std::string(study.name) + " done", record_);
   }
 
-  Status ask(const PeerCase& peer) {
+  Status run_peer_case(const PeerCase& peer) {
     narrate(fmt::format("{}: {}, {} objects", peer.name, peer.title,
                         peer_objects(peer, record_.settings.scale)));
     Result<PeerRecord> answer = run_peer(peer, *hooks_.peers, record_.settings.scale, stop_);

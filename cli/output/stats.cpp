@@ -29,7 +29,7 @@ void Stats::count(std::string_view name, std::uint64_t value) {
   counters_.emplace_back(name, value);
 }
 
-void Stats::tell(std::string_view name, std::string_view words) {
+void Stats::note(std::string_view name, std::string_view words) {
   words_.emplace_back(name, words);
 }
 

@@ -310,7 +310,7 @@ Result<model::Model> read_model(Session& session, const InputOptions& input,
   Result<model::Model> model = join_inputs(session, *files, said_of_files, sources);
   if (!model) return model;
   note_repeated_files(*model, input.files);
-  tell_of_model(session, *model);
+  print_model_notes(session, *model);
   return model;
 }
 
@@ -336,7 +336,7 @@ Diagnostics LoadedModel::diagnostics() const {
   return all;
 }
 
-void tell_of_model(Session& session, const model::Model& model) {
+void print_model_notes(Session& session, const model::Model& model) {
   std::vector<std::uint64_t> objects(model.files.size());
   for (const model::Object& object : model.objects) ++objects[object.file];
   for (std::size_t f = 0; f < model.files.size(); ++f) {

@@ -59,7 +59,7 @@ struct LoadedModel {
 };
 
 /// Prints what was read of each file of a model, and what was noticed.
-void tell_of_model(Session& session, const model::Model& model);
+void print_model_notes(Session& session, const model::Model& model);
 
 /// Reads the files of the command line and prints what was noticed, as load() does, but puts
 /// nothing on the grid.

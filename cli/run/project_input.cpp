@@ -166,7 +166,7 @@ Result<LoadedModel> load_project(Session& session, OpenedProject& opened,
     return signed_model(session, opened.project);
   }();
   if (!stored) return stored.error();
-  tell_of_model(session, stored->model);
+  print_model_notes(session, stored->model);
   Result<LoadedModel> loaded = place(session, std::move(stored->model), options);
   if (!loaded) return loaded;
   loaded->files = std::move(*files);

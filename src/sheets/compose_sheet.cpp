@@ -175,7 +175,7 @@ class Composer {
       chosen.back().hatches = hatches_of(view);
       chosen.back().uncut = next_picks(view.uncut.size());
     }
-    if (const Status status = mind_far(chosen); !status) return status;
+    if (const Status status = resolve_far(chosen); !status) return status;
     const Result<std::vector<double>> sags =
         options_.sag_for_paper ? sags_for_paper(chosen) : std::vector<double>{};
     if (!sags) return sags.error();
@@ -204,7 +204,7 @@ class Composer {
     return {};
   }
 
-  Status mind_far(std::vector<ViewSelection>& chosen) {
+  Status resolve_far(std::vector<ViewSelection>& chosen) {
     std::vector<std::vector<bool>*> drawn;
     for (ViewSelection& of_view : chosen) drawn.push_back(&of_view.drawn);
     auto left_out = resolve_far_objects(what_, scene_, drawn, sheet_.diagnostics, context_);

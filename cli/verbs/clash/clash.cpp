@@ -313,7 +313,7 @@ Status check_contacts(const ClashOptions& given, const ClashOutput& output) {
 }
 
 /// Prints and counts what the tests noticed.
-void tell(Session& session, const clash::Findings& findings, const model::Model& model) {
+void print_findings(Session& session, const clash::Findings& findings, const model::Model& model) {
   // A rule or a set that does nothing is misspelt more often than meant: each is named.
   print_diagnostics(session.console(), findings.all_diagnostics(),
                     {"rule-matches-nothing", "rule-shadowed", "selection-picks-nothing",
@@ -437,7 +437,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   if (!findings) return findings.error();
   findings->diagnostics.append(idle_file_settings(files_of(*request), loaded.files));
   findings->diagnostics.append(check_columns(request->output.columns, *loaded.model));
-  tell(session, *findings, *loaded.model);
+  print_findings(session, *findings, *loaded.model);
   std::optional<report::DecidedResults> from_file;
   const Result<const report::DecidedResults*> decided =
       decision_about(session, given, *request, *source, *findings, from_file);

@@ -125,7 +125,7 @@ Result<Compared> compare_files(Session& session, const ClashDiffOptions& given,
 }
 
 /// Returns how many results both runs counted in a test, in one line.
-std::string told(const project::TestCounts& test) {
+std::string counts_text(const project::TestCounts& test) {
   const project::ResultCounts &was = test.before, &is = test.after;
   return fmt::format(
       "{}counted: {} -> {} hits, {} -> {} contacts, {} -> {} clearance violations, {} -> {} "
@@ -150,7 +150,7 @@ Result<Compared> compare_runs(Session& session, const ClashDiffOptions& given,
     return error;
   }
   session.console().note((*made)->before.name + " against " + (*made)->after.name);
-  for (const project::TestCounts& test : (*made)->counts) session.console().note(told(test));
+  for (const project::TestCounts& test : (*made)->counts) session.console().note(counts_text(test));
   return Compared{{}, std::move(*made), {}};
 }
 

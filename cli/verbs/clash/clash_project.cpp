@@ -41,7 +41,7 @@ std::string called(std::string_view test) {
 }
 
 /// Returns what was tested again, in one line.
-std::string told(std::string_view test, const project::TestWork& work) {
+std::string work_text(std::string_view test, const project::TestWork& work) {
   switch (work.how) {
     case project::Retested::nothing:
       return fmt::format("{}nothing changed, {} kept", called(test),
@@ -143,7 +143,7 @@ Result<clash::Findings> ProjectClashes::find(Session& session, const LoadedModel
     Result<clash::Report> report = test(session, loaded, planned, tested);
     if (!report) return report.error();
     report->name = planned.name;
-    session.console().note(told(planned.name, tested.work));
+    session.console().note(work_text(planned.name, tested.work));
     if (input_.verify && tested.work.how != project::Retested::full)
       if (const Status status = verify(session, loaded, planned, *report); !status)
         return status.error();

@@ -162,7 +162,7 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
 }
 
 /// Says what thinning left out, and how many break lines there are.
-void tell_conventions(Session& session, const drawing::Conventions& conventions,
+void print_conventions(Session& session, const drawing::Conventions& conventions,
                       const drawing::Ink& ink) {
   if (ink.thinned) {
     session.stats().count("lines thinned", ink.thinned->lines);
@@ -209,7 +209,7 @@ Status write_drawing(Session& session, const DrawOptions& given,
             drawing::apply_conventions(ink, drawing, model, *conventions, session.context());
         !status)
       return status;
-    tell_conventions(session, *conventions, ink);
+    print_conventions(session, *conventions, ink);
   }
   for (std::size_t i = 0; i < writers.size(); ++i) {
     Diagnostics noticed;

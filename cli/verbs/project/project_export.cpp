@@ -48,7 +48,7 @@ Status write_models(Session& session, project::Project& project,
     return project_model(session, project);
   }();
   if (!model) return model.error();
-  tell_of_model(session, *model);
+  print_model_notes(session, *model);
   for (const std::string& file : files)
     if (const Status status = write_model(session, *model, file); !status) return status;
   return {};

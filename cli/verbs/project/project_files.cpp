@@ -30,7 +30,7 @@ struct FileOptions {
 };
 
 /// Prints what was read of files, as load() does.
-Status tell_of_files(Session& session, project::Project& project, const project::Update& done) {
+Status print_file_notes(Session& session, project::Project& project, const project::Update& done) {
   const Result<std::vector<project::StoredFile>> files = project.files();
   if (!files) return files.error();
   for (const project::StoredFile& file : *files)
@@ -55,9 +55,9 @@ Status write_outputs(Session& session, const FileOptions& given, const project::
 }
 
 /// Tells what became of the project, and returns the exit code.
-Result<ExitCode> tell(Session& session, const FileOptions& given, project::Project& project,
+Result<ExitCode> print_update(Session& session, const FileOptions& given, project::Project& project,
                       const project::Update& done) {
-  if (const Status status = tell_of_files(session, project, done); !status) return status.error();
+  if (const Status status = print_file_notes(session, project, done); !status) return status.error();
   if (const Status status = write_outputs(session, given, done.changes); !status)
     return status.error();
   return given.input.strict && done.noticed.skipped() > 0 ? ExitCode::partial : ExitCode::done;
@@ -116,7 +116,7 @@ Result<ExitCode> run_new(Session& session, const FileOptions& given) {
     return done.error();
   }
   session.console().note("wrote " + given.project.file);
-  return tell(session, given, project->value(), *done);
+  return print_update(session, given, project->value(), *done);
 }
 
 Result<ExitCode> run_add(Session& session, const FileOptions& given) {
@@ -131,7 +131,7 @@ Result<ExitCode> run_add(Session& session, const FileOptions& given) {
   if (!project) return project.error();
   const Result<project::Update> done = add_files(session, *project, *files);
   if (!done) return done.error();
-  return tell(session, given, *project, *done);
+  return print_update(session, given, *project, *done);
 }
 
 Result<ExitCode> run_update(Session& session, const FileOptions& given) {
@@ -144,7 +144,7 @@ Result<ExitCode> run_update(Session& session, const FileOptions& given) {
     return project::update(*project, {*files, given.match_files}, note_of_now(), session.context());
   }();
   if (!done) return done.error();
-  return tell(session, given, *project, *done);
+  return print_update(session, given, *project, *done);
 }
 
 Result<ExitCode> run_remove(Session& session, const FileOptions& given) {
@@ -153,7 +153,7 @@ Result<ExitCode> run_remove(Session& session, const FileOptions& given) {
   const Result<project::Update> done =
       project::remove_model_files(*project, given.labels, note_of_now(), session.context());
   if (!done) return done.error();
-  return tell(session, given, *project, *done);
+  return print_update(session, given, *project, *done);
 }
 
 }  // namespace

@@ -230,8 +230,8 @@ std::vector<TopicFile> files_of(const report::ClashContents& contents, const Pla
   return files;
 }
 
-/// Returns when a decision was made, as exactly as it is known; or an empty text.
-const std::string& told_time(const report::Decision& decision) {
+/// Returns when a decision was made, as exactly as it is known; empty where that is not known.
+const std::string& decision_time(const report::Decision& decision) {
   return decision.at.empty() ? decision.date : decision.at;
 }
 
@@ -241,7 +241,7 @@ void set_change(TopicFacts& facts, const report::ClashContents& contents,
   for (const ResultRef& result : topic.results) {
     const report::DecidedResult* const decided = decision_about(contents, result);
     if (decided == nullptr || decided->decision->by.empty()) continue;
-    auto date = stated_time(told_time(*decided->decision));
+    auto date = stated_time(decision_time(*decided->decision));
     if (!date || *date <= facts.changed) continue;
     facts.changed = std::move(*date);
     facts.changer = compared_text(decided->decision->by);
@@ -268,7 +268,7 @@ std::uint64_t count_strange_dates(const report::ClashContents& contents, const T
     for (const ResultRef& result : topic.results) {
       const report::DecidedResult* const decided = decision_about(contents, result);
       if (decided == nullptr) continue;
-      look(told_time(*decided->decision));
+      look(decision_time(*decided->decision));
       for (const report::DecisionComment& said : decided->decision->comments) {
         look(said.at);
         look(said.first_at);

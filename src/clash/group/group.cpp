@@ -130,7 +130,7 @@ class Namer {
 
   /// Gives groups by assembly of one name their paths, and an id of its own to each of those that
   /// paths do not tell apart.
-  void tell_apart(std::vector<Group>& groups, const GroupRules& rules) const {
+  void make_names_unique(std::vector<Group>& groups, const GroupRules& rules) const {
     std::map<std::string, std::size_t> names, ids;
     for (const Group& group : groups) ++names[group.name], ++ids[group.id];
     for (Group& group : groups) {
@@ -227,7 +227,7 @@ Result<Grouping> group_results(const Findings& findings, const model::Model& mod
   for (std::size_t i = 0; i < items.size(); ++i) add(groups[partition.group[i]], items[i]);
   const Namer namer(findings, model, known);
   for (std::size_t g = 0; g < groups.size(); ++g) namer.name(groups[g], rules, partition, g);
-  if (rules.by == GroupBy::assembly) namer.tell_apart(groups, rules);
+  if (rules.by == GroupBy::assembly) namer.make_names_unique(groups, rules);
   sort_groups(groups, rules.sort);
   return Grouping{rules, std::move(groups)};
 }

@@ -81,7 +81,7 @@ void mark_hashed_contacts_changed(const KeptForChanges& kept, std::span<const st
   const RenamedObjects renamed(kept.elements, names, map);
   for (const UnlistedContact& contact : kept.unlisted)
     if (renamed.concern(contact))
-      map.let_go(index(renamed.is_renamed(contact.a) ? contact.a : contact.b));
+      map.count_as_changed(index(renamed.is_renamed(contact.a) ? contact.a : contact.b));
 }
 
 Result<HashChange> rehash_renamed(const Report& earlier, std::span<const std::uint64_t> names,

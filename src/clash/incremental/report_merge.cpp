@@ -250,9 +250,9 @@ class ReportMerge {
     for (const NotComparedPair& pair : now)
       now_.not_compared.push_back({pair.a, pair.b, pair.code});
     now_.diagnostics = {};
-    tell_not_compared(inputs_.model, now_);
+    report_not_compared(inputs_.model, now_);
     describe_sets(now_);
-    tell_unknown_sag(inputs_.neighbours.unknown_sag, inputs_.model, now_.diagnostics);
+    report_unknown_sag(inputs_.neighbours.unknown_sag, inputs_.model, now_.diagnostics);
     return {};
   }
 

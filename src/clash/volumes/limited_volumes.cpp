@@ -99,11 +99,11 @@ double volume_uncertainty(const ScenePart& a, const ScenePart& b) {
 constexpr std::size_t kNoPair = std::numeric_limits<std::size_t>::max();
 
 /// The results about two objects whose common volume is wanted: [first, end).
-struct Run {
+struct ObjectPairRun {
   std::size_t first = 0, end = 0;
 };
 
-bool is_wanted(const PartResults& results, const Run& run, const Reporting& reporting) {
+bool needs_volume(const PartResults& results, const ObjectPairRun& run, const Reporting& reporting) {
   const std::uint32_t a = results.a(run.first).object, b = results.b(run.first).object;
   if (results.rules.limits_volume(a, b)) return true;
   const auto of_run = std::span(results.found).subspan(run.first, run.end - run.first);
@@ -112,20 +112,20 @@ bool is_wanted(const PartResults& results, const Run& run, const Reporting& repo
          });
 }
 
-std::vector<Run> wanted_runs(const PartResults& results, const Reporting& reporting) {
-  std::vector<Run> runs;
+std::vector<ObjectPairRun> runs_with_volume(const PartResults& results, const Reporting& reporting) {
+  std::vector<ObjectPairRun> runs;
   if (!results.rules.limits_volumes() && !(reporting.min_volume_mm3 > 0)) return runs;
-  for (Run run; run.first < results.found.size(); run.first = run.end) {
+  for (ObjectPairRun run; run.first < results.found.size(); run.first = run.end) {
     run.end = run.first + 1;
     while (run.end < results.found.size() && results.same_objects(run.first, run.end)) ++run.end;
-    if (is_wanted(results, run, reporting)) runs.push_back(run);
+    if (needs_volume(results, run, reporting)) runs.push_back(run);
   }
   return runs;
 }
 
 /// Lists the solids of some pairs of objects that overlap, and notes where a sheet has a share in
 /// it, of which there is no volume.
-std::vector<SolidOverlap> overlaps_of(const PartResults& results, const std::vector<Run>& runs,
+std::vector<SolidOverlap> overlaps_of(const PartResults& results, const std::vector<ObjectPairRun>& runs,
                                       std::vector<CommonVolume>& volumes) {
   std::vector<SolidOverlap> overlaps;
   for (std::size_t r = 0; r < runs.size(); ++r) {
@@ -149,7 +149,7 @@ std::vector<SolidOverlap> overlaps_of(const PartResults& results, const std::vec
 Status measure_limited_volumes(const PartResults& results, std::vector<PartResult>& found,
                                std::vector<CommonVolume>& volumes, AccelerationCache& cache,
                                const parallel::Context& context, Report& report) {
-  const std::vector<Run> runs = wanted_runs(results, report.options.reporting);
+  const std::vector<ObjectPairRun> runs = runs_with_volume(results, report.options.reporting);
   volumes.assign(runs.size(), {});
   if (runs.empty()) return {};
   const std::vector<SolidOverlap> overlaps = overlaps_of(results, runs, volumes);

@@ -121,41 +121,41 @@ Result<std::vector<std::uint8_t>> near_objects(const model::Scene& scene,
       });
 }
 
-Status show_wanted(ShapeChooser& chooser, const model::Scene& scene, const ShowPriorities& wishes,
+Status show_by_priority(ShapeChooser& chooser, const model::Scene& scene, const ShowPriorities& priorities,
                    const parallel::Context& context) {
-  for (const model::ObjectId object : wishes.first) chooser.show(object);
-  const Result<std::vector<std::uint8_t>> near = near_objects(scene, wishes.places_mm, context);
+  for (const model::ObjectId object : priorities.first) chooser.show(object);
+  const Result<std::vector<std::uint8_t>> near = near_objects(scene, priorities.places_mm, context);
   if (!near) return near.error();
   for (std::uint32_t o = 0; o < near->size(); ++o)
     if ((*near)[o] != 0) chooser.show(model::ObjectId{o});
-  for (const model::ObjectId object : wishes.last) chooser.show(object);
+  for (const model::ObjectId object : priorities.last) chooser.show(object);
   return {};
 }
 
 }  // namespace
 
-Result<ShownObjects> choose_shown(const model::Scene& scene, const ShowPriorities& wishes,
+Result<ShownObjects> choose_shown(const model::Scene& scene, const ShowPriorities& priorities,
                                   const parallel::Context& context) {
   using report::ModelShown;
   ShownObjects chosen;
   chosen.of.assign(scene.model->objects.size(), ShownAs::nothing);
-  if (wishes.how == ModelShown::nothing) return chosen;
+  if (priorities.how == ModelShown::nothing) return chosen;
   for (const model::GridBody& body : scene.bodies)
-    if (wishes.drawn.empty() || wishes.drawn[model::index(body.object)])
+    if (priorities.drawn.empty() || priorities.drawn[model::index(body.object)])
       chosen.of[model::index(body.object)] = ShownAs::box;
-  if (wishes.how == ModelShown::boxes) return chosen;
+  if (priorities.how == ModelShown::boxes) return chosen;
   std::vector<ShapeCost> costs;
   costs.reserve(scene.shapes.size());
   for (const model::GridShape& shape : scene.shapes) costs.push_back(cost_of(shape, *scene.model));
   ShapeChooser chooser(scene, std::move(costs), chosen);
-  const bool fits = wishes.how == ModelShown::automatic && ShapeBudget{}.holds(chooser.all());
-  if (fits || wishes.how == ModelShown::all) {
+  const bool fits = priorities.how == ModelShown::automatic && ShapeBudget{}.holds(chooser.all());
+  if (fits || priorities.how == ModelShown::all) {
     for (ShownAs& shown : chosen.of)
       if (shown == ShownAs::box) shown = ShownAs::shape;
     return chosen;
   }
   chosen.is_near_only = true;
-  if (const Status status = show_wanted(chooser, scene, wishes, context); !status)
+  if (const Status status = show_by_priority(chooser, scene, priorities, context); !status)
     return status.error();
   return chosen;
 }

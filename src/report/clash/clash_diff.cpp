@@ -67,7 +67,7 @@ class RunCoverage {
       if (!s->there) return named(s->object) + " is not in the model";
     if (std::string why = not_tested(a, b, *here); !why.empty()) return why;
     for (const ObjectPresence* s : {&a, &b})
-      if (const std::string* why = lacks(*s, *here))
+      if (const std::string* why = why_incomplete(*s, *here))
         return named(s->object) + " could not be compared whole (" + *why + ")";
     for (const ObjectPresence* s : {&a, &b})
       if (sheets(run_, s->element) >
@@ -104,7 +104,7 @@ class RunCoverage {
   }
 
   /// Returns why an object could not be compared whole; null if it was.
-  [[nodiscard]] const std::string* lacks(const ObjectPresence& side,
+  [[nodiscard]] const std::string* why_incomplete(const ObjectPresence& side,
                                          const DocumentTest& here) const {
     const auto test = static_cast<std::uint32_t>(&here - run_.tests.data());
     const auto wanted = std::pair(side.element, test);

@@ -102,7 +102,7 @@ void for_each_reading(const std::string& text, Visit&& visit) {
 
 /// Adds the former names that are asked for and that a file without the columns of files cannot
 /// know.
-void add_asked(FileContentsByLabel& former, const FileContentsByLabel& today,
+void add_given_names(FileContentsByLabel& former, const FileContentsByLabel& today,
                std::span<const std::string> asked) {
   for (const std::string& text : asked)
     for_each_reading(text, [&](const std::string& was, const std::string& is) {
@@ -148,7 +148,7 @@ Result<DecidedFiles> match_decided_files(const clash::Findings& findings, const 
                                          const DecisionFile& decided,
                                          std::span<const std::string> asked) {
   FileContentsByLabel former = contents_of(decided), today = contents_of(findings, model);
-  if (former.empty() || !names_all_files(decided)) add_asked(former, today, asked);
+  if (former.empty() || !names_all_files(decided)) add_given_names(former, today, asked);
   DecidedFiles files;
   std::vector<std::string> open;
   for (const std::string& text : asked)

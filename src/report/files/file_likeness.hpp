@@ -33,7 +33,7 @@ struct FileLikeness {
   }
 };
 
-[[nodiscard]] FileLikeness likeness(const RunFiles& before, const FileContents& old_file,
+[[nodiscard]] FileLikeness compare_contents(const RunFiles& before, const FileContents& old_file,
                                     const RunFiles& after, const FileContents& new_file);
 
 /// Whether a file of a run has an object of this id.

@@ -37,7 +37,7 @@ struct SoughtFile {
 /// Two files that may be one.
 struct MatchCandidate {
   std::size_t before = 0, after = 0;
-  FileLikeness likeness;
+  FileLikeness compare_contents;
 };
 
 class FileMatcher {
@@ -48,11 +48,11 @@ class FileMatcher {
         sought_before_(before.files.size()),
         sought_after_(after.files.size()) {}
 
-  Status take_asked(std::span<const FilePair> asked) {
+  Status take_given_pairs(std::span<const FilePair> asked) {
     for (const FilePair& pair : asked) {
-      const Result<std::size_t> x = asked_file(before_, sought_before_, pair.before, "old");
+      const Result<std::size_t> x = find_given_file(before_, sought_before_, pair.before, "old");
       if (!x) return x.error();
-      const Result<std::size_t> y = asked_file(after_, sought_after_, pair.after, "new");
+      const Result<std::size_t> y = find_given_file(after_, sought_after_, pair.after, "new");
       if (!y) return y.error();
       take(*x, *y, FileRelation::asked);
     }
@@ -114,7 +114,7 @@ class FileMatcher {
     std::vector<std::size_t> rivals;
   };
 
-  static Result<std::size_t> asked_file(const RunFiles& run, const std::vector<SoughtFile>& sought,
+  static Result<std::size_t> find_given_file(const RunFiles& run, const std::vector<SoughtFile>& sought,
                                         const std::string& label, const std::string& which) {
     const std::size_t file = find_file(run, label);
     if (file == kNoFile)
@@ -132,7 +132,7 @@ class FileMatcher {
     sought_after_[y].partner = x;
     FileMatch match{before_.files[x].label, after_.files[y].label, relation};
     if (relation != FileRelation::same_label) {
-      const FileLikeness l = likeness(before_, before_.files[x], after_, after_.files[y]);
+      const FileLikeness l = compare_contents(before_, before_.files[x], after_, after_.files[y]);
       match.by_places = l.by_places();
       if (l.is_known()) {
         match.common = l.by_places() ? l.common_places : l.common;
@@ -154,7 +154,7 @@ class FileMatcher {
     for (std::size_t x = 0; x < sought_before_.size(); ++x)
       for (std::size_t y = 0; sought_before_[x].is_free() && y < sought_after_.size(); ++y) {
         if (!sought_after_[y].is_free() || !may_be_one(before_.files[x], after_.files[y])) continue;
-        const FileLikeness l = likeness(before_, before_.files[x], after_, after_.files[y]);
+        const FileLikeness l = compare_contents(before_, before_.files[x], after_, after_.files[y]);
         if (l.is_one_file()) found.push_back({x, y, l});
       }
     return found;
@@ -242,7 +242,7 @@ bool FileMatches::by_label_alone() const {
 Result<FileMatches> match_files(const RunFiles& before, const RunFiles& after,
                                 std::span<const FilePair> asked) {
   FileMatcher matcher(before, after);
-  if (const Status status = matcher.take_asked(asked); !status) return status.error();
+  if (const Status status = matcher.take_given_pairs(asked); !status) return status.error();
   matcher.take_equal_labels();
   matcher.take_renamed();
   matcher.take_parts();

@@ -44,7 +44,7 @@ struct ReportedChanges {
 };
 
 /// What the page itself has just decided is told however much it is.
-Result<ReportedChanges> told_changes(project::Database& database, std::int64_t event,
+Result<ReportedChanges> changes_for_page(project::Database& database, std::int64_t event,
                                  const project::DecisionsAsSeen* done) {
   std::vector<std::int64_t> own;
   if (done != nullptr) own = done->decided;
@@ -74,7 +74,7 @@ Result<std::string> project_answer(project::Database& database, std::int64_t eve
                                    const project::DecisionsAsSeen* done) {
   const Result<project::SeenState> now = project::state_now(database);
   if (!now) return now.error();
-  const Result<ReportedChanges> told = told_changes(database, event, done);
+  const Result<ReportedChanges> told = changes_for_page(database, event, done);
   if (!told) return told.error();
   const Result<std::vector<project::ListedClash>> clashes =
       project::read_clashes(database, told->clashes);

@@ -111,7 +111,7 @@ void list(Console& console, const std::vector<std::string>& texts) {
   if (shown < texts.size()) console.note(fmt::format("  and {} more", texts.size() - shown));
 }
 
-void tell(Console& console, const MatchedTopics& matched, const project::TakenReview& taken,
+void print_review(Console& console, const MatchedTopics& matched, const project::TakenReview& taken,
           const std::string& file, std::size_t topics) {
   console.note(fmt::format("{}: {}, {} and {} changed, {} added, {} there", file,
                            counted(topics, "topic"), counted(taken.statuses, "status", "statuses"),
@@ -150,7 +150,7 @@ Status take_bcf(Session& session, OpenedProject& opened, const BcfReview& review
   if (!taken) return taken.error();
   if (const Status status = transaction->commit(); !status) return status;
   print_diagnostics(session.console(), read->diagnostics, {"bcf-topic-damaged"});
-  tell(session.console(), matched, *taken, review.file, read->topics.size());
+  print_review(session.console(), matched, *taken, review.file, read->topics.size());
   return {};
 }
 
