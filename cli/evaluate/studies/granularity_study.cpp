@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kCells = 7;  // between the unit of work and the note
 
 /// A unit of work that can be run.
-struct Unit {
+struct WorkUnit {
   std::string algorithm, name;
   Contender contender;
   std::size_t least_chunk = 1;
@@ -74,9 +74,9 @@ void add_unit_row(std::string_view algorithm, std::string_view unit, std::vector
 }
 
 /// Runs units of one algorithm; the results of all are that of the first.
-Status run_units(const StudyInput& input, const std::vector<Unit>& units, StudyRecord& study) {
+Status run_units(const StudyInput& input, const std::vector<WorkUnit>& units, StudyRecord& study) {
   StudyRun first;
-  for (const Unit& unit : units) {
+  for (const WorkUnit& unit : units) {
     input.narrate(fmt::format("granularity, {}: {}", unit.algorithm, unit.name));
     Result<StudyRun> run = run_for_study(input, unit.contender,
                                          {.least_chunk = unit.least_chunk, .with_regions = true});
@@ -94,11 +94,11 @@ Status run_units(const StudyInput& input, const std::vector<Unit>& units, StudyR
 }
 
 /// Returns the units of hidden lines: edges in runs, finer and coarser, and whole objects.
-std::vector<Unit> units_of_lines(const SkewedScene& scene, hlr::Stage stage) {
+std::vector<WorkUnit> units_of_lines(const SkewedScene& scene, hlr::Stage stage) {
   constexpr unsigned kEdges = 32;  // of an item of the engine
   const bool local = stage == hlr::Stage::local;
   const std::string algorithm(local ? kLocal : kGlobal);
-  std::vector<Unit> units;
+  std::vector<WorkUnit> units;
   for (const std::size_t chunk : {1U, 16U, 256U})
     units.push_back({algorithm,
                      fmt::format("up to {} edges", kEdges * chunk),
@@ -117,9 +117,9 @@ std::vector<Unit> units_of_lines(const SkewedScene& scene, hlr::Stage stage) {
   return units;
 }
 
-std::vector<Unit> units_of_clashes(const SkewedScene& scene) {
+std::vector<WorkUnit> units_of_clashes(const SkewedScene& scene) {
   constexpr unsigned kPairs = 8;  // of a block of the engine
-  std::vector<Unit> units;
+  std::vector<WorkUnit> units;
   for (const std::size_t chunk : {1U, 16U, 256U})
     units.push_back({std::string(kClash),
                      fmt::format("up to {} pairs of parts", kPairs * chunk),

@@ -27,7 +27,7 @@ struct ReadTopic {
   std::string title, status, assignee;
   std::string changed, changer;        ///< the last change, as a comment has them; or empty
   std::vector<ReadComment> comments;   ///< by date; of an edited one the last form
-  std::optional<Reference> reference;  ///< where the topic is one that was written by Strake
+  std::optional<ClashReference> reference;  ///< where the topic is one that was written by Strake
 };
 
 struct ReadFile {

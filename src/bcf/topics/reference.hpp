@@ -19,7 +19,7 @@ struct ReferredClash {
   report::DecisionStatus status = report::DecisionStatus::undecided;
 };
 
-struct Reference {
+struct ClashReference {
   std::string group;          ///< clash::Group::id; empty: the topic is about one clash
   std::string assignee_mark;  ///< assignee_digest() of whom the topic was assigned to
   std::vector<ReferredClash> clashes;
@@ -36,7 +36,7 @@ inline constexpr std::size_t kMostReferred = 1000;
 [[nodiscard]] std::string clash_guid(std::string_view key);
 [[nodiscard]] std::string group_guid(std::string_view group_id);
 /// Returns the GUID that a topic with this reference has.
-[[nodiscard]] std::string guid_of(const Reference& reference);
+[[nodiscard]] std::string guid_of(const ClashReference& reference);
 /// Returns the GUID of something of a topic, as of its viewpoint.
 [[nodiscard]] std::string part_guid(std::string_view topic_guid, std::string_view part);
 
@@ -47,10 +47,10 @@ inline constexpr std::size_t kMostReferred = 1000;
 [[nodiscard]] std::string assignee_digest(std::string_view assignee);
 
 /// Returns the reference as a line of a description.
-[[nodiscard]] std::string reference_line(const Reference& reference);
+[[nodiscard]] std::string reference_line(const ClashReference& reference);
 
 /// Finds the reference in a description, however its blanks and line ends were laid out anew;
 /// nothing where there is none, or it is damaged.
-[[nodiscard]] std::optional<Reference> find_reference(std::string_view description);
+[[nodiscard]] std::optional<ClashReference> find_reference(std::string_view description);
 
 }  // namespace strake::bcf

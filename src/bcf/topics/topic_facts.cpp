@@ -88,9 +88,9 @@ void append_result(std::string& text, const report::ClashContents& contents,
   append_object(text, "B: ", contents.model, pair.b);
 }
 
-Reference reference_of(const report::ClashContents& contents, const PlannedTopic& topic,
+ClashReference reference_of(const report::ClashContents& contents, const PlannedTopic& topic,
                        std::string_view assignee) {
-  Reference reference;
+  ClashReference reference;
   if (topic.group != nullptr) reference.group = topic.group->id;
   reference.assignee_mark = assignee_digest(assignee);
   const std::size_t named = std::min(topic.results.size(), kMostReferred);
@@ -101,7 +101,7 @@ Reference reference_of(const report::ClashContents& contents, const PlannedTopic
 }
 
 std::string description_of(const report::ClashContents& contents, const PlannedTopic& topic,
-                           const Reference& reference) {
+                           const ClashReference& reference) {
   std::string text;
   const std::size_t listed = std::min(topic.results.size(), kMostListed);
   for (std::size_t r = 0; r < listed; ++r) append_result(text, contents, topic.results[r]);
@@ -291,7 +291,7 @@ std::string newest_date(const model::Model& model) {
 TopicFacts facts_of(const report::ClashContents& contents, const PlannedTopic& topic) {
   TopicFacts facts;
   facts.assignee = assignee_of(contents, topic);
-  const Reference reference = reference_of(contents, topic, facts.assignee);
+  const ClashReference reference = reference_of(contents, topic, facts.assignee);
   facts.guid = guid_of(reference);
   facts.title = title_of(contents, topic);
   facts.status = topic_status(reference.status());

@@ -18,7 +18,7 @@ void begin_section(Groups& groups, std::string_view name) {
   groups.text(0, "SECTION").text(2, name);
 }
 
-void append_header(Groups& groups, const Document& document) {
+void append_header(Groups& groups, const DxfDocument& document) {
   constexpr int kMillimetres = 4;
   const auto variable = [&](std::string_view name) { groups.text(9, name); };
   begin_section(groups, "HEADER");
@@ -182,7 +182,7 @@ void append_layout(Groups& groups, const Layout& layout) {
   if (!is_model) groups.handle(331, paper.paper);
 }
 
-void append_objects(Groups& groups, const Document& document) {
+void append_objects(Groups& groups, const DxfDocument& document) {
   begin_section(groups, "OBJECTS");
   begin_dictionary(groups, kRoot, 0);
   const auto entry = [&](std::string_view name, Handle handle) {
@@ -252,7 +252,7 @@ std::string name_of_paper_block(std::size_t number) {
   return "*Paper_Space" + (number == 0 ? std::string() : std::to_string(number - 1));
 }
 
-void append_dxf_head(std::string& out, const Document& document) {
+void append_dxf_head(std::string& out, const DxfDocument& document) {
   Groups groups(out);
   append_header(groups, document);
   append_classes(groups);
@@ -267,7 +267,7 @@ void append_dxf_head(std::string& out, const Document& document) {
   begin_section(groups, "ENTITIES");
 }
 
-void append_dxf_tail(std::string& out, const Document& document) {
+void append_dxf_tail(std::string& out, const DxfDocument& document) {
   Groups groups(out);
   groups.text(0, "ENDSEC");
   append_objects(groups, document);

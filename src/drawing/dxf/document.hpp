@@ -39,7 +39,7 @@ struct PaperLayout {
 [[nodiscard]] std::string name_of_paper_block(std::size_t number);
 
 /// What a file says of itself before its first entity.
-struct Document {
+struct DxfDocument {
   std::vector<LayerStyle> layers;
   std::vector<PaperLayout> papers;  ///< one at least
   bool opens_on_paper = false;      ///< shows the first sheet first, not model space
@@ -48,9 +48,9 @@ struct Document {
 };
 
 /// Appends what stands before the entities, and the beginning of their section.
-void append_dxf_head(std::string& out, const Document& document);
+void append_dxf_head(std::string& out, const DxfDocument& document);
 
 /// Appends the end of their section, and what stands behind.
-void append_dxf_tail(std::string& out, const Document& document);
+void append_dxf_tail(std::string& out, const DxfDocument& document);
 
 }  // namespace strake::drawing::dxf

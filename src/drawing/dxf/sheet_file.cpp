@@ -114,7 +114,7 @@ std::vector<LayerStyle> layers_of_sheets(const SheetFile& file) {
 Status write_sheet_file(const SheetFile& file, AddMarks add_marks, const model::Model& model,
                         Sink sink, const parallel::Context& context) {
   const ViewsOfSheets placed = placed_views(file);
-  Document document;
+  DxfDocument document;
   document.layers = layers_of_sheets(file);
   document.opens_on_paper = file.opens_on_paper;
   document.next = first_entity(document.layers.size());

@@ -235,7 +235,7 @@ void append_empty_table(Groups& groups, std::string_view name, Handle handle) {
 
 }  // namespace
 
-void append_tables(std::string& out, const Document& document) {
+void append_tables(std::string& out, const DxfDocument& document) {
   Groups groups(out);
   const LineTypes types = line_types(document.layers);
   append_viewports(groups, document.model);

@@ -63,7 +63,7 @@ Result<Redrawn> draw_all(const RedrawRequest& request, std::string_view why,
 }
 
 /// Solves the lines of the objects that are asked for.
-Result<Drawing> draw_part(const ChangedView& changed, const Reach& reach,
+Result<Drawing> draw_part(const ChangedView& changed, const ChangeReach& reach,
                           const parallel::Context& context) {
   const PartialScene part = scene_of(changed.scene, reach.needed);
   WholeView whole = changed.whole;
@@ -114,7 +114,7 @@ Redrawn draw_nothing(const RedrawRequest& request, Drawing earlier) {
 }
 
 /// Puts the part that was solved into the earlier drawing.
-Result<Redrawn> put_together(const ChangedView& changed, const Reach& reach, const Drawing& part,
+Result<Redrawn> put_together(const ChangedView& changed, const ChangeReach& reach, const Drawing& part,
                              Drawing earlier, const parallel::Context& context) {
   Redrawn redrawn{.drawing = std::move(earlier)};
   Drawing& drawing = redrawn.drawing;

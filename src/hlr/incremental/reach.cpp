@@ -54,8 +54,8 @@ class ReachSearch {
         changes_(boxes_),
         over_changes_(projected_boxes()) {}
 
-  Result<Reach> run() {
-    Reach reach;
+  Result<ChangeReach> run() {
+    ChangeReach reach;
     if (!std::ranges::all_of(boxes_, [&](const Box3l& box) { return paper_.reaches(box); })) {
       reach.most = true;
       return reach;
@@ -176,7 +176,7 @@ class ReachSearch {
   }
 
   /// Finds what crosses the objects that are asked for and is drawn after them.
-  [[nodiscard]] Result<std::vector<Crossing>> find_crossings(const Reach& reach) const {
+  [[nodiscard]] Result<std::vector<Crossing>> find_crossings(const ChangeReach& reach) const {
     if (!crosses_) return std::vector<Crossing>{};
     const std::vector<std::uint32_t> numbers = parallel::keys_of(reach.asked);
     std::vector<Box3l> boxes;
@@ -207,7 +207,7 @@ class ReachSearch {
     return hides_ && asked.may_be_hidden_by(paper_.box_of(box));
   }
 
-  Status find_needed(const std::vector<ObjectEdges>& edges, Reach& reach) const {
+  Status find_needed(const std::vector<ObjectEdges>& edges, ChangeReach& reach) const {
     reach.needed = reach.asked;
     const auto crossings = find_crossings(reach);
     if (!crossings) return crossings.error();
@@ -242,7 +242,7 @@ class ReachSearch {
 
 }  // namespace
 
-Result<Reach> find_reach(const ChangedView& changed, const parallel::Context& context) {
+Result<ChangeReach> find_reach(const ChangedView& changed, const parallel::Context& context) {
   return ReachSearch(changed, context).run();
 }
 

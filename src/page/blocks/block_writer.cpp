@@ -44,7 +44,7 @@ class Batches {
     Batch batch;
     std::uint64_t bytes = 0;
     while (section_ < block_.sections.size() && bytes < kBatchBytes) {
-      const Section& section = block_.sections[section_];
+      const RowSource& section = block_.sections[section_];
       if (row_ >= section.rows) {
         ++section_;
         row_ = 0;

@@ -128,11 +128,11 @@ class Zones {
 };
 
 /// A cell of the title block: millimetres from its upper left corner, at its full size.
-struct Field {
+struct TitleField {
   std::string_view name, label;
   double left, top, width, height, letters;
 };
-constexpr std::array<Field, 12> kFields{{{"drawn", "DRAWN", 0, 0, 58, 9, 3},
+constexpr std::array<TitleField, 12> kFields{{{"drawn", "DRAWN", 0, 0, 58, 9, 3},
                                          {"checked", "CHECKED", 0, 9, 58, 9, 3},
                                          {"approved", "APPROVED", 0, 18, 58, 9, 3},
                                          {"date", "DATE", 0, 27, 58, 9, 3},
@@ -152,7 +152,7 @@ class TitleBlock {
       : block_(block), scale_(block.width() / kBlockWidth), marks_(marks) {}
 
   void draw(Lookup field, std::vector<std::string>* narrow) {
-    for (const Field& cell : kFields) {
+    for (const TitleField& cell : kFields) {
       // A field without a label shares the box of the one above.
       if (!cell.label.empty()) box_of_cell(cell);
       if (!cell.label.empty()) text(cell.label, cell.left + 1, cell.top + 2.6, 1.8, Align::start);
@@ -211,7 +211,7 @@ class TitleBlock {
     for (const PaperPoint& p : points) path.points.push_back(point(p.x, p.y));
     marks_.paths.push_back(std::move(path));
   }
-  void box_of_cell(const Field& cell) {
+  void box_of_cell(const TitleField& cell) {
     const double height = cell.name == "title" ? cell.height + 11 : cell.height;
     const PaperPoint a = point(cell.left, cell.top);
     const PaperPoint b = point(cell.left + cell.width, cell.top + height);
@@ -227,7 +227,7 @@ class TitleBlock {
 
 std::vector<std::string> title_block_fields() {
   std::vector<std::string> names;
-  for (const Field& field : kFields) names.emplace_back(field.name);
+  for (const TitleField& field : kFields) names.emplace_back(field.name);
   return names;
 }
 

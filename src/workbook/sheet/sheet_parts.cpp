@@ -166,7 +166,7 @@ std::string pictures_part(const Worksheet& sheet) {
 }
 
 /// Adds the parts of the pictures of sheet number `s`; `images` counts those of all sheets.
-void add_pictures(std::vector<Part>& parts, const Worksheet& sheet, std::size_t s,
+void add_pictures(std::vector<PackagePart>& parts, const Worksheet& sheet, std::size_t s,
                   std::size_t& images) {
   const std::string drawing = fmt::format("drawing{}.xml", s + 1);
   const std::array to_drawing{Relation{"drawing", "../drawings/" + drawing}};
@@ -201,13 +201,13 @@ std::string sheet_part(std::size_t sheet) {
   return fmt::format("xl/worksheets/sheet{}.xml", sheet + 1);
 }
 
-std::vector<Part> workbook_parts(std::span<const Worksheet> sheets) {
+std::vector<PackagePart> workbook_parts(std::span<const Worksheet> sheets) {
   const std::array to_workbook{Relation{"officeDocument", "xl/workbook.xml"}};
   std::vector<Relation> of_workbook;
   for (std::size_t s = 0; s < sheets.size(); ++s)
     of_workbook.emplace_back("worksheet", fmt::format("worksheets/sheet{}.xml", s + 1));
   of_workbook.emplace_back("styles", "styles.xml");
-  std::vector<Part> parts{{"[Content_Types].xml", content_types(sheets)},
+  std::vector<PackagePart> parts{{"[Content_Types].xml", content_types(sheets)},
                           {"_rels/.rels", relations(to_workbook)},
                           {"xl/workbook.xml", workbook_part(sheets)},
                           {"xl/_rels/workbook.xml.rels", relations(of_workbook)},

@@ -12,13 +12,13 @@
 namespace strake::workbook {
 
 /// A file of the archive.
-struct Part {
+struct PackagePart {
   std::string name, text;
 };
 
 /// Returns all parts but the sheets: which parts there are, how they hang together, formats,
 /// pictures. Those that a reader looks for first come first.
-[[nodiscard]] std::vector<Part> workbook_parts(std::span<const Worksheet> sheets);
+[[nodiscard]] std::vector<PackagePart> workbook_parts(std::span<const Worksheet> sheets);
 
 /// Returns the name of the part of sheet number `sheet`, from 0 on.
 [[nodiscard]] std::string sheet_part(std::size_t sheet);

@@ -87,7 +87,7 @@ void append_split(std::vector<Worksheet>& sheets, const Worksheet& whole, std::s
 Status write_workbook(std::span<const Worksheet> sheets, report::Sink sink,
                       const parallel::Context& context) {
   report::ZipWriter zip(sink, "write .csv, or leave results out with --class");
-  for (const Part& part : workbook_parts(sheets))
+  for (const PackagePart& part : workbook_parts(sheets))
     if (const Status added = zip.add_file(part.name, part.text); !added) return added;
   for (std::size_t s = 0; s < sheets.size(); ++s)
     if (const Status added = add_sheet(zip, sheets[s], s, context); !added) return added;

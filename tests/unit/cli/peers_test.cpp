@@ -186,7 +186,7 @@ TEST_F(FakePeers, ADisagreementIsADifferenceWithoutATime) {
   record.peers = {{"pairs-strake", {only_row()}}};
   ASSERT_EQ(differences_of(record).size(), 1U);
   EXPECT_NE(differences_of(record).front().find("3 of 4 crossing pairs"), std::string::npos);
-  const Section section = peer_section(record);
+  const TableSection section = peer_section(record);
   ASSERT_EQ(section.table.rows.size(), 1U);
   EXPECT_EQ(section.table.rows[0][7], "-") << "no time";
   EXPECT_EQ(section.table.rows[0][11], "NO: 3 of 4 crossing pairs");
