@@ -18,7 +18,7 @@ struct PeerPrograms {
   double limit_s = 60;           ///< of a peer; of a whole run several times that
 };
 
-/// Asks one peer, in a process of its own. Whatever becomes of that process is a row: it is not
+/// Runs one peer, in a process of its own. Whatever becomes of that process is a row: it is not
 /// there, it fails, it takes too long, it says what is no answer. Errors: cancelled, and output
 /// where the folder cannot be made.
 [[nodiscard]] Result<PeerRecord> run_peer(const PeerCase& one, const PeerPrograms& programs,

@@ -9,7 +9,7 @@
 
 namespace strake::cli {
 
-/// Says what makes most of the hits, which a list of the worst does not show: parts of one assembly
+/// Returns a sentence that says what makes most of the hits, which a list of the worst does not show: parts of one assembly
 /// that overlap, where these are half of them; or else two assemblies, as a rack that stands in a
 /// duct, where these have a quarter. Empty where nothing does, and below 20 hits.
 /// Hits that decisions settle do not count; null: there are none.

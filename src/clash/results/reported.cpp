@@ -15,7 +15,7 @@ namespace strake::clash {
 namespace {
 
 // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kPairsAtOnce = 4096;
 
 /// Whether a result is reported, and what decides it.
 enum class ReportDecision : std::uint8_t {
@@ -82,7 +82,7 @@ Status keep_unlisted(const parallel::Context& context, const IsUnlisted& is_unli
                      Report& report) {
   const std::vector<std::uint64_t>& elements = report.kept->elements;
   auto contacts = parallel::collect<UnlistedContact>(
-      context, {.name = "contacts kept", .n = report.pairs.size(), .grain = kGrain},
+      context, {.name = "contacts kept", .n = report.pairs.size(), .grain = kPairsAtOnce},
       [&](std::size_t i, std::vector<UnlistedContact>& out) {
         const Pair& pair = report.pairs[i];
         if (is_unlisted(pair))
@@ -110,7 +110,7 @@ Status filter_reported(const PartResults& results, const Sets& sets, const paral
   if (!report.options.reporting.leaves_out()) return {};
   const Reported reported(results, sets, report.options.reporting);
   const auto fates = parallel::transform(
-      context, {.name = "what is reported", .n = report.pairs.size(), .grain = kGrain},
+      context, {.name = "what is reported", .n = report.pairs.size(), .grain = kPairsAtOnce},
       [&](std::size_t i) { return reported.of(report.pairs[i]); });
   if (!fates) return fates.error();
   std::vector<Pair> kept;
@@ -158,7 +158,7 @@ Status leave_out_contacts(const parallel::Context& context, Report& report,
                           parallel::FunctionRef<bool(const Pair&)> stays) {
   const auto is_unlisted = [&](const Pair& pair) { return is_left_out(pair) && !stays(pair); };
   const auto unlisted = parallel::reduce(
-      context, {.name = "count contacts", .n = report.pairs.size(), .grain = kGrain},
+      context, {.name = "count contacts", .n = report.pairs.size(), .grain = kPairsAtOnce},
       UnlistedContacts{},
       [&](UnlistedContacts& counts, std::size_t i) {
         const Pair& pair = report.pairs[i];
@@ -170,7 +170,7 @@ Status leave_out_contacts(const parallel::Context& context, Report& report,
       });
   if (!unlisted) return unlisted.error();
   auto kept = parallel::collect<Pair>(
-      context, {.name = "list without contacts", .n = report.pairs.size(), .grain = kGrain},
+      context, {.name = "list without contacts", .n = report.pairs.size(), .grain = kPairsAtOnce},
       [&](std::size_t i, std::vector<Pair>& out) {
         if (!is_unlisted(report.pairs[i])) out.push_back(report.pairs[i]);
       });

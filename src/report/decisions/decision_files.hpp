@@ -23,7 +23,7 @@ struct DecidedFiles {
   std::vector<std::string> in_force;  ///< as DecidedResults::renamed_before
 };
 
-/// Tells it. Errors: usage, as of match_files() and parse_file_pairs().
+/// Finds the names that files of decisions have today. Errors: usage, as of match_files() and parse_file_pairs().
 [[nodiscard]] Result<DecidedFiles> match_decided_files(const clash::Findings& findings,
                                                        const model::Model& model,
                                                        const DecisionFile& decided,
@@ -32,8 +32,8 @@ struct DecidedFiles {
 /// Ids of objects by the labels of their files.
 using IdsByFile = std::map<std::string_view, std::set<std::string_view>>;
 
-/// Tells the key that a clash had when decisions were made, and that a row has today. The matches,
-/// the model and the decisions must outlive it.
+/// Maps keys of clashes to those that they had when decisions were made, and keys of rows to those
+/// of today. The matches, the model and the decisions must outlive it.
 class DecidedKeys {
  public:
   DecidedKeys(const FileMatches& files, const model::Model& model, const DecisionFile& decided);

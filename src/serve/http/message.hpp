@@ -70,7 +70,7 @@ class RequestHandler {
   [[nodiscard]] virtual std::optional<Answer> refuse(const Request& request) = 0;
   /// Answers a request that was not refused, whole. Whoever asks waits as long as it takes.
   [[nodiscard]] virtual Answer answer(const Request& request) = 0;
-  /// The same, but for what has to wait for something: nothing, and it is asked again soon, with
+  /// Answers as answer() does; where it has to wait for something, nothing: it is asked again soon, with
   /// how long it has waited by then. Others are answered meanwhile.
   [[nodiscard]] virtual std::optional<Answer> answer_or_wait(const Request& request,
                                                              std::chrono::milliseconds /*waited*/) {

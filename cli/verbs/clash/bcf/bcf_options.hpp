@@ -34,7 +34,7 @@ void add_bcf_options(CLI::App& command, BcfInput& options);
 /// Whether the name of a file asks for BCF.
 [[nodiscard]] bool is_bcf(const std::string& file);
 
-/// Says what a file does not have, if it is BCF, its date included.
+/// Prints what a file does not have, if it is BCF, its date included.
 void report_left_out(Console& console, const std::string& file,
                    const report::ClashContents& contents);
 
