@@ -18,6 +18,8 @@
 namespace strake::pictures {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// A folder that appears whole or not at all: files are put into one beside it, which takes its
 /// place at the end. Without a commit the destructor removes what was put there.
 class NewFolder {
@@ -40,8 +42,6 @@ class NewFolder {
 
   std::filesystem::path target_, temporary_;
 };
-
-namespace fs = std::filesystem;
 
 Error cannot_write(const fs::path& target, const std::error_code& why) {
   return {ErrorCode::output, "cannot write the folder: " + why.message(), target.string(),
@@ -90,8 +90,6 @@ Status NewFolder::commit() {
   if (replaces) fs::remove_all(old, fault);
   return {};
 }
-
-namespace fs = std::filesystem;
 
 constexpr std::string_view kIndex = "index.html";
 constexpr std::string_view kFirstLine = "<!DOCTYPE html><!-- pictures of clashes by Strake -->";
