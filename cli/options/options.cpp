@@ -79,15 +79,17 @@ void add_input_options(CLI::App& command, InputOptions& options) {
                   "installed, or projects, which stand for theirs")
       ->required()
       ->type_name("FILE");
-  may_repeat(command.add_option(
+  may_repeat(
+      command.add_option(
           "--unit", options.units,
           "Length unit of the files, instead of the one that they state: mm, m, in ...; of one "
           "of them as part.stl=m; may be repeated"))
       ->type_name("[FILE=]UNIT")
       ->group("Input");
-  may_repeat(command.add_option("--up-axis", options.up_axes,
-                  "Axis that points up in the files, instead of the one that they state; of one of "
-                  "them as part.stl=y; may be repeated"))
+  may_repeat(command.add_option(
+                 "--up-axis", options.up_axes,
+                 "Axis that points up in the files, instead of the one that they state; of one of "
+                 "them as part.stl=y; may be repeated"))
       ->type_name("[FILE=]x|y|z")
       ->group("Input");
   command

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/output/object_list.hpp"
 
-#include <algorithm>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -37,7 +38,6 @@ std::string shown_values(const model::AttributeUse& use) {
     text += (text.empty() ? "" : ", ") + shown_value(value);
   return use.examples.size() < use.values ? text + ", …" : text;
 }
-
 
 }  // namespace
 

@@ -13,9 +13,7 @@
 namespace strake::cli {
 
 Stats::Timer::Timer(Stats& stats, std::string_view phase)
-    : stats_(stats),
-      phase_(phase),
-      start_cpu_s_(parallel::process_cpu_s()) {}
+    : stats_(stats), phase_(phase), start_cpu_s_(parallel::process_cpu_s()) {}
 
 Stats::Timer::~Timer() {
   const double wall = watch_.seconds();

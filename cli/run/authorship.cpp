@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/run/authorship.hpp"
 
-#include <array>
-#include <chrono>
 #include <fmt/chrono.h>
 #include <pwd.h>
 #include <unistd.h>
+
+#include <array>
+#include <chrono>
 
 namespace strake::cli {
 

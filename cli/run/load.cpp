@@ -30,7 +30,8 @@ namespace {
 using geometry::Box3d;
 using geometry::Vec3d;
 
-/// Two units that are taken for each other: files in them, read as if in one unit, differ by the factor.
+/// Two units that are taken for each other: files in them, read as if in one unit, differ by the
+/// factor.
 struct UnitConfusion {
   double factor;
   std::string_view small, large;
@@ -42,9 +43,9 @@ struct UnitConfusion {
 /// hundredth.
 constexpr double kAlike = 1.12, kSame = 1.01;
 constexpr std::array<UnitConfusion, 4> kUnitConfusions{{{1000, "m", "mm", kAlike},
-                                            {25.4, "in", "mm", kSame},
-                                            {39.3701, "m", "in", kSame},
-                                            {304.8, "ft", "mm", kAlike}}};
+                                                        {25.4, "in", "mm", kSame},
+                                                        {39.3701, "m", "in", kSame},
+                                                        {304.8, "ft", "mm", kAlike}}};
 
 /// Whether `large` is larger than `small`, both in grid units, by the factor along all three axes,
 /// and along two at least by extents that the grid has not made of nothing: two parts seldom are
@@ -113,7 +114,8 @@ bool is_alike_in_any_frame(const FileExtent& small, const FileExtent& large,
 /// Returns what to advise for the two files: never another unit for one that is known, if that of
 /// the other is assumed. Where the formats of both state it, the large one is more likely wrong, as
 /// a glTF file in millimetres: nobody models in units larger than a metre.
-std::string options_to_try(const FileExtent& small, const FileExtent& large, const UnitConfusion& confusion,
+std::string options_to_try(const FileExtent& small, const FileExtent& large,
+                           const UnitConfusion& confusion,
                            const std::vector<model::SourceFile>& files) {
   const auto option = [&](const FileExtent& of, std::string_view unit) {
     return fmt::format("--unit '{}={}'", files[of.file].label, unit);
@@ -354,7 +356,8 @@ Result<model::Model> load_model(Session& session, const InputOptions& input) {
   return read_model(session, input, {}, sources);
 }
 
-Result<LoadedModel> place(Session& session, model::Model model, const model::SceneOptions& options) {
+Result<LoadedModel> place(Session& session, model::Model model,
+                          const model::SceneOptions& options) {
   LoadedModel loaded;
   loaded.model = std::make_unique<const model::Model>(std::move(model));
   Result<model::Scene> scene = place_model(session, *loaded.model, options);
@@ -363,8 +366,9 @@ Result<LoadedModel> place(Session& session, model::Model model, const model::Sce
   return loaded;
 }
 
-Result<LoadedModel> load(Session& session, const InputOptions& input, const model::SceneOptions& options,
-                    std::span<const rules::FileSettings> said_of_files) {
+Result<LoadedModel> load(Session& session, const InputOptions& input,
+                         const model::SceneOptions& options,
+                         std::span<const rules::FileSettings> said_of_files) {
   std::vector<std::filesystem::path> sources;
   Result<model::Model> model = read_model(session, input, said_of_files, sources);
   if (!model) return model.error();

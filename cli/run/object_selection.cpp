@@ -36,7 +36,7 @@ std::string mend_of(const model::Selection& selection) {
 }  // namespace
 
 Result<SelectedObjects> pick_all(Session& session, const model::Scene& scene,
-                        const std::vector<model::Selection>& selections) {
+                                 const std::vector<model::Selection>& selections) {
   SelectedObjects all;
   all.any.resize(scene.model->objects.size());
   for (const model::Selection& selection : selections) {

@@ -27,7 +27,7 @@ struct SelectedObjects {
 };
 
 [[nodiscard]] Result<SelectedObjects> pick_all(Session& session, const model::Scene& scene,
-                                      const std::vector<model::Selection>& selections);
+                                               const std::vector<model::Selection>& selections);
 
 /// Returns which objects one of the selections picks, an entry per object; empty where there are no
 /// selections. A selection that picks nothing is an error: it is misspelt more often than meant.

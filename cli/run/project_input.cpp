@@ -156,8 +156,8 @@ Result<std::vector<std::filesystem::path>> model_files(
 }
 
 Result<LoadedModel> load_project(Session& session, OpenedProject& opened,
-                            const model::SceneOptions& options,
-                            std::span<const rules::FileSettings> said_of_files) {
+                                 const model::SceneOptions& options,
+                                 std::span<const rules::FileSettings> said_of_files) {
   Result<std::vector<std::filesystem::path>> files =
       model_files(opened.project, opened.file, said_of_files);
   if (!files) return files.error();

@@ -65,7 +65,7 @@ void count_placed(ModelContent& content, const model::Scene& scene, model::Objec
 
 /// Returns the content of the files with `from` <= number < `to`.
 ModelContent content_of(const model::Model& model, const model::Scene& scene, std::size_t from,
-                   std::size_t to) {
+                        std::size_t to) {
   ModelContent content;
   std::vector<bool> used(model.shapes.size());
   for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
@@ -106,7 +106,8 @@ struct RequestedLists {
   bool attributes = false;
 };
 
-std::string info_json(const model::Model& model, const model::Scene& scene, const RequestedLists& lists) {
+std::string info_json(const model::Model& model, const model::Scene& scene,
+                      const RequestedLists& lists) {
   Json files = Json::array();
   for (std::size_t f = 0; f < model.files.size(); ++f) {
     const model::SourceFile& file = model.files[f];
@@ -156,7 +157,8 @@ std::string content_text(const ModelContent& content) {
       extents_text(content.extents));
 }
 
-std::string info_text(const model::Model& model, const model::Scene& scene, const RequestedLists& lists) {
+std::string info_text(const model::Model& model, const model::Scene& scene,
+                      const RequestedLists& lists) {
   std::string out;
   for (std::size_t f = 0; f < model.files.size(); ++f) {
     const model::SourceFile& file = model.files[f];
@@ -211,7 +213,7 @@ struct InfoOptions {
 
 /// Loads the files, or the project of -p.
 Result<LoadedModel> load_input(Session& session, const InfoOptions& options,
-                          const model::SceneOptions& scene) {
+                               const model::SceneOptions& scene) {
   if (const Status s = check_project_options(options.project, options.input); !s) return s.error();
   if (options.project.file.empty() && options.input.files.empty())
     return Error{ErrorCode::usage, "no model file is given", {}, "'strake info --help' tells more"};

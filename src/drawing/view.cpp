@@ -30,12 +30,12 @@ struct NamedView {
   Vec3l direction;
 };
 constexpr std::array<NamedView, 7> kNamed = {{{"top", {0, 0, 1}},
-                                          {"bottom", {0, 0, -1}},
-                                          {"front", {0, -1, 0}},
-                                          {"back", {0, 1, 0}},
-                                          {"left", {-1, 0, 0}},
-                                          {"right", {1, 0, 0}},
-                                          {"iso", {1, -1, 1}}}};
+                                              {"bottom", {0, 0, -1}},
+                                              {"front", {0, -1, 0}},
+                                              {"back", {0, 1, 0}},
+                                              {"left", {-1, 0, 0}},
+                                              {"right", {1, 0, 0}},
+                                              {"iso", {1, -1, 1}}}};
 
 Vec3l reduced(const Vec3l& v) {
   const std::int64_t common = std::gcd(std::gcd(v.x, v.y), v.z);

@@ -69,7 +69,6 @@ std::string all_words() {
   return words;
 }
 
-
 }  // namespace
 
 bool read_tolerances(settings::ParseContext& reading, settings::TableReader& table,

@@ -43,12 +43,13 @@ class LabelDiagnostics {
 
   void report(const BalloonList& list) {
     report_rows(list, list.unseen, "balloon-not-seen",
-              "no view shows an object of it (name views that do, or leave views out)",
-              "no view shows objects of them (name views that do, or leave views out)");
-    report_rows(list, list.crowded, "balloon-no-room",
-              "there is no room for it (a smaller size, another side or a larger sheet make room)",
-              "there is no room for them (a smaller size, another side or a larger sheet make "
-              "room)");
+                "no view shows an object of it (name views that do, or leave views out)",
+                "no view shows objects of them (name views that do, or leave views out)");
+    report_rows(
+        list, list.crowded, "balloon-no-room",
+        "there is no room for it (a smaller size, another side or a larger sheet make room)",
+        "there is no room for them (a smaller size, another side or a larger sheet make "
+        "room)");
   }
 
  private:
@@ -92,7 +93,7 @@ class LabelDiagnostics {
 
   /// Tells of rows of a list that have no balloon, and why: of one, or of several.
   void report_rows(const BalloonList& list, const std::vector<std::string>& rows, const char* code,
-                 const std::string& one, const std::string& many) {
+                   const std::string& one, const std::string& many) {
     if (rows.empty()) return;
     constexpr std::size_t kMostNamed = 10;
     std::string numbers;

@@ -21,7 +21,7 @@ Status write_clash_workbook(const report::ClashContents& contents, report::Sink 
   std::vector<Worksheet> sheets;
   append_split(sheets, clash_sheet(contents, numbers));
   for (const Worksheet& sheet : {std::move(*pictures), group_sheet(contents),
-                             joint_sheet(contents, *joints), not_compared_sheet(contents)})
+                                 joint_sheet(contents, *joints), not_compared_sheet(contents)})
     if (sheet.rows > 0) append_split(sheets, sheet);
   sheets.insert(sheets.begin(), summary_sheet(contents, sheets));
   return write_workbook(sheets, sink, context);

@@ -57,7 +57,8 @@ void add_region_row(const std::string& stage, const std::string& region, std::st
 
 /// Runs a stage in both ways and adds a row for all its regions and for one of them, each way, and
 /// a chart of all.
-Status compare_ways(const StudyInput& input, const SharingComparison& comparison, StudyRecord& study) {
+Status compare_ways(const StudyInput& input, const SharingComparison& comparison,
+                    StudyRecord& study) {
   std::array<StudyRun, 2> runs;
   for (std::size_t w = 0; w < runs.size(); ++w) {
     const SharingMode& way = comparison.ways[w];

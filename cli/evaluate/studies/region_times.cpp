@@ -26,7 +26,7 @@ parallel::RegionReport merged_report(std::span<const parallel::RegionReport> reg
 }
 
 parallel::RegionReport merged_report(std::span<const parallel::RegionReport> regions,
-                                std::span<const std::string_view> names) {
+                                     std::span<const std::string_view> names) {
   std::vector<parallel::RegionReport> some;
   for (const parallel::RegionReport& region : regions)
     if (std::ranges::find(names, region.name) != names.end()) some.push_back(region);

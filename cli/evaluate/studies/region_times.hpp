@@ -18,7 +18,7 @@ inline constexpr unsigned kWorkersOfExample = 7;
 [[nodiscard]] parallel::RegionReport merged_report(std::span<const parallel::RegionReport> regions);
 /// Returns those of some names as one.
 [[nodiscard]] parallel::RegionReport merged_report(std::span<const parallel::RegionReport> regions,
-                                              std::span<const std::string_view> names);
+                                                   std::span<const std::string_view> names);
 
 /// Returns the region of a team that took most; one without a name where there is none.
 [[nodiscard]] parallel::RegionReport longest_of(std::span<const parallel::RegionReport> regions);

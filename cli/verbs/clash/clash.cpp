@@ -226,7 +226,8 @@ Result<ClashRequest> request_of(const ClashOptions& given, bool json) {
 }
 
 /// Returns the tests of the rules file, or the one that the command line asks for.
-Result<rules::Plan> plan_of(Session& session, const LoadedModel& loaded, const ClashRequest& request) {
+Result<rules::Plan> plan_of(Session& session, const LoadedModel& loaded,
+                            const ClashRequest& request) {
   const auto timer = session.step("select");
   if (request.rules) {
     Result<rules::Plan> plan = request.rules->plan(loaded.scene, session.context());
@@ -395,10 +396,9 @@ Result<ClashSource> source_of(Session& session, const ClashOptions& given,
 
 /// Looks up what was decided about findings, in a file or in the project, which remembers them.
 /// `from_file` holds what a file says.
-Result<const report::DecidedResults*> decision_about(Session& session, const ClashOptions& given,
-                                                 const ClashRequest& request, ClashSource& source,
-                                                 clash::Findings& findings,
-                                                 std::optional<report::DecidedResults>& from_file) {
+Result<const report::DecidedResults*> decision_about(
+    Session& session, const ClashOptions& given, const ClashRequest& request, ClashSource& source,
+    clash::Findings& findings, std::optional<report::DecidedResults>& from_file) {
   if (source.project) {
     const Status status = source.project->remember(
         session, source.loaded, findings,

@@ -168,7 +168,8 @@ Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given,
     report::write_clash_diff_json(diff, sink);
     return Status{};
   };
-  if (const Status status = write_files(session, given.outputs, report::clash_diff_writers(), diff); !status)
+  if (const Status status = write_files(session, given.outputs, report::clash_diff_writers(), diff);
+      !status)
     return status.error();
   const Status written =
       session.json()

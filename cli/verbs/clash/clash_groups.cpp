@@ -105,7 +105,7 @@ Result<std::optional<project::RunRecord>> record_of_last_run(project::Database& 
 
 /// Returns what is asked for; where nothing is, how the run grouped.
 ClashGroupingInput grouping_or_that_of_run(const ClashGroupingInput& input,
-                                   const std::optional<project::RunRecord>& run) {
+                                           const std::optional<project::RunRecord>& run) {
   ClashGroupingInput asked = input;
   if (input.first_given() == nullptr && run && !run->grouping.by.empty()) {
     asked.result.group_by = run->grouping.by;

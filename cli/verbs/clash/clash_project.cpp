@@ -58,7 +58,8 @@ std::string work_text(std::string_view test, const project::TestWork& work) {
 
 /// Whether a run finds what the one before found, and has it under the same names: where files have
 /// other labels, what is written of the same results is other, too.
-Result<bool> is_same_run(Session& session, const LoadedModel& loaded, const project::StoredTest& before,
+Result<bool> is_same_run(Session& session, const LoadedModel& loaded,
+                         const project::StoredTest& before,
                          const std::vector<std::uint32_t>& now_of) {
   if (!is_same(now_of, loaded.model->objects.size())) return false;
   return clash::have_same_names(before.results.report, *loaded.model, session.context());
@@ -121,7 +122,7 @@ Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProject
 }
 
 Result<LoadedModel> ProjectClashes::load(Session& session, const model::SceneOptions& options,
-                                    std::span<const rules::FileSettings> said_of_files) {
+                                         std::span<const rules::FileSettings> said_of_files) {
   const Result<project::ReadScope> moment = project::ReadScope::begin(opened_.project.database());
   if (!moment) return moment.error();
   const Result<Hash128> seal = project::model_seal(opened_.project.database());

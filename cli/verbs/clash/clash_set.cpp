@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "cli/run/authorship.hpp"
 #include "cli/run/object_selection.hpp"
 #include "cli/run/project_input.hpp"
-#include "cli/run/authorship.hpp"
 #include "cli/verbs/clash/bcf/bcf_review.hpp"
 #include "cli/verbs/clash/clash_groups.hpp"
 #include "cli/verbs/verb.hpp"

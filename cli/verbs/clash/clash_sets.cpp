@@ -24,9 +24,7 @@ std::string joined(const std::vector<model::Selection>& selections) {
 
 void add_set_options(CLI::App& command, SetInput& options) {
   const auto set = [&](const char* name, std::vector<std::string>& texts, const char* help) {
-    return may_repeat(command.add_option(name, texts, help))
-        ->type_name("SELECTION")
-        ->group("Sets");
+    return may_repeat(command.add_option(name, texts, help))->type_name("SELECTION")->group("Sets");
   };
   CLI::Option* const a = set("--a", options.a,
                              "Set A: objects that this picks, as 'path = \"*/PIPING/*\"' or "
@@ -47,7 +45,8 @@ Result<SetRequest> set_request(const SetInput& input) {
   return SetRequest{std::move(*a), std::move(*b), input.self};
 }
 
-Result<ChosenSets> choose_sets(Session& session, const LoadedModel& loaded, const SetRequest& request) {
+Result<ChosenSets> choose_sets(Session& session, const LoadedModel& loaded,
+                               const SetRequest& request) {
   if (request.a.empty() && request.b.empty())
     return ChosenSets{
         request.self ? clash::one_set(loaded.scene) : clash::sets_by_file(*loaded.model), {}};

@@ -47,8 +47,8 @@ std::string brute_force_cost(const hlr::BruteForceWork& work, unsigned workers) 
 }
 
 Status print_brute_force_cost(Session& session, const model::Scene& scene,
-                             const std::vector<bool>& drawn, const hlr::View& view,
-                             const hlr::Options& options) {
+                              const std::vector<bool>& drawn, const hlr::View& view,
+                              const hlr::Options& options) {
   const auto timer = session.step("count the work");
   const parallel::Context context = session.context();
   const Result<hlr::BruteForceWork> work =

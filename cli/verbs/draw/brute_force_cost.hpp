@@ -16,7 +16,7 @@ namespace strake::cli {
 
 /// Prints on standard error what the brute force will cost, before it starts.
 [[nodiscard]] Status print_brute_force_cost(Session& session, const model::Scene& scene,
-                                           const std::vector<bool>& drawn, const hlr::View& view,
-                                           const hlr::Options& options);
+                                            const std::vector<bool>& drawn, const hlr::View& view,
+                                            const hlr::Options& options);
 
 }  // namespace strake::cli

@@ -137,31 +137,35 @@ void add_view(CLI::App& command, DrawOptions& options) {
       ->type_name("BOX|auto")
       ->group("View");
   CLI::Option* const section =
-      may_repeat(command.add_option(
+      may_repeat(
+          command.add_option(
               "--section", options.sections,
               "Cut away what lies beyond a plane: 'z>4500mm' above, 'z<4500mm' below, z=4500mm "
               "what is nearer to the viewer; for z also x, y or a normal, '1,2,0>4500mm'. "
               "Solids are closed by a hatched face where it cuts them; may be repeated"))
           ->type_name("PLANE")
           ->group("View");
-  may_repeat(command.add_option("--uncut", options.uncut,
-                  "Leave the objects that this picks whole where a section cuts them, neither cut "
-                  "nor hatched, as bolts, shafts and ribs along it (ISO 128-3): 'name = BOLT*'; "
-                  "what lies wholly beyond a plane is cut away all the same; may be repeated"))
+  may_repeat(command.add_option(
+                 "--uncut", options.uncut,
+                 "Leave the objects that this picks whole where a section cuts them, neither cut "
+                 "nor hatched, as bolts, shafts and ribs along it (ISO 128-3): 'name = BOLT*'; "
+                 "what lies wholly beyond a plane is cut away all the same; may be repeated"))
       ->type_name("SELECTION")
       ->needs(section)
       ->group("View");
-  may_repeat(command.add_option("--hatch", options.hatches,
-                  "How sections are hatched: angle, distance of lines in the model, or both with "
-                  "their units, or off, and of which objects: '30deg,80mm: PIPE*'; may be "
-                  "repeated, the first that "
-                  "picks an object counts (default: neighbours differ in angle, colours in "
-                  "distance)"))
+  may_repeat(command.add_option(
+                 "--hatch", options.hatches,
+                 "How sections are hatched: angle, distance of lines in the model, or both with "
+                 "their units, or off, and of which objects: '30deg,80mm: PIPE*'; may be "
+                 "repeated, the first that "
+                 "picks an object counts (default: neighbours differ in angle, colours in "
+                 "distance)"))
       ->type_name("PATTERN")
       ->group("View");
-  may_repeat(command.add_option("--select", options.select,
-                  "Draw only objects that this picks, as 'PIPE*' or 'type = box and @DN > 80mm'; "
-                  "may be repeated"))
+  may_repeat(command.add_option(
+                 "--select", options.select,
+                 "Draw only objects that this picks, as 'PIPE*' or 'type = box and @DN > 80mm'; "
+                 "may be repeated"))
       ->type_name("SELECTION")
       ->group("View");
 }
@@ -202,7 +206,8 @@ void add_lines(CLI::App& command, DrawOptions& options) {
           "model space of .dxf, too (default off)")
       ->type_name("on|off|LENGTH[+dxf]")
       ->group("Lines");
-  may_repeat(command.add_option(
+  may_repeat(
+      command.add_option(
           "--style", options.styles,
           fmt::format("How the lines of some objects are drawn in {}: name of their layer, colour, "
                       "width of visible edges and type of line, each as you like: "
@@ -284,7 +289,8 @@ void add_stored(CLI::App& command, DrawOptions& options) {
 /// Adds --sheet; it excludes the options that a sheet states itself.
 void add_sheet(CLI::App& command, DrawOptions& options) {
   CLI::Option* const sheet =
-      may_repeat(command.add_option(
+      may_repeat(
+          command.add_option(
               "--sheet", options.sheets,
               "Several views with frame and title block, as a sheet file (TOML) says; may "
               "be repeated; several sheets are pages of a .pdf, layouts of a .dxf, or a file "

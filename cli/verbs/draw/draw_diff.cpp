@@ -98,7 +98,8 @@ Result<std::vector<report::ViewDocument>> read(Session& session, const DrawDiffO
 }
 
 Status write(Session& session, const DrawDiffOptions& given, const report::ViewDiff& diff) {
-  if (const Status status = write_files(session, given.outputs, report::view_diff_writers(), diff); !status)
+  if (const Status status = write_files(session, given.outputs, report::view_diff_writers(), diff);
+      !status)
     return status;
   if (!session.json())
     return session.write_stdout(report::view_diff_table(diff, {.width = terminal_width()}));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/verbs/draw/draw_run.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <fmt/core.h>
 #include <functional>
 #include <string>
 #include <utility>
@@ -41,7 +42,8 @@ std::string sheet_text(const drawing::PlaneBox& box, const drawing::LayoutOption
 /// them out of `drawn` and names them in `layout` where they are to be left out, and warns of them
 /// otherwise. Errors: cancelled.
 Status resolve_far_objects(Session& session, const model::Scene& scene, const hlr::View& view,
-                        bool leave_out, std::vector<bool>& drawn, drawing::LayoutOptions& layout) {
+                           bool leave_out, std::vector<bool>& drawn,
+                           drawing::LayoutOptions& layout) {
   const Result<drawing::FarObjects> far =
       drawing::find_far_objects(scene, drawn, view, session.context());
   if (!far) return far.error();
@@ -85,7 +87,7 @@ Result<PreparedView> prepare_view(Session& session, const DrawRequest& request,
   if (!drawn) return drawn.error();
   prepared.drawn = std::move(*drawn);
   if (const Status status = resolve_far_objects(session, scene, request.view, !request.far_objects,
-                                             prepared.drawn, prepared.layout);
+                                                prepared.drawn, prepared.layout);
       !status)
     return status.error();
   auto hatches = hatches_of(session, scene, request.hatches);
@@ -163,7 +165,7 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
 
 /// Says what thinning left out, and how many break lines there are.
 void print_conventions(Session& session, const drawing::Conventions& conventions,
-                      const drawing::Ink& ink) {
+                       const drawing::Ink& ink) {
   if (ink.thinned) {
     session.stats().count("lines thinned", ink.thinned->lines);
     session.console().note(thinned_line(*ink.thinned));
@@ -174,7 +176,7 @@ void print_conventions(Session& session, const drawing::Conventions& conventions
 }  // namespace
 
 void report_drawing(Session& session, const drawing::NeutralDrawing& drawing,
-                  const model::Model& model) {
+                    const model::Model& model) {
   count_work(session.stats(), drawing);
   print_drawing_summary(session.console(), drawing, model);
 }

@@ -43,7 +43,7 @@ struct PreparedView {
 
 /// Counts the work for --stats, and prints what was drawn.
 void report_drawing(Session& session, const drawing::NeutralDrawing& drawing,
-                  const model::Model& model);
+                    const model::Model& model);
 
 /// Writes a drawing to the files of -o, and to standard output under --json. `scene` is what was
 /// drawn; null: it is not known.

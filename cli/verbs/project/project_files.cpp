@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "cli/run/load.hpp"
 #include "cli/run/authorship.hpp"
+#include "cli/run/load.hpp"
 #include "cli/run/write_files.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/project/project_verbs.hpp"
@@ -44,7 +44,8 @@ Status print_file_notes(Session& session, project::Project& project, const proje
 }
 
 Status write_outputs(Session& session, const FileOptions& given, const project::Changes& changes) {
-  if (const Status status = write_files(session, given.outputs, project::change_writers(), changes); !status)
+  if (const Status status = write_files(session, given.outputs, project::change_writers(), changes);
+      !status)
     return status;
   if (!session.json())
     return session.write_stdout(project::changes_text(changes, {.width = terminal_width()}));
@@ -56,8 +57,9 @@ Status write_outputs(Session& session, const FileOptions& given, const project::
 
 /// Tells what became of the project, and returns the exit code.
 Result<ExitCode> print_update(Session& session, const FileOptions& given, project::Project& project,
-                      const project::Update& done) {
-  if (const Status status = print_file_notes(session, project, done); !status) return status.error();
+                              const project::Update& done) {
+  if (const Status status = print_file_notes(session, project, done); !status)
+    return status.error();
   if (const Status status = write_outputs(session, given, done.changes); !status)
     return status.error();
   return given.input.strict && done.noticed.skipped() > 0 ? ExitCode::partial : ExitCode::done;

@@ -38,7 +38,8 @@ struct TopicViewpoint {
 };
 
 Result<TopicViewpoint> make_viewpoint(const pictures::Scenery& scenery, const PlannedTopic& topic,
-                          const std::string& topic_guid, const parallel::Context& context) {
+                                      const std::string& topic_guid,
+                                      const parallel::Context& context) {
   const report::ClashContents& contents = scenery.contents();
   const pictures::Subject subject = topic.group != nullptr
                                         ? pictures::subject_of(contents, *topic.group)

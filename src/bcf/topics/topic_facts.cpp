@@ -89,7 +89,7 @@ void append_result(std::string& text, const report::ClashContents& contents,
 }
 
 ClashReference reference_of(const report::ClashContents& contents, const PlannedTopic& topic,
-                       std::string_view assignee) {
+                            std::string_view assignee) {
   ClashReference reference;
   if (topic.group != nullptr) reference.group = topic.group->id;
   reference.assignee_mark = assignee_digest(assignee);

@@ -19,15 +19,24 @@ struct StatusWord {
 
 /// In small letters; words of ours, then those that other programs have for the same.
 constexpr std::array kWords{
-    StatusWord{"new", ParsedStatus::open},           StatusWord{"active", ParsedStatus::active},
-    StatusWord{"reviewed", ParsedStatus::reviewed},  StatusWord{"approved", ParsedStatus::approved},
-    StatusWord{"resolved", ParsedStatus::resolved},  StatusWord{"open", ParsedStatus::open},
-    StatusWord{"opened", ParsedStatus::open},        StatusWord{"reopened", ParsedStatus::active},
-    StatusWord{"re-opened", ParsedStatus::active},   StatusWord{"assigned", ParsedStatus::active},
-    StatusWord{"in progress", ParsedStatus::active}, StatusWord{"in_progress", ParsedStatus::active},
-    StatusWord{"inprogress", ParsedStatus::active},  StatusWord{"in review", ParsedStatus::reviewed},
-    StatusWord{"accepted", ParsedStatus::approved},  StatusWord{"ignored", ParsedStatus::approved},
-    StatusWord{"closed", ParsedStatus::resolved},    StatusWord{"done", ParsedStatus::resolved},
+    StatusWord{"new", ParsedStatus::open},
+    StatusWord{"active", ParsedStatus::active},
+    StatusWord{"reviewed", ParsedStatus::reviewed},
+    StatusWord{"approved", ParsedStatus::approved},
+    StatusWord{"resolved", ParsedStatus::resolved},
+    StatusWord{"open", ParsedStatus::open},
+    StatusWord{"opened", ParsedStatus::open},
+    StatusWord{"reopened", ParsedStatus::active},
+    StatusWord{"re-opened", ParsedStatus::active},
+    StatusWord{"assigned", ParsedStatus::active},
+    StatusWord{"in progress", ParsedStatus::active},
+    StatusWord{"in_progress", ParsedStatus::active},
+    StatusWord{"inprogress", ParsedStatus::active},
+    StatusWord{"in review", ParsedStatus::reviewed},
+    StatusWord{"accepted", ParsedStatus::approved},
+    StatusWord{"ignored", ParsedStatus::approved},
+    StatusWord{"closed", ParsedStatus::resolved},
+    StatusWord{"done", ParsedStatus::resolved},
     StatusWord{"fixed", ParsedStatus::resolved},
 };
 

@@ -12,7 +12,7 @@ namespace {
 using AssemblyOrFile = std::pair<std::uint32_t, model::GroupId>;
 
 AssemblyOrFile whole_of(const model::Model& model, const model::ObjectAssemblies& assemblies,
-               model::ObjectId id) {
+                        model::ObjectId id) {
   return {model.object(id).file, assemblies.of(id)};
 }
 
@@ -23,8 +23,8 @@ Partition by_assembly(std::span<const GroupingItem> items, const model::Model& m
   std::map<std::pair<AssemblyOrFile, AssemblyOrFile>, std::uint32_t> numbers;
   Partition partition;
   for (const GroupingItem& item : items) {
-    const std::pair<AssemblyOrFile, AssemblyOrFile> pair = std::minmax(whole_of(model, assemblies, item.pair->a),
-                                                     whole_of(model, assemblies, item.pair->b));
+    const std::pair<AssemblyOrFile, AssemblyOrFile> pair = std::minmax(
+        whole_of(model, assemblies, item.pair->a), whole_of(model, assemblies, item.pair->b));
     const auto [at, is_new] = numbers.try_emplace(pair, partition.count);
     if (is_new) ++partition.count;
     partition.group.push_back(at->second);

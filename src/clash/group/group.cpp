@@ -163,7 +163,8 @@ class Namer {
     return std::minmax(whole_of(pair.a), whole_of(pair.b));
   }
 
-  [[nodiscard]] static std::string name_of(const std::pair<AssemblyOrFile, AssemblyOrFile>& wholes, bool by_path) {
+  [[nodiscard]] static std::string name_of(const std::pair<AssemblyOrFile, AssemblyOrFile>& wholes,
+                                           bool by_path) {
     const auto text = [by_path](const AssemblyOrFile& whole) {
       return by_path && !whole.path.empty() ? whole.path : whole.name;
     };
@@ -173,7 +174,8 @@ class Namer {
 
   void name_by_assembly(Group& group, Hasher& hasher) const {
     const std::pair<AssemblyOrFile, AssemblyOrFile> wholes = wholes_of(group);
-    for (const AssemblyOrFile& whole : {wholes.first, wholes.second}) hasher.add(whole.file).add(whole.path);
+    for (const AssemblyOrFile& whole : {wholes.first, wholes.second})
+      hasher.add(whole.file).add(whole.path);
     group.name = name_of(wholes, false);
   }
 

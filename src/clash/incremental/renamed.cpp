@@ -77,7 +77,7 @@ Result<bool> have_same_names(const Report& earlier, const model::Model& model,
 }
 
 void mark_hashed_contacts_changed(const KeptForChanges& kept, std::span<const std::uint64_t> names,
-                               ObjectMap& map) {
+                                  ObjectMap& map) {
   const RenamedObjects renamed(kept.elements, names, map);
   for (const UnlistedContact& contact : kept.unlisted)
     if (renamed.concern(contact))

@@ -34,9 +34,11 @@ class Reported {
     if (!has_relation(pair)) return ReportDecision::by_relation;
     const CommonVolume* const common = results_.found[pair.first_region].common;
     if (!(reporting_.min_volume_mm3 > 0) || common == nullptr) return ReportDecision::reported;
-    if (pair.cls != Class::hit) return ReportDecision::reported;  // an allowed hit goes by its volume as well
+    if (pair.cls != Class::hit)
+      return ReportDecision::reported;  // an allowed hit goes by its volume as well
     if (common->is_less_than(reporting_.min_volume_mm3)) return ReportDecision::by_volume;
-    return common->may_be_less_than(reporting_.min_volume_mm3) ? ReportDecision::volume_open : ReportDecision::reported;
+    return common->may_be_less_than(reporting_.min_volume_mm3) ? ReportDecision::volume_open
+                                                               : ReportDecision::reported;
   }
 
  private:
@@ -96,7 +98,6 @@ Status keep_unlisted(const parallel::Context& context, const IsUnlisted& is_unli
   return {};
 }
 
-
 }  // namespace
 
 std::uint64_t& count_of(NotReported::Counts& counts, Class cls, bool allowed) {
@@ -105,8 +106,8 @@ std::uint64_t& count_of(NotReported::Counts& counts, Class cls, bool allowed) {
   return cls == Class::contact ? counts.contact : counts.clearance_violation;
 }
 
-Status filter_reported(const PartResults& results, const Sets& sets, const parallel::Context& context,
-                     Report& report) {
+Status filter_reported(const PartResults& results, const Sets& sets,
+                       const parallel::Context& context, Report& report) {
   if (!report.options.reporting.leaves_out()) return {};
   const Reported reported(results, sets, report.options.reporting);
   const auto fates = parallel::transform(

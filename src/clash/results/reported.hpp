@@ -21,7 +21,7 @@ namespace strake::clash {
 /// reported stays, flagged kUncertain. `pairs` still carry the number of their first result in
 /// Pair::first_region. Errors: cancelled.
 [[nodiscard]] Status filter_reported(const PartResults& results, const Sets& sets,
-                                   const parallel::Context& context, Report& report);
+                                     const parallel::Context& context, Report& report);
 
 /// Returns how many regions of a pair are listed, those that a rule allows too.
 [[nodiscard]] std::uint32_t listed_regions(const Pair& pair, const Options& options);

@@ -116,7 +116,7 @@ Result<std::vector<std::uint8_t>> files_of_unknown_sag(const ScenePartList& list
 }
 
 void report_unknown_sag(std::span<const std::uint8_t> by_file, const model::Model& model,
-                      Diagnostics& diagnostics) {
+                        Diagnostics& diagnostics) {
   for (std::size_t f = 0; f < by_file.size(); ++f)
     if (by_file[f] != 0)
       diagnostics.add(Severity::note, "unknown-sag",

@@ -34,7 +34,7 @@ void report_not_compared(const model::Model& model, Report& report);
 
 /// Adds "unknown-sag" for each of these files.
 void report_unknown_sag(std::span<const std::uint8_t> by_file, const model::Model& model,
-                      Diagnostics& diagnostics);
+                        Diagnostics& diagnostics);
 
 /// Fills Report::counters, and the candidates of each rule.
 [[nodiscard]] Status fill_counters(const EvaluatedPairs& evaluated, const ObjectPairs& objects,

@@ -103,7 +103,8 @@ struct ObjectPairRun {
   std::size_t first = 0, end = 0;
 };
 
-bool needs_volume(const PartResults& results, const ObjectPairRun& run, const Reporting& reporting) {
+bool needs_volume(const PartResults& results, const ObjectPairRun& run,
+                  const Reporting& reporting) {
   const std::uint32_t a = results.a(run.first).object, b = results.b(run.first).object;
   if (results.rules.limits_volume(a, b)) return true;
   const auto of_run = std::span(results.found).subspan(run.first, run.end - run.first);
@@ -112,7 +113,8 @@ bool needs_volume(const PartResults& results, const ObjectPairRun& run, const Re
          });
 }
 
-std::vector<ObjectPairRun> runs_with_volume(const PartResults& results, const Reporting& reporting) {
+std::vector<ObjectPairRun> runs_with_volume(const PartResults& results,
+                                            const Reporting& reporting) {
   std::vector<ObjectPairRun> runs;
   if (!results.rules.limits_volumes() && !(reporting.min_volume_mm3 > 0)) return runs;
   for (ObjectPairRun run; run.first < results.found.size(); run.first = run.end) {
@@ -125,7 +127,8 @@ std::vector<ObjectPairRun> runs_with_volume(const PartResults& results, const Re
 
 /// Lists the solids of some pairs of objects that overlap, and notes where a sheet has a share in
 /// it, of which there is no volume.
-std::vector<SolidOverlap> overlaps_of(const PartResults& results, const std::vector<ObjectPairRun>& runs,
+std::vector<SolidOverlap> overlaps_of(const PartResults& results,
+                                      const std::vector<ObjectPairRun>& runs,
                                       std::vector<CommonVolume>& volumes) {
   std::vector<SolidOverlap> overlaps;
   for (std::size_t r = 0; r < runs.size(); ++r) {

@@ -196,11 +196,13 @@ bool has_precedence(std::span<const PlaneSegment> lines, std::uint32_t i, std::u
 }
 
 bool can_be_covered(const PlaneSegment& line, const OverlapRule& rule) {
-  return line.rank == OverlapRank::hidden || (line.rank == OverlapRank::visible && rule.covers_visible);
+  return line.rank == OverlapRank::hidden ||
+         (line.rank == OverlapRank::visible && rule.covers_visible);
 }
 
 bool can_cover(const PlaneSegment& line, const OverlapRule& rule) {
-  return line.rank == OverlapRank::visible || (line.rank == OverlapRank::hidden && rule.hidden_covers);
+  return line.rank == OverlapRank::visible ||
+         (line.rank == OverlapRank::hidden && rule.hidden_covers);
 }
 
 void append_intervals(LineIntervals& out, std::uint32_t line, std::span<ParamInterval> covers,

@@ -16,7 +16,11 @@
 namespace strake::drawing {
 
 /// The rank of a line: of two that lie on each other the one of lower rank stays, then the nearer.
-enum class OverlapRank : std::uint8_t { visible, hidden, none };  ///< none: neither covers nor is covered
+enum class OverlapRank : std::uint8_t {
+  visible,
+  hidden,
+  none
+};  ///< none: neither covers nor is covered
 
 /// Both ends of a line, equal for both ways of running.
 using SegmentEnds = std::array<double, 4>;

@@ -43,7 +43,7 @@ struct DxfDocument {
   std::vector<LayerStyle> layers;
   std::vector<PaperLayout> papers;  ///< one at least
   bool opens_on_paper = false;      ///< shows the first sheet first, not model space
-  DxfExtent model;                     ///< of all that lies in model space
+  DxfExtent model;                  ///< of all that lies in model space
   Handle next = kFirstEntity;       ///< greater than every handle of an entity
 };
 

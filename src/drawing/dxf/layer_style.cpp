@@ -128,11 +128,12 @@ int color_number(const model::Color& color) {
     int number = 0;
     model::Color color;
   };
-  constexpr std::array kBasic{BasicColor{7, {0, 0, 0, 255}},       BasicColor{1, {255, 0, 0, 255}},
-                              BasicColor{2, {255, 255, 0, 255}},   BasicColor{3, {0, 255, 0, 255}},
-                              BasicColor{4, {0, 255, 255, 255}},   BasicColor{5, {0, 0, 255, 255}},
-                              BasicColor{6, {255, 0, 255, 255}},   BasicColor{8, {128, 128, 128, 255}},
-                              BasicColor{9, {192, 192, 192, 255}}, BasicColor{255, {255, 255, 255, 255}}};
+  constexpr std::array kBasic{
+      BasicColor{7, {0, 0, 0, 255}},       BasicColor{1, {255, 0, 0, 255}},
+      BasicColor{2, {255, 255, 0, 255}},   BasicColor{3, {0, 255, 0, 255}},
+      BasicColor{4, {0, 255, 255, 255}},   BasicColor{5, {0, 0, 255, 255}},
+      BasicColor{6, {255, 0, 255, 255}},   BasicColor{8, {128, 128, 128, 255}},
+      BasicColor{9, {192, 192, 192, 255}}, BasicColor{255, {255, 255, 255, 255}}};
   const auto apart = [&](const BasicColor& basic) {
     const int r = basic.color.red - color.red, g = basic.color.green - color.green,
               b = basic.color.blue - color.blue;

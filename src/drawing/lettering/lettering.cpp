@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drawing/lettering/lettering.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
-#include <fmt/format.h>
 
 #include "core/text_encoding.hpp"
 #include "drawing/lettering/font_data.hpp"

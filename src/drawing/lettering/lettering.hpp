@@ -48,8 +48,8 @@ class Letterer {
   std::map<std::uint32_t, std::string> missing_;  ///< character and the first text with it
 };
 
-/// Widths of characters, by which all texts of drawings are laid out, whatever program shows them. The font is DejaVu Sans, the widest of those
-/// that "sans-serif" usually stands for.
+/// Widths of characters, by which all texts of drawings are laid out, whatever program shows them.
+/// The font is DejaVu Sans, the widest of those that "sans-serif" usually stands for.
 class LetterWidths {
  public:
   LetterWidths();

@@ -167,8 +167,8 @@ class LayerMaker {
 
   std::vector<LayerContents> make(const PdfPens& pens) {
     for (std::size_t c = 0; c < kOcclusions.size(); ++c)
-      if (std::ranges::any_of(ink_.lines,
-                              [&](const Line& line) { return line.state == kOcclusions.at(c).state; }))
+      if (std::ranges::any_of(
+              ink_.lines, [&](const Line& line) { return line.state == kOcclusions.at(c).state; }))
         causes_.at(c) = document_.add_layer(kOcclusions.at(c).label, parent_);
     for (const Layer& layer : kLayers) {
       const std::vector<const Line*> lines = lines_of(layer, ink_);
@@ -176,7 +176,8 @@ class LayerMaker {
       const PdfLayerId id = document_.add_layer(layer.label, parent_);
       for (const LinesOfStyle& part : by_style(lines, ink_))
         if (layer.hidden)
-          for (std::size_t c = 0; c < kOcclusions.size(); ++c) add_hidden({layer, id, part}, pens, c);
+          for (std::size_t c = 0; c < kOcclusions.size(); ++c)
+            add_hidden({layer, id, part}, pens, c);
         else
           add_visible({layer, id, part}, pens);
     }

@@ -99,8 +99,8 @@ struct PairIntersection {
 
 class IntersectionSearch {
  public:
-  IntersectionSearch(const model::Scene& scene, const SurfaceList& surfaces, const IntersectionRule& rule,
-         const parallel::Context& context)
+  IntersectionSearch(const model::Scene& scene, const SurfaceList& surfaces,
+                     const IntersectionRule& rule, const parallel::Context& context)
       : scene_(scene), surfaces_(surfaces), rule_(rule), context_(context) {}
 
   Result<IntersectionLines> run() {

@@ -27,7 +27,7 @@ struct Comparison {
 /// Counts objects that stayed as changed where they have another hatch. `boxes` are those of the
 /// earlier drawing. Where one of the two has no hatches at all, all are changed.
 void mark_changed_hatches(std::span<const Hatch> earlier, std::span<const Hatch> now,
-                        std::span<const geometry::Box3l> boxes, Comparison& comparison);
+                          std::span<const geometry::Box3l> boxes, Comparison& comparison);
 
 /// Compares by a mapping and the boxes of earlier objects, see EarlierDrawing. Lines of an object
 /// are numbered in the order of the objects that it meets: of objects that changed places in the

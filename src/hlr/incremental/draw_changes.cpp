@@ -114,15 +114,16 @@ Redrawn draw_nothing(const RedrawRequest& request, Drawing earlier) {
 }
 
 /// Puts the part that was solved into the earlier drawing.
-Result<Redrawn> put_together(const ChangedView& changed, const ChangeReach& reach, const Drawing& part,
-                             Drawing earlier, const parallel::Context& context) {
+Result<Redrawn> put_together(const ChangedView& changed, const ChangeReach& reach,
+                             const Drawing& part, Drawing earlier,
+                             const parallel::Context& context) {
   Redrawn redrawn{.drawing = std::move(earlier)};
   Drawing& drawing = redrawn.drawing;
   const ResolvedLines resolved{reach.asked, part};
   if (const Status s = merge_lines(changed.comparison, resolved, drawing, context); !s)
     return s.error();
-  if (const Status s =
-          merge_account(changed.scene, changed.drawn, changed.comparison, resolved, drawing, context);
+  if (const Status s = merge_account(changed.scene, changed.drawn, changed.comparison, resolved,
+                                     drawing, context);
       !s)
     return s.error();
   redrawn.edges_solved = part.counters.feature_edges;
@@ -162,7 +163,7 @@ Result<Redrawn> draw_what_changed(const RedrawRequest& request, ComparedDrawing 
   if (!sections) return sections.error();
   if (*sections)
     mark_changed_hatches(earlier.drawing.hatches, (*sections)->hatches, earlier.boxes,
-                       earlier.comparison);
+                         earlier.comparison);
   const auto whole = whole_extent(scene, drawn, view, options, context);
   if (!whole) return whole.error();
   const std::span<const Hatch> hatches =

@@ -94,7 +94,8 @@ struct ObjectRun {
 };
 
 /// Returns the objects with lines, in order.
-std::vector<ObjectRun> object_runs_of(const Comparison& comparison, const std::vector<bool>& asked) {
+std::vector<ObjectRun> object_runs_of(const Comparison& comparison,
+                                      const std::vector<bool>& asked) {
   std::vector<ObjectRun> all;
   const auto& before = comparison.before;
   for (std::uint32_t o = 0; o < before.size(); ++o) {
@@ -123,11 +124,11 @@ ElementRun run_of(std::span<const T> sorted, std::uint32_t first, std::uint32_t 
 
 template <class T>
 std::vector<ElementRun> runs_of(std::span<const ObjectRun> object_runs, std::span<const T> kept,
-                         std::span<const T> fresh) {
+                                std::span<const T> fresh) {
   std::vector<ElementRun> runs;
   for (const ObjectRun& s : object_runs) {
     ElementRun run = s.fresh ? run_of(fresh, s.first, s.last)
-                      : run_of(kept, s.before, s.before + (s.last - s.first));
+                             : run_of(kept, s.before, s.before + (s.last - s.first));
     run.fresh = s.fresh;
     runs.push_back(run);
   }
@@ -153,7 +154,8 @@ Status renumber(std::vector<T>& lines, const parallel::Context& context, Renumbe
 Status merge_pieces(const Comparison& comparison, const ResolvedLines& resolved,
                     std::span<const ObjectRun> object_runs, Drawing& drawing,
                     const parallel::Context& context) {
-  const std::vector<ElementRun> runs = runs_of<EdgePiece>(object_runs, drawing.pieces, resolved.drawing.pieces);
+  const std::vector<ElementRun> runs =
+      runs_of<EdgePiece>(object_runs, drawing.pieces, resolved.drawing.pieces);
   if (!comparison.same_numbers) {
     const auto now = numbers_now(comparison, drawing.counted.size());
     const auto number = [&](model::ObjectId& object) {
@@ -240,11 +242,13 @@ Status merge_lines(const Comparison& comparison, const ResolvedLines& resolved, 
   const std::vector<ObjectRun> object_runs = object_runs_of(comparison, resolved.asked);
   const std::size_t objects = earlier.counted.size();
   if (Status s = merge_pieces(comparison, resolved, object_runs, earlier, context); !s) return s;
-  if (Status s = merge_curves(comparison, resolved, object_runs, earlier.curves, objects, context); !s)
+  if (Status s = merge_curves(comparison, resolved, object_runs, earlier.curves, objects, context);
+      !s)
     return s;
   earlier.counted = merged(comparison, resolved.asked, earlier.counted, resolved.drawing.counted);
   if (!earlier.options.hidden)
-    earlier.left_out = merged(comparison, resolved.asked, earlier.left_out, resolved.drawing.left_out);
+    earlier.left_out =
+        merged(comparison, resolved.asked, earlier.left_out, resolved.drawing.left_out);
   return {};
 }
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "hlr/incremental/comparison.hpp"
 #include "hlr/incremental/bounds_projection.hpp"
+#include "hlr/incremental/comparison.hpp"
 #include "hlr/prepare/view_job.hpp"
 #include "model/scene/view_tessellation.hpp"
 #include "strake/core/result.hpp"
@@ -45,6 +45,6 @@ struct ChangeReach {
 /// intersections may be others; and those with an edge or line that what changed may have hidden,
 /// or may hide now. Errors: as those of prepare_view().
 [[nodiscard]] Result<ChangeReach> find_reach(const ChangedView& changed,
-                                       const parallel::Context& context);
+                                             const parallel::Context& context);
 
 }  // namespace strake::hlr

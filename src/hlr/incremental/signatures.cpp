@@ -151,7 +151,7 @@ void add(Hasher& hasher, const Options& options) {
 class ObjectHasher {
  public:
   ObjectHasher(const model::Scene& scene, const View& view, const Options& options,
-              std::span<const HashedShape> shapes, const model::ViewTessellation& plan)
+               std::span<const HashedShape> shapes, const model::ViewTessellation& plan)
       : scene_(scene),
         options_(options),
         shapes_(shapes),

@@ -127,7 +127,8 @@ class ViewSplitter {
           asked, {}, [&](std::uint32_t o) { return places_[o].*along; });
       return places_[*most].*along - places_[*least].*along;
     };
-    const auto along = spread(&PaperReach::u) >= spread(&PaperReach::v) ? &PaperReach::u : &PaperReach::v;
+    const auto along =
+        spread(&PaperReach::u) >= spread(&PaperReach::v) ? &PaperReach::u : &PaperReach::v;
     const auto half = asked.begin() + static_cast<std::ptrdiff_t>(asked.size() / 2);
     std::nth_element(asked.begin(), half, asked.end(), [&](std::uint32_t x, std::uint32_t y) {
       const std::int64_t of_x = places_[x].*along, of_y = places_[y].*along;

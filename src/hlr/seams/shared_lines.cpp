@@ -129,7 +129,8 @@ class PairLines {
   }
 
   /// Returns the edges that meet a box, by their least x.
-  [[nodiscard]] std::vector<SharedLineCandidate> candidates(std::uint32_t surface, const Box3l& room) const {
+  [[nodiscard]] std::vector<SharedLineCandidate> candidates(std::uint32_t surface,
+                                                            const Box3l& room) const {
     const geometry::PlacedPart& placed = surfaces_[surface].placed;
     std::vector<SharedLineCandidate> found;
     for (std::uint32_t e = 0; e + 1 < placed.part->edges.size(); ++e) {
@@ -140,11 +141,13 @@ class PairLines {
         continue;
       found.push_back({e, line, box});
     }
-    std::ranges::sort(found, {}, [](const SharedLineCandidate& c) { return std::pair(c.box.lo.x, c.edge); });
+    std::ranges::sort(found, {},
+                      [](const SharedLineCandidate& c) { return std::pair(c.box.lo.x, c.edge); });
     return found;
   }
 
-  void compare(const SharedLineCandidate& e, const SharedLineCandidate& f, std::vector<SharedLine>& out) const {
+  void compare(const SharedLineCandidate& e, const SharedLineCandidate& f,
+               std::vector<SharedLine>& out) const {
     const LineMeasure on_e(e.line), on_f(f.line);
     const bool e_is_longer = on_e.length >= on_f.length;
     const LineMeasure& longer = e_is_longer ? on_e : on_f;

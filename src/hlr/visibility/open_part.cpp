@@ -36,11 +36,13 @@ RoundedInterval reach_of(std::int64_t a, std::int64_t b, const OpenRange& open) 
 
 /// Returns what a box must meet in one coordinate. `above`: whether the left of the edge lies above
 /// it in this coordinate, where the edge has no extent in it.
-RoundedInterval to_meet(const RoundedInterval& reach, bool extends, bool above, const OpenRange& open) {
+RoundedInterval to_meet(const RoundedInterval& reach, bool extends, bool above,
+                        const OpenRange& open) {
   if (extends) return {reach.lo + 1, reach.hi - 1};
   if (open.is_open(kLeft) == open.is_open(kRight)) return reach;
   const bool open_above = open.is_open(kLeft) == above;
-  return open_above ? RoundedInterval{reach.lo + 1, reach.hi} : RoundedInterval{reach.lo, reach.hi - 1};
+  return open_above ? RoundedInterval{reach.lo + 1, reach.hi}
+                    : RoundedInterval{reach.lo, reach.hi - 1};
 }
 
 }  // namespace

@@ -60,16 +60,16 @@ void Columns::texts(std::string_view name, std::size_t rows, const TextOf& text)
   std::string room, mended;
   for (std::size_t row = 0; row < rows; ++row) bytes += shown(row, room, mended).size();
   RowSource lengths{rows, rows * sizeof(std::uint32_t),
-                  [shown](std::size_t begin, std::size_t end, std::string& out) {
-                    std::string of_row, valid;
-                    for (std::size_t row = begin; row < end; ++row)
-                      append_number(out,
-                                    static_cast<std::uint32_t>(shown(row, of_row, valid).size()));
-                  }};
+                    [shown](std::size_t begin, std::size_t end, std::string& out) {
+                      std::string of_row, valid;
+                      for (std::size_t row = begin; row < end; ++row)
+                        append_number(out,
+                                      static_cast<std::uint32_t>(shown(row, of_row, valid).size()));
+                    }};
   RowSource all{rows, bytes, [shown](std::size_t begin, std::size_t end, std::string& out) {
-                std::string of_row, valid;
-                for (std::size_t row = begin; row < end; ++row) out += shown(row, of_row, valid);
-              }};
+                  std::string of_row, valid;
+                  for (std::size_t row = begin; row < end; ++row) out += shown(row, of_row, valid);
+                }};
   add(name, "text", rows, bytes, {std::move(lengths), std::move(all)});
 }
 

@@ -121,8 +121,8 @@ Result<std::vector<std::uint8_t>> near_objects(const model::Scene& scene,
       });
 }
 
-Status show_by_priority(ShapeChooser& chooser, const model::Scene& scene, const ShowPriorities& priorities,
-                   const parallel::Context& context) {
+Status show_by_priority(ShapeChooser& chooser, const model::Scene& scene,
+                        const ShowPriorities& priorities, const parallel::Context& context) {
   for (const model::ObjectId object : priorities.first) chooser.show(object);
   const Result<std::vector<std::uint8_t>> near = near_objects(scene, priorities.places_mm, context);
   if (!near) return near.error();

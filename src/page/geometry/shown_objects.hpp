@@ -31,14 +31,15 @@ struct ShowPriorities {
 };
 
 struct ShownObjects {
-  std::vector<ShownAs> of;      ///< an entry per object
+  std::vector<ShownAs> of;    ///< an entry per object
   bool is_near_only = false;  ///< objects are boxes because there are too many for shapes
   bool is_full = false;       ///< some that were wanted as shapes had no room
 };
 
-/// Chooses what is shown of each object. Automatically all objects are shown as they are while shapes and instances stay within
-/// what a browser takes well (decision 0085), else those that are wanted, as far as there is room.
-/// The choice depends on the scene and the priorities alone. Errors: cancelled, out of memory.
+/// Chooses what is shown of each object. Automatically all objects are shown as they are while
+/// shapes and instances stay within what a browser takes well (decision 0085), else those that are
+/// wanted, as far as there is room. The choice depends on the scene and the priorities alone.
+/// Errors: cancelled, out of memory.
 [[nodiscard]] Result<ShownObjects> choose_shown(const model::Scene& scene,
                                                 const ShowPriorities& priorities,
                                                 const parallel::Context& context);

@@ -151,15 +151,18 @@ class ResultColumns {
 
   void add_measures() {
     auto columns = of_results();
-    columns.template numbers<std::uint8_t>("class",
-                                           [](const TestedResult& f) { return class_number(f.pair.cls); });
     columns.template numbers<std::uint8_t>(
-        "relation", [](const TestedResult& f) { return static_cast<std::uint8_t>(f.pair.relation); });
-    columns.template numbers<std::uint8_t>(
-        "flags", [](const TestedResult& f) { return flag_bits(f.pair.flags, f.pair.depth_complete); });
+        "class", [](const TestedResult& f) { return class_number(f.pair.cls); });
+    columns.template numbers<std::uint8_t>("relation", [](const TestedResult& f) {
+      return static_cast<std::uint8_t>(f.pair.relation);
+    });
+    columns.template numbers<std::uint8_t>("flags", [](const TestedResult& f) {
+      return flag_bits(f.pair.flags, f.pair.depth_complete);
+    });
     columns.measured([](const TestedResult& f) -> const Pair& { return f.pair; });
-    columns.template numbers<std::uint8_t>(
-        "witness", [](const TestedResult& f) { return static_cast<std::uint8_t>(witness_of(f.pair)); });
+    columns.template numbers<std::uint8_t>("witness", [](const TestedResult& f) {
+      return static_cast<std::uint8_t>(witness_of(f.pair));
+    });
     constexpr std::array<std::string_view, 6> kNames{"p_x", "p_y", "p_z", "q_x", "q_y", "q_z"};
     for (std::size_t k = 0; k < kNames.size(); ++k)
       columns.millionths(kNames[k], [k](const TestedResult& f) {
@@ -171,14 +174,16 @@ class ResultColumns {
     auto columns = of_results();
     if (source_.contents.grouping != nullptr)
       columns.template numbers<std::uint32_t>(
-          "group",
-          [numbers = std::make_shared<const report::GroupNumbers>(source_.contents)](
-              const TestedResult& f) { return numbers->of(f.row.test, f.row.pair).value_or(kNone); });
+          "group", [numbers = std::make_shared<const report::GroupNumbers>(source_.contents)](
+                       const TestedResult& f) {
+            return numbers->of(f.row.test, f.row.pair).value_or(kNone);
+          });
     if (!source_.names.rules.empty())
-      columns.template numbers<std::uint16_t>("allowed", [names = &source_.names](const TestedResult& f) {
-        if (f.pair.allowed < 0) return kNoName;
-        return names->rule_of[f.row.test][static_cast<std::size_t>(f.pair.allowed)];
-      });
+      columns.template numbers<std::uint16_t>(
+          "allowed", [names = &source_.names](const TestedResult& f) {
+            if (f.pair.allowed < 0) return kNoName;
+            return names->rule_of[f.row.test][static_cast<std::size_t>(f.pair.allowed)];
+          });
     if (any_pair([](const Pair& p) { return may_be(p) != kNoClass; }))
       columns.template numbers<std::uint8_t>("may_be",
                                              [](const TestedResult& f) { return may_be(f.pair); });

@@ -155,7 +155,7 @@ class ClashDrawer {
   }
 
   [[nodiscard]] std::optional<LineRole> stroke_of(const hlr::EdgePiece& piece,
-                                                const SmallScene& small) const {
+                                                  const SmallScene& small) const {
     const Role role = roles_.of(small.object[index(piece.object)]);
     const Role other = roles_.of(small.object[index(piece.other)]);
     const bool hidden =

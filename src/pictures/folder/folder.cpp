@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "pictures/folder.hpp"
+
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -8,7 +10,6 @@
 #include <vector>
 
 #include "pictures/drawn/caption.hpp"
-#include "pictures/folder.hpp"
 #include "pictures/folder/shown_subjects.hpp"
 #include "strake/core/atomic_file.hpp"
 #include "strake/core/result.hpp"

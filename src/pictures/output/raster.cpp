@@ -72,7 +72,7 @@ class Raster {
   /// Returns where the points of the sheet lie, `begin` to begin + length, over `count` of the
   /// shade.
   static std::vector<Interpolation> between(std::uint32_t points, double begin, double length,
-                                      std::uint32_t count) {
+                                            std::uint32_t count) {
     std::vector<Interpolation> all(points);
     for (std::uint32_t i = 0; i < points; ++i) {
       const double share = (i + 0.5 - begin) / length;

@@ -102,8 +102,9 @@ double share_score(double share) {
 }
 
 Result<std::vector<ViewCandidate>> evaluate_candidates(const NearTriangles& triangles,
-                                     std::span<const Vec3d> directions, const Sight& sight,
-                                     const parallel::Context& context) {
+                                                       std::span<const Vec3d> directions,
+                                                       const Sight& sight,
+                                                       const parallel::Context& context) {
   return parallel::transform(
       context, {.name = "viewpoints", .n = directions.size()}, [&](std::size_t i) {
         return candidate_of(directions[i], visible_share(triangles, directions[i], sight));
@@ -111,7 +112,7 @@ Result<std::vector<ViewCandidate>> evaluate_candidates(const NearTriangles& tria
 }
 
 Result<BestCandidates> find_best(const NearTriangles& triangles, std::span<const Vec3d> directions,
-                        const Sight& sight, const parallel::Context& context) {
+                                 const Sight& sight, const parallel::Context& context) {
   Result<std::vector<ScoreBound>> bounds = parallel::transform(
       context, {.name = "viewpoints", .n = directions.size()}, [&](std::size_t i) {
         SightBuffer alone(window_of(directions[i], sight), triangles);

@@ -45,10 +45,9 @@ struct ViewCandidate {
 };
 
 /// Returns what each direction shows, in their order. Errors: cancelled.
-[[nodiscard]] Result<std::vector<ViewCandidate>> evaluate_candidates(const NearTriangles& triangles,
-                                                   std::span<const geometry::Vec3d> directions,
-                                                   const Sight& sight,
-                                                   const parallel::Context& context);
+[[nodiscard]] Result<std::vector<ViewCandidate>> evaluate_candidates(
+    const NearTriangles& triangles, std::span<const geometry::Vec3d> directions, const Sight& sight,
+    const parallel::Context& context);
 
 /// The best of some directions.
 struct BestCandidates {
@@ -56,11 +55,12 @@ struct BestCandidates {
   ViewCandidate alone;  ///< the best where nothing else stood in the way
 };
 
-/// Returns what best_of(evaluate_candidates()) returns, without evaluating directions that cannot be
-/// the best even if nothing else stood in the way. There must be one. Errors: cancelled.
+/// Returns what best_of(evaluate_candidates()) returns, without evaluating directions that cannot
+/// be the best even if nothing else stood in the way. There must be one. Errors: cancelled.
 [[nodiscard]] Result<BestCandidates> find_best(const NearTriangles& triangles,
-                                      std::span<const geometry::Vec3d> directions,
-                                      const Sight& sight, const parallel::Context& context);
+                                               std::span<const geometry::Vec3d> directions,
+                                               const Sight& sight,
+                                               const parallel::Context& context);
 
 /// Returns the candidate of the highest rank, of equals the first; there must be one.
 [[nodiscard]] const ViewCandidate& best_of(std::span<const ViewCandidate> candidates);

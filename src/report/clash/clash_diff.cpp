@@ -105,7 +105,7 @@ class RunCoverage {
 
   /// Returns why an object could not be compared whole; null if it was.
   [[nodiscard]] const std::string* why_incomplete(const ObjectPresence& side,
-                                         const DocumentTest& here) const {
+                                                  const DocumentTest& here) const {
     const auto test = static_cast<std::uint32_t>(&here - run_.tests.data());
     const auto wanted = std::pair(side.element, test);
     const auto key = [](const DocumentLacking& l) { return std::pair(l.element, l.test); };

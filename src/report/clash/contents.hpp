@@ -21,11 +21,12 @@ namespace strake::report {
 
 /// Returns the decision about a result; null where there is none.
 [[nodiscard]] inline const DecidedResult* decision_about(const ClashContents& contents,
-                                                     std::size_t test, const clash::Pair& pair) {
+                                                         std::size_t test,
+                                                         const clash::Pair& pair) {
   return contents.decided == nullptr ? nullptr : contents.decided->of(test, pair);
 }
 [[nodiscard]] inline const DecidedResult* decision_about(const ClashContents& contents,
-                                                     const clash::ResultRef& result) {
+                                                         const clash::ResultRef& result) {
   return decision_about(contents, result.test, pair_of(contents, result));
 }
 

@@ -103,7 +103,7 @@ void for_each_reading(const std::string& text, Visit&& visit) {
 /// Adds the former names that are asked for and that a file without the columns of files cannot
 /// know.
 void add_given_names(FileContentsByLabel& former, const FileContentsByLabel& today,
-               std::span<const std::string> asked) {
+                     std::span<const std::string> asked) {
   for (const std::string& text : asked)
     for_each_reading(text, [&](const std::string& was, const std::string& is) {
       if (today.contains(is)) former.try_emplace(was);

@@ -23,7 +23,8 @@ struct DecidedFiles {
   std::vector<std::string> in_force;  ///< as DecidedResults::renamed_before
 };
 
-/// Finds the names that files of decisions have today. Errors: usage, as of match_files() and parse_file_pairs().
+/// Finds the names that files of decisions have today. Errors: usage, as of match_files() and
+/// parse_file_pairs().
 [[nodiscard]] Result<DecidedFiles> match_decided_files(const clash::Findings& findings,
                                                        const model::Model& model,
                                                        const DecisionFile& decided,

@@ -212,7 +212,8 @@ ReviewTest review_test(const ClashContents& contents, std::size_t t) {
   const auto add = [&](std::uint32_t p) {
     written[p] = true;
     review.lines.push_back({ReviewLine::Kind::result, p});
-    ++review.counts[static_cast<std::size_t>(current_status(decision_about(contents, t, pairs[p])))];
+    ++review
+          .counts[static_cast<std::size_t>(current_status(decision_about(contents, t, pairs[p])))];
   };
   const std::size_t groups = contents.grouping == nullptr ? 0 : contents.grouping->groups.size();
   for (std::uint32_t g = 0; g < groups; ++g) {

@@ -35,7 +35,7 @@ std::uint64_t count_common(const std::vector<T>& x, const std::vector<T>& y) {
 
 /// Counts the ids of either file that the run of the other has.
 void count_common_ids(FileLikeness& l, const RunFiles& before, const FileContents& old_file,
-                 const RunFiles& after, const FileContents& new_file) {
+                      const RunFiles& after, const FileContents& new_file) {
   for (const std::string& id : old_file.ids)
     if (has_object(after, new_file, id)) ++l.found_after;
   std::uint64_t named_by_both = 0, found_of_new_only = 0;
@@ -67,8 +67,8 @@ bool FileLikeness::is_one_file() const {
   return most_of_both && (no_chance || places_agree(*this));
 }
 
-FileLikeness compare_contents(const RunFiles& before, const FileContents& old_file, const RunFiles& after,
-                      const FileContents& new_file) {
+FileLikeness compare_contents(const RunFiles& before, const FileContents& old_file,
+                              const RunFiles& after, const FileContents& new_file) {
   FileLikeness l;
   l.is_excerpt = before.is_excerpt;
   l.ids_before = old_file.ids.size();

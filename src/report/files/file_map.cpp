@@ -65,7 +65,8 @@ std::string_view FileMap::holder(RunSide run, std::string_view label, std::strin
   return found;
 }
 
-std::string FileMap::label_in_other(RunSide run, std::string_view label, std::string_view id) const {
+std::string FileMap::label_in_other(RunSide run, std::string_view label,
+                                    std::string_view id) const {
   if (identity_) return std::string(label);
   const auto at = links(run).find(label);
   if (at == links(run).end()) return nowhere(label);

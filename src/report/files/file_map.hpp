@@ -56,7 +56,8 @@ class FileMap {
   [[nodiscard]] bool has(RunSide run, std::string_view label, std::string_view id) const {
     return has_[static_cast<std::size_t>(run)](label, id);
   }
-  [[nodiscard]] std::string_view holder(RunSide run, std::string_view label, std::string_view id) const;
+  [[nodiscard]] std::string_view holder(RunSide run, std::string_view label,
+                                        std::string_view id) const;
   void link(const FileMatches& files);
   void group(const FileMatches& files);
 

@@ -114,8 +114,9 @@ class FileMatcher {
     std::vector<std::size_t> rivals;
   };
 
-  static Result<std::size_t> find_given_file(const RunFiles& run, const std::vector<SoughtFile>& sought,
-                                        const std::string& label, const std::string& which) {
+  static Result<std::size_t> find_given_file(const RunFiles& run,
+                                             const std::vector<SoughtFile>& sought,
+                                             const std::string& label, const std::string& which) {
     const std::size_t file = find_file(run, label);
     if (file == kNoFile)
       return Error{ErrorCode::usage, "the " + which + " run has no file '" + label + "'",

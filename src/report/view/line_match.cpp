@@ -66,7 +66,8 @@ struct IntervalChange {
   friend bool operator==(const IntervalChange&, const IntervalChange&) = default;
 };
 
-IntervalChange classify_interval(const ClassesAtPoint& place, const DiffLineClass& cls, bool after) {
+IntervalChange classify_interval(const ClassesAtPoint& place, const DiffLineClass& cls,
+                                 bool after) {
   const auto& theirs = after ? place.before : place.after;
   if (std::ranges::binary_search(theirs, cls)) return {};
   for (const auto& [was, is] :

@@ -189,7 +189,8 @@ void read_view_settings(const std::map<std::string, std::string>& settings,
     drawing.single_line_mm = diameter.number();
   drawing.contact_distance_mm = of("settings.contact_distance_mm").number();
   if (const ViewSetting sag = of("settings.sag_mm"); sag.is_there()) drawing.sag_mm = sag.number();
-  if (const ViewSetting weld = of("settings.weld_mm"); weld.is_there()) drawing.weld_mm = weld.number();
+  if (const ViewSetting weld = of("settings.weld_mm"); weld.is_there())
+    drawing.weld_mm = weld.number();
 }
 
 }  // namespace strake::report

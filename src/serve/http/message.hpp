@@ -70,8 +70,8 @@ class RequestHandler {
   [[nodiscard]] virtual std::optional<Answer> refuse(const Request& request) = 0;
   /// Answers a request that was not refused, whole. Whoever asks waits as long as it takes.
   [[nodiscard]] virtual Answer answer(const Request& request) = 0;
-  /// Answers as answer() does; where it has to wait for something, nothing: it is asked again soon, with
-  /// how long it has waited by then. Others are answered meanwhile.
+  /// Answers as answer() does; where it has to wait for something, nothing: it is asked again soon,
+  /// with how long it has waited by then. Others are answered meanwhile.
   [[nodiscard]] virtual std::optional<Answer> answer_or_wait(const Request& request,
                                                              std::chrono::milliseconds /*waited*/) {
     return answer(request);

@@ -45,7 +45,7 @@ struct ReportedChanges {
 
 /// What the page itself has just decided is told however much it is.
 Result<ReportedChanges> changes_for_page(project::Database& database, std::int64_t event,
-                                 const project::DecisionsAsSeen* done) {
+                                         const project::DecisionsAsSeen* done) {
   std::vector<std::int64_t> own;
   if (done != nullptr) own = done->decided;
   std::ranges::sort(own);

@@ -133,17 +133,17 @@ struct TitleField {
   double left, top, width, height, letters;
 };
 constexpr std::array<TitleField, 12> kFields{{{"drawn", "DRAWN", 0, 0, 58, 9, 3},
-                                         {"checked", "CHECKED", 0, 9, 58, 9, 3},
-                                         {"approved", "APPROVED", 0, 18, 58, 9, 3},
-                                         {"date", "DATE", 0, 27, 58, 9, 3},
-                                         {"owner", "OWNER", 58, 0, 122, 11, 4},
-                                         {"title", "TITLE", 58, 11, 122, 14, 5},
-                                         {"subtitle", "", 58, 25, 122, 11, 3.5},
-                                         {"scale", "SCALE", 0, 36, 34, 12, 3.5},
-                                         {"size", "SIZE", 34, 36, 24, 12, 3.5},
-                                         {"number", "DRAWING NUMBER", 82, 36, 62, 12, 5},
-                                         {"revision", "REV", 144, 36, 16, 12, 5},
-                                         {"sheet", "SHEET", 160, 36, 20, 12, 3.5}}};
+                                              {"checked", "CHECKED", 0, 9, 58, 9, 3},
+                                              {"approved", "APPROVED", 0, 18, 58, 9, 3},
+                                              {"date", "DATE", 0, 27, 58, 9, 3},
+                                              {"owner", "OWNER", 58, 0, 122, 11, 4},
+                                              {"title", "TITLE", 58, 11, 122, 14, 5},
+                                              {"subtitle", "", 58, 25, 122, 11, 3.5},
+                                              {"scale", "SCALE", 0, 36, 34, 12, 3.5},
+                                              {"size", "SIZE", 34, 36, 24, 12, 3.5},
+                                              {"number", "DRAWING NUMBER", 82, 36, 62, 12, 5},
+                                              {"revision", "REV", 144, 36, 16, 12, 5},
+                                              {"sheet", "SHEET", 160, 36, 20, 12, 3.5}}};
 constexpr PaperBox kSymbol{58, 36, 82, 48};
 
 class TitleBlock {

@@ -84,7 +84,8 @@ class LabelPlacer {
     if (place) placed_.add(label, *places_[label]);
   }
 
-  void find_conflicts(const LabelPlace& place, const PlacedLabels::QueryLimit& most, Conflicts& found) {
+  void find_conflicts(const LabelPlace& place, const PlacedLabels::QueryLimit& most,
+                      Conflicts& found) {
     placed_.find_conflicts(place, most, found);
     work_.spend(kCompareWork * found.looked_at);
   }

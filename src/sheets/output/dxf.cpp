@@ -187,7 +187,7 @@ void add_dxf_marks(PaperSpace& paper, const Marks& marks) {
 /// Gives layers of a sheet that look otherwise than those of their names before it the number of
 /// the sheet behind their names.
 void make_names_unique(std::vector<drawing::dxf::LayerStyle>& layers, std::size_t sheet,
-                std::map<std::string, drawing::dxf::LayerStyle>& known) {
+                       std::map<std::string, drawing::dxf::LayerStyle>& known) {
   for (drawing::dxf::LayerStyle& layer : layers) {
     const auto& first = known.emplace(layer.name, layer).first->second;
     if (first.width_mm == layer.width_mm && first.dash_mm == layer.dash_mm &&

@@ -15,10 +15,10 @@ namespace strake::workbook {
 
 /// All results, as CSV has them, with room for decisions.
 [[nodiscard]] Worksheet clash_sheet(const report::ClashContents& contents,
-                                const report::GroupNumbers& numbers);
+                                    const report::GroupNumbers& numbers);
 [[nodiscard]] Worksheet group_sheet(const report::ClashContents& contents);
 [[nodiscard]] Worksheet joint_sheet(const report::ClashContents& contents,
-                                const std::vector<report::PipeJoint>& joints);
+                                    const std::vector<report::PipeJoint>& joints);
 [[nodiscard]] Worksheet not_compared_sheet(const report::ClashContents& contents);
 
 }  // namespace strake::workbook

@@ -18,6 +18,6 @@ inline constexpr std::size_t kMostPictures = 10;
 /// where nobody makes pictures (ClashContents::picture_of). Errors: those of who makes them;
 /// cancelled.
 [[nodiscard]] Result<Worksheet> picture_sheet(const report::ClashContents& contents,
-                                          const parallel::Context& context);
+                                              const parallel::Context& context);
 
 }  // namespace strake::workbook

@@ -11,6 +11,6 @@ namespace strake::workbook {
 /// Returns the sheet that tells what was tested, by which rules and tolerances, what was found and
 /// decided, what was not compared, and where the rows of the `others` are.
 [[nodiscard]] Worksheet summary_sheet(const report::ClashContents& contents,
-                                  std::span<const Worksheet> others);
+                                      std::span<const Worksheet> others);
 
 }  // namespace strake::workbook

@@ -183,8 +183,8 @@ void add_pictures(std::vector<PackagePart>& parts, const Worksheet& sheet, std::
 }
 
 /// Returns the rules that colour the words of a column; `first` is the number of its first format.
-std::string colour_rules(const Worksheet& sheet, std::size_t column, std::span<const WordColours> words,
-                         std::size_t first) {
+std::string colour_rules(const Worksheet& sheet, std::size_t column,
+                         std::span<const WordColours> words, std::size_t first) {
   std::string out = fmt::format("<conditionalFormatting sqref=\"{0}2:{0}{1}\">",
                                 column_name(column), sheet.rows + 1);
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -208,10 +208,10 @@ std::vector<PackagePart> workbook_parts(std::span<const Worksheet> sheets) {
     of_workbook.emplace_back("worksheet", fmt::format("worksheets/sheet{}.xml", s + 1));
   of_workbook.emplace_back("styles", "styles.xml");
   std::vector<PackagePart> parts{{"[Content_Types].xml", content_types(sheets)},
-                          {"_rels/.rels", relations(to_workbook)},
-                          {"xl/workbook.xml", workbook_part(sheets)},
-                          {"xl/_rels/workbook.xml.rels", relations(of_workbook)},
-                          {"xl/styles.xml", styles()}};
+                                 {"_rels/.rels", relations(to_workbook)},
+                                 {"xl/workbook.xml", workbook_part(sheets)},
+                                 {"xl/_rels/workbook.xml.rels", relations(of_workbook)},
+                                 {"xl/styles.xml", styles()}};
   std::size_t images = 0;
   for (std::size_t s = 0; s < sheets.size(); ++s)
     if (!sheets[s].pictures.empty()) add_pictures(parts, sheets[s], s, images);

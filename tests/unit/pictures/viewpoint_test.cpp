@@ -157,7 +157,8 @@ TEST(Viewpoint, TheBestOfAllCandidatesIsChosen) {
     const NearTriangles triangles(
         triangles_near(scenery, Roles(*clash.contents, subject), grid_point(pair.point_mm), 2000));
     const Sight sight{150, 1000};
-    const auto all = evaluate_candidates(triangles, candidate_directions(pair.away), sight, {}).value();
+    const auto all =
+        evaluate_candidates(triangles, candidate_directions(pair.away), sight, {}).value();
     const Candidate& best = best_of(all);
     for (const double cut : {1e300, 60.0, 0.0}) {
       const Sight cut_open{150, 1000, cut};

@@ -102,7 +102,7 @@ project::RunComments comments_of_run(const BcfInput& input, bool is_written) {
 bool is_bcf(const std::string& file) { return suffix_of(file).starts_with(".bcf"); }
 
 void report_left_out(Console& console, const std::string& file,
-                   const report::ClashContents& contents) {
+                     const report::ClashContents& contents) {
   if (!is_bcf(file)) return;
   if (!bcf::is_dated(contents))
     console.note(

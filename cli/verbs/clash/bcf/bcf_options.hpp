@@ -36,7 +36,7 @@ void add_bcf_options(CLI::App& command, BcfInput& options);
 
 /// Prints what a file does not have, if it is BCF, its date included.
 void report_left_out(Console& console, const std::string& file,
-                   const report::ClashContents& contents);
+                     const report::ClashContents& contents);
 
 /// Returns the form with the date of the run of a project, unless one is given; `project` is null
 /// where files are tested.

@@ -16,8 +16,8 @@
 #include "bcf/input/read_bcf.hpp"
 #include "bcf/topics/words.hpp"
 #include "bcf/xml/xml_text.hpp"
-#include "cli/run/load.hpp"
 #include "cli/run/authorship.hpp"
+#include "cli/run/load.hpp"
 #include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "project/results/clash_queries.hpp"
@@ -112,7 +112,7 @@ void list(Console& console, const std::vector<std::string>& texts) {
 }
 
 void print_review(Console& console, const MatchedTopics& matched, const project::TakenReview& taken,
-          const std::string& file, std::size_t topics) {
+                  const std::string& file, std::size_t topics) {
   console.note(fmt::format("{}: {}, {} and {} changed, {} added, {} there", file,
                            counted(topics, "topic"), counted(taken.statuses, "status", "statuses"),
                            counted(taken.assignees, "assignee"), counted(taken.comments, "comment"),
