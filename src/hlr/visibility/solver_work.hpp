@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/stopwatch.hpp"
 #include "hlr/visibility/visibility_scene.hpp"
 #include "strake/core/result.hpp"
 #include "strake/hlr/hlr.hpp"

@@ -63,7 +63,6 @@ class ViewSetting {
     must_be_there();
     return read([this](JsonReader&, DocumentFields fields) { return whole_vector(fields, name_); });
   }
-  [[nodiscard]] bool is_true() const { return text_ == "true"; }
   [[nodiscard]] bool is_false() const { return text_ == "false"; }
   [[nodiscard]] bool is_list() const { return text_.starts_with('['); }
   [[nodiscard]] const std::string& name() const { return name_; }
