@@ -187,8 +187,8 @@ Hash128 DecidedKeys::key(std::string_view test, const clash::Pair& pair) const {
 
 Hash128 DecidedKeys::former_key(std::string_view test, const clash::Pair& pair) const {
   const auto [a, b] = names_of(model_, pair);
-  const std::string was_a = map_.label_in_other(Run::after, a.file_label, a.id),
-                    was_b = map_.label_in_other(Run::after, b.file_label, b.id);
+  const std::string was_a = map_.label_in_other(RunSide::after, a.file_label, a.id),
+                    was_b = map_.label_in_other(RunSide::after, b.file_label, b.id);
   return clash::pair_hash(test, {was_a, a.id}, {was_b, b.id});
 }
 
@@ -207,7 +207,7 @@ std::optional<Decision> DecidedKeys::renamed(const Decision& row) const {
   if (is_identity() || key_of(row.a, row.b) != row.key) return std::nullopt;
   Decision today = row;
   for (DecisionObject* const side : {&today.a, &today.b}) {
-    side->file = map_.label_in_other(Run::before, side->file, side->id);
+    side->file = map_.label_in_other(RunSide::before, side->file, side->id);
     if (side->file.starts_with('\0')) return std::nullopt;
   }
   today.key = key_of(today.a, today.b);

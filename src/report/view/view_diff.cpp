@@ -61,7 +61,7 @@ void number_objects(ViewDiff& diff) {
     return at->second;
   };
   const auto number_before = [&](const ViewObject& o) {
-    return number(o, files.label_in_other(Run::before, o.file, o.id));
+    return number(o, files.label_in_other(RunSide::before, o.file, o.id));
   };
   for (const ViewObject& o : diff.before->objects) diff.of_before.push_back(number_before(o));
   for (const ViewObject& o : diff.before->far_objects) diff.far_before.insert(number_before(o));

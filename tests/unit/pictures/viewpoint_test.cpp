@@ -159,7 +159,7 @@ TEST(Viewpoint, TheBestOfAllCandidatesIsChosen) {
     const Sight sight{150, 1000};
     const auto all =
         evaluate_candidates(triangles, candidate_directions(pair.away), sight, {}).value();
-    const Candidate& best = best_of(all);
+    const ViewCandidate& best = best_of(all);
     for (const double cut : {1e300, 60.0, 0.0}) {
       const Sight cut_open{150, 1000, cut};
       const auto directions = candidate_directions(pair.away);

@@ -146,7 +146,7 @@ Status take_bcf(Session& session, OpenedProject& opened, const BcfReview& review
   for (const bcf::ReadTopic& topic : read->topics) matcher.take(topic);
   const MatchedTopics matched = matcher.finish();
   const Result<project::TakenReview> taken = project::take_review(
-      database, matched.topics, {review.prefers_review, bcf::compared_text, bcf::mark_of});
+      database, matched.topics, {review.prefers_review, bcf::compared_text, bcf::assignee_digest});
   if (!taken) return taken.error();
   if (const Status status = transaction->commit(); !status) return status;
   print_diagnostics(session.console(), read->diagnostics, {"bcf-topic-damaged"});
