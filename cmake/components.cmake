@@ -198,14 +198,7 @@ strake_component(all
   HEADERS strake.hpp
   PAGES CHANGELOG.md docs/library.md examples/draw_view.cpp examples/find_clashes.cpp)
 
-# What finds the packages that the libraries need, and pkg-config's description of all of them.
-install(FILES cmake/meshoptimizer.cmake cmake/re2.cmake DESTINATION ${strake_package_dir}
-  COMPONENT model)
-install(FILES cmake/zlib.cmake DESTINATION ${strake_package_dir} COMPONENT drawing)
-install(FILES cmake/agg.cmake cmake/libzip.cmake DESTINATION ${strake_package_dir}
-  COMPONENT publish)
-install(FILES cmake/sqlite3.cmake cmake/zstd.cmake DESTINATION ${strake_package_dir}
-  COMPONENT project)
+# pkg-config's description of all of them.
 install(FILES ${PROJECT_BINARY_DIR}/strake.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
   COMPONENT all)
 

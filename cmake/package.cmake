@@ -40,6 +40,7 @@ function(strake_component name)
   endforeach()
   install(FILES
     ${PROJECT_BINARY_DIR}/strake-config.cmake ${PROJECT_BINARY_DIR}/strake-config-version.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/libraries.cmake
     DESTINATION ${strake_package_dir} COMPONENT ${name})
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/NOTICE
     DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${name})

@@ -83,7 +83,8 @@ std::size_t wrong(std::span<const drawing::PlaneSegment> lines, const drawing::O
     if (!drawing::can_be_covered(lines[i], rule)) continue;
     std::vector<drawing::ParamInterval> covers;
     for (std::uint32_t j = 0; j < lines.size(); ++j)
-      if (j != i && lines[j].rank != drawing::Rank::none && drawing::has_precedence(lines, j, i))
+      if (j != i && lines[j].rank != drawing::OverlapRank::none &&
+          drawing::has_precedence(lines, j, i))
         if (const auto interval = drawing::covered(lines[i], lines[j], rule))
           covers.push_back(*interval);
     drawing::LineIntervals expected;

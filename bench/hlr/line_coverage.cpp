@@ -22,7 +22,7 @@ Cut cut(std::vector<PlaneSegment> lines, std::size_t count, const parallel::Cont
   for (std::size_t i = 0; i < lines.size(); ++i) {
     lines[i].reach = kApart_mm / 2;
     lines[i].depth = 0;
-    lines[i].rank = i < count ? drawing::Rank::visible : drawing::Rank::hidden;
+    lines[i].rank = i < count ? drawing::OverlapRank::visible : drawing::OverlapRank::hidden;
   }
   const auto overlaps = drawing::cut_overlaps(lines, {.shortest = kApart_mm}, context).value();
   std::vector<double> open(lines.size());

@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "cli/run/child_process.hpp"
+#include "io/importer/child_process.hpp"
 
 namespace strake::bench {
 namespace {
 
-using cli::ChildEnd;
+using io::ChildEnd;
 
 /// What a script exits with where its program is not installed.
 constexpr int kNotInstalled = 77;
@@ -50,8 +50,13 @@ ProgramReply without_answer(std::string_view outcome, std::string why) {
 ProgramReply ask_program(std::vector<std::string> words, double limit_s,
                          const std::filesystem::path& log) {
   // In our group, so that what ends us ends it.
-  const ChildEnd end =
-      cli::run_child({std::move(words), limit_s, log, cli::KilledWith::nothing}, {});
+  const ChildEnd end = io::run_child({.words = std::move(words),
+                                      .limit_s = limit_s,
+                                      .log = log,
+                                      .folder = {},
+                                      .killed_with = io::KilledWith::nothing,
+                                      .may_go_on = {}},
+                                     {});
   if (end.how == ChildEnd::How::not_started ||
       (end.how == ChildEnd::How::exited && end.code == kNotInstalled))
     return without_answer(cli::kNotThere, "not installed");
@@ -59,7 +64,7 @@ ProgramReply ask_program(std::vector<std::string> words, double limit_s,
     return without_answer(cli::kOverLimit, fmt::format("gave up after {} s", limit_s));
   std::optional<ProgramReply> reply = reply_in(end.output);
   if (end.how == ChildEnd::How::exited && end.code == 0 && reply) return std::move(*reply);
-  return without_answer(cli::kFailed, "failed: " + cli::tail_of(end.output, kTail));
+  return without_answer(cli::kFailed, "failed: " + io::tail_of(end.output, kTail));
 }
 
 }  // namespace strake::bench

@@ -42,7 +42,7 @@ void compare_times(const std::string& where, const StageRecord& before, const St
   if (was == nullptr || is == nullptr || before.reference_s <= 0 || now.reference_s <= 0) return;
   const double old_ratio = median(was->seconds) / before.reference_s;
   const double ratio = median(is->seconds) / now.reference_s;
-  if (ratio > old_ratio * (1 + kSlower + noise_of(before) + noise_of(now)))
+  if (ratio > old_ratio * (1 + kSlower + timing_noise(before) + timing_noise(now)))
     result.slower.push_back(fmt::format("{}: {:.1f} -> {:.1f} times the reference kernel ({})",
                                         where, old_ratio, ratio, change(old_ratio, ratio)));
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <set>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "cli/evaluate/placed_model.hpp"
 #include "cli/evaluate/statistics.hpp"
 #include "cli/evaluate/studies/studies.hpp"
+#include "core/stopwatch.hpp"
 #include "strake/clash/clash.hpp"
 
 namespace strake::cli {
@@ -40,7 +40,7 @@ class Evaluation {
     for (const CaseRecord& one : record.cases) wanted_.erase(one.name);
     for (const StudyRecord& study : record.studies) wanted_.erase(study.name);
     std::erase_if(record.peers, [&](const PeerRecord& peer) {
-      return wanted_.contains(peer.name) && hooks.peers && may_be_asked_again(peer);
+      return wanted_.contains(peer.name) && hooks.peers && may_be_retried(peer);
     });
     for (const PeerRecord& peer : record.peers) wanted_.erase(peer.name);
     for (const ViewCase& view : view_cases())
@@ -64,7 +64,7 @@ class Evaluation {
         if (const Status status = run_study(study); !status) return status;
     for (const PeerCase& peer : peer_cases())
       if (hooks_.peers && wanted_.contains(std::string(peer.name)))
-        if (const Status status = ask(peer); !status) return status;
+        if (const Status status = run_peer_case(peer); !status) return status;
     return {};
   }
 
@@ -134,7 +134,7 @@ class Evaluation {
     return hooks_.save("study " + std::string(study.name) + " done", record_);
   }
 
-  Status ask(const PeerCase& peer) {
+  Status run_peer_case(const PeerCase& peer) {
     narrate(fmt::format("{}: {}, {} objects", peer.name, peer.title,
                         peer_objects(peer, record_.settings.scale)));
     Result<PeerRecord> answer = run_peer(peer, *hooks_.peers, record_.settings.scale, stop_);
@@ -163,9 +163,8 @@ class Evaluation {
 
   void narrate(const std::string& what) const {
     if (done_ == 0) return hooks_.narrate(what);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start_;
     hooks_.narrate(
-        fmt::format("{}; about {:.0f} s to go", what, taken.count() * (to_do_ - done_) / done_));
+        fmt::format("{}; about {:.0f} s to go", what, watch_.seconds() * (to_do_ - done_) / done_));
   }
 
   EvaluationRecord& record_;
@@ -173,7 +172,7 @@ class Evaluation {
   const EvaluationHooks& hooks_;
   std::set<std::string> wanted_;
   double to_do_ = 0, done_ = 0;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
 };
 
 }  // namespace

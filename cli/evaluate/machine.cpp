@@ -10,7 +10,6 @@
 #endif
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <span>
@@ -18,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/stopwatch.hpp"
 #include "io/source/input_file.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/version.hpp"
@@ -56,10 +56,6 @@ void sort_random(std::span<std::uint64_t> numbers, std::uint64_t seed) {
     number = state;
   }
   std::ranges::sort(numbers);
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 }  // namespace
@@ -101,10 +97,10 @@ std::uint64_t peak_memory_since_reset() {
 
 double reference_seconds() {
   constexpr std::size_t kNumbers = 1U << 20U;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   std::vector<std::uint64_t> numbers(kNumbers);
   sort_random(numbers, 1);
-  return seconds_since(start);
+  return watch.seconds();
 }
 
 double kernel_seconds(const parallel::Context& context) {
@@ -112,12 +108,12 @@ double kernel_seconds(const parallel::Context& context) {
   // They must be awake, as they are within a run.
   const parallel::Region wake{.name = "kernel", .n = 64};
   if (!parallel::for_each(context, wake, [](std::size_t) {})) return 0;
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const Status done = parallel::for_each_with(
       context, {.name = "kernel", .n = kPieces},
       [] { return std::vector<std::uint64_t>(kNumbers); },
       [](std::vector<std::uint64_t>& numbers, std::size_t i) { sort_random(numbers, i + 1); });
-  return done ? seconds_since(start) : 0;
+  return done ? watch.seconds() : 0;
 }
 
 }  // namespace strake::cli

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "cli/evaluate/machine.hpp"
 #include "cli/evaluate/statistics.hpp"
 #include "cli/evaluate/time_limit.hpp"
+#include "core/stopwatch.hpp"
 #include "strake/parallel/context.hpp"
 #include "strake/parallel/report.hpp"
 #include "strake/parallel/team.hpp"
@@ -63,7 +63,7 @@ class StageMeter {
   }
 
   /// Returns how far the two runs of the same are apart, as part of their time.
-  [[nodiscard]] double noise() const { return noise_of(stage_); }
+  [[nodiscard]] double noise() const { return timing_noise(stage_); }
 
   StageRecord take(std::string name) {
     stage_.name = std::move(name);
@@ -88,11 +88,11 @@ class StageMeter {
     // It gives memory back, which the run then has to take again.
     const bool has_peak = publish && reset_peak_memory();
     const double cpu = parallel::process_cpu_s(), caller = parallel::thread_cpu_s();
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     const Result<Computed> computed = contender.compute(context);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    const double took = watch.seconds();
     if (!computed) return without_result(contender, record, computed.error());
-    record.seconds.push_back(took.count());
+    record.seconds.push_back(took);
     record.cpu_s = parallel::process_cpu_s() - cpu;
     if (has_peak) record.peak_bytes = peak_memory_since_reset();
     keep_regions(report, parallel::thread_cpu_s() - caller, record);

@@ -25,7 +25,7 @@ const ContenderRecord* find_contender(const StageRecord& stage, const std::strin
   return nullptr;
 }
 
-double noise_of(const StageRecord& stage) {
+double timing_noise(const StageRecord& stage) {
   const ContenderRecord* const first = find_contender(stage, kSequential, 1);
   const ContenderRecord* const again = find_contender(stage, kAgain, 1);
   if (first == nullptr || again == nullptr) return 0;

@@ -22,7 +22,7 @@ namespace strake::cli {
 
 /// Returns how far the two sequential runs of a stage are apart, as part of their time: what
 /// differs by less cannot be told on this machine. 0 where there was only one.
-[[nodiscard]] double noise_of(const StageRecord& stage);
+[[nodiscard]] double timing_noise(const StageRecord& stage);
 
 /// Returns the busy seconds of each worker in all regions of the team.
 [[nodiscard]] std::vector<double> busy_seconds(const ContenderRecord& run);

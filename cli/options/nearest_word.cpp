@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/edit_distance.hpp"
+#include "core/text/edit_distance.hpp"
 
 namespace strake::cli {
 

@@ -79,24 +79,18 @@ void add_input_options(CLI::App& command, InputOptions& options) {
                   "installed, or projects, which stand for theirs")
       ->required()
       ->type_name("FILE");
-  command
-      .add_option(
+  may_repeat(
+      command.add_option(
           "--unit", options.units,
           "Length unit of the files, instead of the one that they state: mm, m, in ...; of one "
-          "of them as part.stl=m; may be repeated")
+          "of them as part.stl=m; may be repeated"))
       ->type_name("[FILE=]UNIT")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("Input");
-  command
-      .add_option("--up-axis", options.up_axes,
-                  "Axis that points up in the files, instead of the one that they state; of one of "
-                  "them as part.stl=y; may be repeated")
+  may_repeat(command.add_option(
+                 "--up-axis", options.up_axes,
+                 "Axis that points up in the files, instead of the one that they state; of one of "
+                 "them as part.stl=y; may be repeated"))
       ->type_name("[FILE=]x|y|z")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("Input");
   command
       .add_flag(
@@ -148,6 +142,11 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string&
           if (given == word) return std::string();
         return "'" + given + "' is not one of " + list;
       });
+}
+
+CLI::Option* may_repeat(CLI::Option* option) {
+  return option->expected(1)->allow_extra_args(false)->multi_option_policy(
+      CLI::MultiOptionPolicy::TakeAll);
 }
 
 Result<unsigned> worker_count(const CommonOptions& options) {

@@ -52,6 +52,9 @@ CLI::Option* add_match_files_option(CLI::App& command, std::vector<std::string>&
 CLI::Option* add_choice(CLI::App& command, const std::string& name, std::string& value,
                         const std::vector<std::string>& words, const std::string& help);
 
+/// Lets an option be given several times, with one value each.
+CLI::Option* may_repeat(CLI::Option* option);
+
 /// The end of the type of an option for which an empty value has a meaning of its own.
 inline constexpr std::string_view kOrEmpty = "|''";
 

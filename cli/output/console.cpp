@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "cli/output/shown_text.hpp"
+#include "core/stopwatch.hpp"
 
 namespace strake::cli {
 
@@ -136,13 +137,12 @@ void ProgressLine::watch() {
 }
 
 void ProgressLine::show() {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   double next_plain_s = kPlainLineEveryS;
   std::unique_lock lock(mutex_);
   while (!wake_.wait_for(lock, console_.is_terminal() ? kTerminalTick : kPlainTick,
                          [this] { return done_; })) {
-    const double elapsed =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double elapsed = watch.seconds();
     if (elapsed < kSilentS) continue;
     parallel::Progress::Snapshot now = progress_.snapshot();
     if (now.phase.empty()) now.phase = step_();

@@ -13,14 +13,10 @@
 namespace strake::cli {
 
 Stats::Timer::Timer(Stats& stats, std::string_view phase)
-    : stats_(stats),
-      phase_(phase),
-      start_(std::chrono::steady_clock::now()),
-      start_cpu_s_(parallel::process_cpu_s()) {}
+    : stats_(stats), phase_(phase), start_cpu_s_(parallel::process_cpu_s()) {}
 
 Stats::Timer::~Timer() {
-  const double wall =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double wall = watch_.seconds();
   try {
     stats_.phases_.push_back({phase_, wall, parallel::process_cpu_s() - start_cpu_s_});
   } catch (const std::bad_alloc&) {  // the phase is not reported; its work may be unwinding
@@ -31,7 +27,7 @@ void Stats::count(std::string_view name, std::uint64_t value) {
   counters_.emplace_back(name, value);
 }
 
-void Stats::tell(std::string_view name, std::string_view words) {
+void Stats::note(std::string_view name, std::string_view words) {
   words_.emplace_back(name, words);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -28,14 +27,14 @@ class Stats {
    private:
     Stats& stats_;
     std::string phase_;
-    std::chrono::steady_clock::time_point start_;
+    Stopwatch watch_;
     double start_cpu_s_ = 0;
   };
 
   [[nodiscard]] Timer time(std::string_view phase) { return Timer(*this, phase); }
   void count(std::string_view name, std::uint64_t value);
-  /// Says in words what the run did.
-  void tell(std::string_view name, std::string_view words);
+  /// Adds a line in words about what the run did.
+  void note(std::string_view name, std::string_view words);
   /// Adds one of the pairs that cost most; `where`, if not empty, tells which of equal names these
   /// are.
   void costly(std::string_view a, std::string_view b, std::string_view where, std::uint64_t cost);

@@ -30,8 +30,9 @@ namespace {
 using geometry::Box3d;
 using geometry::Vec3d;
 
-/// Two units: files in them, read as if in one unit, differ by the factor.
-struct Mistake {
+/// Two units that are taken for each other: files in them, read as if in one unit, differ by the
+/// factor.
+struct UnitConfusion {
   double factor;
   std::string_view small, large;
   double alike;  ///< extents may differ by this factor besides
@@ -41,17 +42,17 @@ struct Mistake {
 /// or a plate that is 25 or 40 times as large is so, too: inches have to be told from those by a
 /// hundredth.
 constexpr double kAlike = 1.12, kSame = 1.01;
-constexpr std::array<Mistake, 4> kMistakes{{{1000, "m", "mm", kAlike},
-                                            {25.4, "in", "mm", kSame},
-                                            {39.3701, "m", "in", kSame},
-                                            {304.8, "ft", "mm", kAlike}}};
+constexpr std::array<UnitConfusion, 4> kUnitConfusions{{{1000, "m", "mm", kAlike},
+                                                        {25.4, "in", "mm", kSame},
+                                                        {39.3701, "m", "in", kSame},
+                                                        {304.8, "ft", "mm", kAlike}}};
 
-/// Whether `large` is larger than `small`, both in grid units, by the mistake along all three axes,
+/// Whether `large` is larger than `small`, both in grid units, by the factor along all three axes,
 /// and along two at least by extents that the grid has not made of nothing: two parts seldom are
 /// alike along all axes, and objects in a row often are.
-bool is_alike(const Vec3d& small, const Vec3d& large, const Mistake& mistake) {
+bool is_alike(const Vec3d& small, const Vec3d& large, const UnitConfusion& confusion) {
   constexpr double kSignificant = 8;
-  const auto& [factor, small_unit, large_unit, alike] = mistake;
+  const auto& [factor, small_unit, large_unit, alike] = confusion;
   int significant_axes = 0;
   for (int k = 0; k < 3; ++k) {
     // The grid moves each of two ends by half a unit.
@@ -105,20 +106,21 @@ std::vector<FileExtent> extents(const model::Scene& scene) {
 /// Whether the files are alike when y and z may change places, as one file may have another up
 /// axis.
 bool is_alike_in_any_frame(const FileExtent& small, const FileExtent& large,
-                           const Mistake& mistake) {
+                           const UnitConfusion& confusion) {
   const Vec3d& s = small.size;
-  return is_alike(s, large.size, mistake) || is_alike({s.x, s.z, s.y}, large.size, mistake);
+  return is_alike(s, large.size, confusion) || is_alike({s.x, s.z, s.y}, large.size, confusion);
 }
 
 /// Returns what to advise for the two files: never another unit for one that is known, if that of
 /// the other is assumed. Where the formats of both state it, the large one is more likely wrong, as
 /// a glTF file in millimetres: nobody models in units larger than a metre.
-std::string options_to_try(const FileExtent& small, const FileExtent& large, const Mistake& mistake,
+std::string options_to_try(const FileExtent& small, const FileExtent& large,
+                           const UnitConfusion& confusion,
                            const std::vector<model::SourceFile>& files) {
   const auto option = [&](const FileExtent& of, std::string_view unit) {
     return fmt::format("--unit '{}={}'", files[of.file].label, unit);
   };
-  const auto& [factor, small_unit, large_unit, alike] = mistake;
+  const auto& [factor, small_unit, large_unit, alike] = confusion;
   const bool small_assumed = small.source == UnitSource::assumed;
   if (small_assumed && large.source == UnitSource::assumed)
     return option(small, small_unit) + ' ' + option(large, large_unit);
@@ -134,14 +136,14 @@ void note_doubtful_units(model::Scene& scene) {
   for (const FileExtent& large : found)
     for (const FileExtent& small : found) {
       if (are_trusted(large, small)) continue;
-      for (const Mistake& mistake : kMistakes)
-        if (is_alike_in_any_frame(small, large, mistake))
+      for (const UnitConfusion& confusion : kUnitConfusions)
+        if (is_alike_in_any_frame(small, large, confusion))
           scene.diagnostics.add(
               Severity::warning, "unit-doubtful",
               fmt::format("is about {:g} times as large as {}: where that is the factor between "
                           "their units, say {}",
-                          mistake.factor, files[small.file].label,
-                          options_to_try(small, large, mistake, files)),
+                          confusion.factor, files[small.file].label,
+                          options_to_try(small, large, confusion, files)),
               files[large.file].label);
     }
 }
@@ -310,7 +312,7 @@ Result<model::Model> read_model(Session& session, const InputOptions& input,
   Result<model::Model> model = join_inputs(session, *files, said_of_files, sources);
   if (!model) return model;
   note_repeated_files(*model, input.files);
-  tell_of_model(session, *model);
+  print_model_notes(session, *model);
   return model;
 }
 
@@ -330,13 +332,13 @@ Result<model::Scene> place_model(Session& session, const model::Model& model,
 
 }  // namespace
 
-Diagnostics Loaded::diagnostics() const {
+Diagnostics LoadedModel::diagnostics() const {
   Diagnostics all = model->diagnostics;
   all.append(scene.diagnostics);
   return all;
 }
 
-void tell_of_model(Session& session, const model::Model& model) {
+void print_model_notes(Session& session, const model::Model& model) {
   std::vector<std::uint64_t> objects(model.files.size());
   for (const model::Object& object : model.objects) ++objects[object.file];
   for (std::size_t f = 0; f < model.files.size(); ++f) {
@@ -354,8 +356,9 @@ Result<model::Model> load_model(Session& session, const InputOptions& input) {
   return read_model(session, input, {}, sources);
 }
 
-Result<Loaded> place(Session& session, model::Model model, const model::SceneOptions& options) {
-  Loaded loaded;
+Result<LoadedModel> place(Session& session, model::Model model,
+                          const model::SceneOptions& options) {
+  LoadedModel loaded;
   loaded.model = std::make_unique<const model::Model>(std::move(model));
   Result<model::Scene> scene = place_model(session, *loaded.model, options);
   if (!scene) return scene.error();
@@ -363,12 +366,13 @@ Result<Loaded> place(Session& session, model::Model model, const model::SceneOpt
   return loaded;
 }
 
-Result<Loaded> load(Session& session, const InputOptions& input, const model::SceneOptions& options,
-                    std::span<const rules::FileSettings> said_of_files) {
+Result<LoadedModel> load(Session& session, const InputOptions& input,
+                         const model::SceneOptions& options,
+                         std::span<const rules::FileSettings> said_of_files) {
   std::vector<std::filesystem::path> sources;
   Result<model::Model> model = read_model(session, input, said_of_files, sources);
   if (!model) return model.error();
-  Result<Loaded> loaded = place(session, std::move(*model), options);
+  Result<LoadedModel> loaded = place(session, std::move(*model), options);
   if (loaded) loaded->files = std::move(sources);
   return loaded;
 }
@@ -377,7 +381,7 @@ ExitCode strict_exit_code(const InputOptions& input, const Diagnostics& diagnost
   return input.strict && diagnostics.skipped() > 0 ? ExitCode::partial : ExitCode::done;
 }
 
-ExitCode strict_exit_code(const InputOptions& input, const Loaded& loaded) {
+ExitCode strict_exit_code(const InputOptions& input, const LoadedModel& loaded) {
   return strict_exit_code(input, loaded.diagnostics());
 }
 

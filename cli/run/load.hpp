@@ -40,7 +40,7 @@ void add_scene_options(CLI::App& command, SceneInput& options, const std::string
                                                         double default_sag_mm);
 
 /// The files of the command line as one model, and that model on the grid.
-struct Loaded {
+struct LoadedModel {
   std::unique_ptr<const model::Model> model;  ///< the model that the scene refers to
   model::Scene scene;
   /// The model files; of a project those that it was made of.
@@ -59,26 +59,26 @@ struct Loaded {
 };
 
 /// Prints what was read of each file of a model, and what was noticed.
-void tell_of_model(Session& session, const model::Model& model);
+void print_model_notes(Session& session, const model::Model& model);
 
 /// Reads the files of the command line and prints what was noticed, as load() does, but puts
 /// nothing on the grid.
 [[nodiscard]] Result<model::Model> load_model(Session& session, const InputOptions& input);
 
 /// Puts a model on the grid, and prints what was noticed.
-[[nodiscard]] Result<Loaded> place(Session& session, model::Model model,
-                                   const model::SceneOptions& options);
+[[nodiscard]] Result<LoadedModel> place(Session& session, model::Model model,
+                                        const model::SceneOptions& options);
 
 /// Reads the files of the command line, puts them on the grid, and prints what was noticed;
 /// `said_of_files` is what rules say of them, if there are any. Of a project it takes the model, as
 /// it was read. Errors: usage where rules say otherwise of a file of a project than it was read.
-[[nodiscard]] Result<Loaded> load(Session& session, const InputOptions& input,
-                                  const model::SceneOptions& options,
-                                  std::span<const rules::FileSettings> said_of_files = {});
+[[nodiscard]] Result<LoadedModel> load(Session& session, const InputOptions& input,
+                                       const model::SceneOptions& options,
+                                       std::span<const rules::FileSettings> said_of_files = {});
 
 /// Returns `done`, or `partial` where --strict was given and something was skipped.
 [[nodiscard]] ExitCode strict_exit_code(const InputOptions& input, const Diagnostics& diagnostics);
-[[nodiscard]] ExitCode strict_exit_code(const InputOptions& input, const Loaded& loaded);
+[[nodiscard]] ExitCode strict_exit_code(const InputOptions& input, const LoadedModel& loaded);
 
 /// Prints one line per kind of diagnostic: how often, and the first in its own words. Of the kinds
 /// in `each`, it prints every one.

@@ -35,9 +35,9 @@ std::string mend_of(const model::Selection& selection) {
 
 }  // namespace
 
-Result<Picked> pick_all(Session& session, const model::Scene& scene,
-                        const std::vector<model::Selection>& selections) {
-  Picked all;
+Result<SelectedObjects> pick_all(Session& session, const model::Scene& scene,
+                                 const std::vector<model::Selection>& selections) {
+  SelectedObjects all;
   all.any.resize(scene.model->objects.size());
   for (const model::Selection& selection : selections) {
     const auto picked = model::pick(selection, scene, session.context());
@@ -57,7 +57,7 @@ Result<std::vector<bool>> pick_any(Session& session, const model::Scene& scene,
                                    const std::vector<model::Selection>& selections,
                                    const std::string& option) {
   if (selections.empty()) return std::vector<bool>();
-  Result<Picked> picked = pick_all(session, scene, selections);
+  Result<SelectedObjects> picked = pick_all(session, scene, selections);
   if (!picked) return picked.error();
   if (!picked->idle.empty())
     return Error{ErrorCode::usage, std::move(picked->idle.front().message), option,

@@ -21,13 +21,13 @@ struct IdleSelection {
 };
 
 /// What several selections pick together.
-struct Picked {
+struct SelectedObjects {
   std::vector<bool> any;  ///< an entry per object: whether one of them picks it
   std::vector<IdleSelection> idle;
 };
 
-[[nodiscard]] Result<Picked> pick_all(Session& session, const model::Scene& scene,
-                                      const std::vector<model::Selection>& selections);
+[[nodiscard]] Result<SelectedObjects> pick_all(Session& session, const model::Scene& scene,
+                                               const std::vector<model::Selection>& selections);
 
 /// Returns which objects one of the selections picks, an entry per object; empty where there are no
 /// selections. A selection that picks nothing is an error: it is misspelt more often than meant.

@@ -155,9 +155,9 @@ Result<std::vector<std::filesystem::path>> model_files(
   return paths;
 }
 
-Result<Loaded> load_project(Session& session, OpenedProject& opened,
-                            const model::SceneOptions& options,
-                            std::span<const rules::FileSettings> said_of_files) {
+Result<LoadedModel> load_project(Session& session, OpenedProject& opened,
+                                 const model::SceneOptions& options,
+                                 std::span<const rules::FileSettings> said_of_files) {
   Result<std::vector<std::filesystem::path>> files =
       model_files(opened.project, opened.file, said_of_files);
   if (!files) return files.error();
@@ -166,8 +166,8 @@ Result<Loaded> load_project(Session& session, OpenedProject& opened,
     return signed_model(session, opened.project);
   }();
   if (!stored) return stored.error();
-  tell_of_model(session, stored->model);
-  Result<Loaded> loaded = place(session, std::move(stored->model), options);
+  print_model_notes(session, stored->model);
+  Result<LoadedModel> loaded = place(session, std::move(stored->model), options);
   if (!loaded) return loaded;
   loaded->files = std::move(*files);
   loaded->shape_hashes = std::move(stored->shape_hashes);

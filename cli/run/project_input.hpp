@@ -84,8 +84,8 @@ struct OpenedProject {
 
 /// Takes the model out of the project, puts it on the grid, and prints what was noticed, as load()
 /// does for files. Errors: those of project_model() and of model_files().
-[[nodiscard]] Result<Loaded> load_project(Session& session, OpenedProject& opened,
-                                          const model::SceneOptions& options,
-                                          std::span<const rules::FileSettings> said_of_files = {});
+[[nodiscard]] Result<LoadedModel> load_project(
+    Session& session, OpenedProject& opened, const model::SceneOptions& options,
+    std::span<const rules::FileSettings> said_of_files = {});
 
 }  // namespace strake::cli

@@ -9,6 +9,7 @@
 #include <streambuf>
 #include <string>
 
+#include "cli/run/write_files.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
 #include "io/model_writers.hpp"
@@ -45,16 +46,6 @@ class SinkBuffer : public std::streambuf {
 };
 
 constexpr std::array<OutputFormat, 1> kTruthFormats{{{".json"}}};
-
-Status write_model(Session& session, const model::Model& model, const std::string& file) {
-  const Result<io::ModelWriter> writer = find_writer(io::model_writers(), file);
-  if (!writer) return writer.error();
-  if (const Status status = session.will_write(file); !status) return status;
-  const auto timer = session.step("write " + file);
-  const Status status = writer->write(model, file, {}, session.context());
-  if (status) session.console().note("wrote " + file);
-  return status;
-}
 
 Result<ExitCode> run_generate(Session& session, const GenerateOptions& given) {
   generate::ShipOptions options;

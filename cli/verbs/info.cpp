@@ -12,7 +12,6 @@
 #include <variant>
 #include <vector>
 
-#include "cli/output/attribute_list.hpp"
 #include "cli/output/diagnostics_json.hpp"
 #include "cli/output/object_list.hpp"
 #include "cli/run/load.hpp"
@@ -35,14 +34,14 @@ constexpr double kInfoSagMm = 0.5;
 constexpr int kSchemaVersion = 1;
 
 /// The content of one file, or of all of them.
-struct Content {
+struct ModelContent {
   std::uint64_t objects = 0, bodies = 0, shapes = 0;
   std::map<std::string, std::uint64_t> primitives;  ///< bodies by the kind of their shape
   std::uint64_t triangles = 0, solids = 0, sheets = 0, wires = 0, inverted = 0;
   geometry::Box3l extents = geometry::empty_box<std::int64_t>();
 };
 
-void count_placed(Content& content, const model::Scene& scene, model::ObjectId id) {
+void count_placed(ModelContent& content, const model::Scene& scene, model::ObjectId id) {
   for (const model::GridBody& body : scene.bodies_of(id)) {
     const model::GridShape& shape = scene.shapes[body.grid_shape];
     if (!shape.box.empty()) content.extents.include(body.box(shape));
@@ -65,9 +64,9 @@ void count_placed(Content& content, const model::Scene& scene, model::ObjectId i
 }
 
 /// Returns the content of the files with `from` <= number < `to`.
-Content content_of(const model::Model& model, const model::Scene& scene, std::size_t from,
-                   std::size_t to) {
-  Content content;
+ModelContent content_of(const model::Model& model, const model::Scene& scene, std::size_t from,
+                        std::size_t to) {
+  ModelContent content;
   std::vector<bool> used(model.shapes.size());
   for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
     const model::Object& object = model.objects[o];
@@ -90,7 +89,7 @@ Json vector_json(const geometry::Vec3l& grid) {
   return Json::array({mm.x, mm.y, mm.z});
 }
 
-Json content_json(const Content& content) {
+Json content_json(const ModelContent& content) {
   Json extents;  // null where nothing was placed
   if (!content.extents.empty())
     extents = {{"lo", vector_json(content.extents.lo)}, {"hi", vector_json(content.extents.hi)}};
@@ -102,12 +101,13 @@ Json content_json(const Content& content) {
 }
 
 /// What is listed besides the counts.
-struct Lists {
+struct RequestedLists {
   std::optional<std::uint64_t> objects;  ///< the first so many
   bool attributes = false;
 };
 
-std::string info_json(const model::Model& model, const model::Scene& scene, const Lists& lists) {
+std::string info_json(const model::Model& model, const model::Scene& scene,
+                      const RequestedLists& lists) {
   Json files = Json::array();
   for (std::size_t f = 0; f < model.files.size(); ++f) {
     const model::SourceFile& file = model.files[f];
@@ -144,7 +144,7 @@ std::string extents_text(const geometry::Box3l& box) {
                      range(lo.z, hi.z));
 }
 
-std::string content_text(const Content& content) {
+std::string content_text(const ModelContent& content) {
   std::string kinds;
   for (const auto& [kind, count] : content.primitives)
     kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", count, kind);
@@ -157,7 +157,8 @@ std::string content_text(const Content& content) {
       extents_text(content.extents));
 }
 
-std::string info_text(const model::Model& model, const model::Scene& scene, const Lists& lists) {
+std::string info_text(const model::Model& model, const model::Scene& scene,
+                      const RequestedLists& lists) {
   std::string out;
   for (std::size_t f = 0; f < model.files.size(); ++f) {
     const model::SourceFile& file = model.files[f];
@@ -211,8 +212,8 @@ struct InfoOptions {
 };
 
 /// Loads the files, or the project of -p.
-Result<Loaded> load_input(Session& session, const InfoOptions& options,
-                          const model::SceneOptions& scene) {
+Result<LoadedModel> load_input(Session& session, const InfoOptions& options,
+                               const model::SceneOptions& scene) {
   if (const Status s = check_project_options(options.project, options.input); !s) return s.error();
   if (options.project.file.empty() && options.input.files.empty())
     return Error{ErrorCode::usage, "no model file is given", {}, "'strake info --help' tells more"};
@@ -225,11 +226,11 @@ Result<Loaded> load_input(Session& session, const InfoOptions& options,
 Result<ExitCode> run_info(Session& session, const InfoOptions& options) {
   const Result<model::SceneOptions> scene_settings = scene_options(options.scene, kInfoSagMm);
   if (!scene_settings) return scene_settings.error();
-  Lists lists{{}, options.attributes};
+  RequestedLists lists{{}, options.attributes};
   if (!options.objects.empty())
     if (const Status s = whole_number(lists.objects.emplace(), options.objects, "--objects"); !s)
       return s.error();
-  const Result<Loaded> loaded = load_input(session, options, *scene_settings);
+  const Result<LoadedModel> loaded = load_input(session, options, *scene_settings);
   if (!loaded) return loaded.error();
   const model::Model& model = *loaded->model;
   const model::Scene& scene = loaded->scene;

@@ -113,7 +113,7 @@ ClashResultInput grouping_of_run(const project::LastRun& run) {
 }
 
 /// Why the page cannot show the model beside the results; empty where it can.
-page::WithoutModel why_without_model(const ProjectFacts& facts, const Result<Loaded>& loaded,
+page::WithoutModel why_without_model(const ProjectFacts& facts, const Result<LoadedModel>& loaded,
                                      const std::string& project) {
   if (!loaded)
     return {"The model cannot be read: " + project + " " + loaded.error().message + ".",
@@ -126,7 +126,7 @@ page::WithoutModel why_without_model(const ProjectFacts& facts, const Result<Loa
 }
 
 Status put_together(Session& session, const std::string& geometry, const OpenedProject& opened,
-                    const Result<Loaded>& loaded, ProjectFacts& facts, const PageTaker& take) {
+                    const Result<LoadedModel>& loaded, ProjectFacts& facts, const PageTaker& take) {
   const project::LastRun& run = facts.run;
   const bool has_results = !run.findings.tests.empty();
   page::WithoutModel without =
@@ -177,7 +177,7 @@ Status make_project_page(Session& session, OpenedProject& opened, const std::str
   Result<ProjectFacts> facts = facts_of(session, opened);
   if (!facts) return facts.error();
   // The page shows curves coarser than any test needs them.
-  const Result<Loaded> loaded = load_project(session, opened, {});
+  const Result<LoadedModel> loaded = load_project(session, opened, {});
   // Results are worth a page although their model cannot be read.
   const bool has_results = !facts->run.findings.tests.empty();
   if (!loaded && (loaded.error().code != ErrorCode::input || !has_results)) return loaded.error();

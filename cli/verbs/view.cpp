@@ -9,9 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/run/person.hpp"
+#include "cli/run/authorship.hpp"
 #include "cli/run/project_input.hpp"
-#include "cli/run/utc_time.hpp"
 #include "cli/verbs/clash/clash_output.hpp"
 #include "cli/verbs/project_page.hpp"
 #include "cli/verbs/verb.hpp"

@@ -119,7 +119,7 @@ nb::tuple words_of_rows(const RunPointer& run, std::size_t begin, std::size_t en
     for (std::size_t at = first; at < last; ++at) {
       const clash::Pair& pair = test.pairs[at - row];
       keys.append(nb::cast(clash::pair_key(test.name, contents.model, pair.a, pair.b)));
-      const report::DecidedResult* const decided = report::decided_of(contents, t, pair);
+      const report::DecidedResult* const decided = report::decision_about(contents, t, pair);
       const bool open = decided != nullptr || pair.allowed < 0;
       statuses.append(
           nb::cast(open ? std::string(name(report::current_status(decided))) : std::string()));

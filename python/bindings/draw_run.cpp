@@ -21,9 +21,9 @@ namespace strake::python {
 namespace {
 
 /// Objects far from all others decide the scale: they are left out, or told of.
-Status mind_far_objects(const model::Scene& scene, const hlr::View& view, bool leave_out,
-                        std::vector<bool>& drawn, drawing::LayoutOptions& layout,
-                        Diagnostics& diagnostics, const parallel::Context& context) {
+Status resolve_far_objects(const model::Scene& scene, const hlr::View& view, bool leave_out,
+                           std::vector<bool>& drawn, drawing::LayoutOptions& layout,
+                           Diagnostics& diagnostics, const parallel::Context& context) {
   const Result<drawing::FarObjects> far = drawing::find_far_objects(scene, drawn, view, context);
   if (!far) return far.error();
   if (far->objects.empty()) return {};
@@ -128,8 +128,8 @@ Status fit_job(const DrawRequest& request, const model::Scene& scene, std::vecto
                const parallel::Context& context) {
   job.drawn = std::move(drawn);
   job.options.uncut = std::move(uncut);
-  if (const Status status = mind_far_objects(scene, job.view, request.leave_out_far_objects,
-                                             job.drawn, job.layout, diagnostics, context);
+  if (const Status status = resolve_far_objects(scene, job.view, request.leave_out_far_objects,
+                                                job.drawn, job.layout, diagnostics, context);
       !status)
     return status;
   if (request.sag_mm) return {};

@@ -19,7 +19,6 @@
 #include "clash/results/reported.hpp"
 #include "clash/results/result_counts.hpp"
 #include "clash/results/result_hash.hpp"
-#include "clash/results/unlisted_contacts.hpp"
 #include "clash/rules/options.hpp"
 #include "clash/rules/rule_matcher.hpp"
 #include "clash/volumes/common_volumes.hpp"
@@ -113,7 +112,7 @@ class Engine {
   /// equal. Returns whether there are not too many.
   Result<bool> run_broad_phase(Report& report) {
     const parallel::StageTimer timer(context_.report, "stage 1: pairs by boxes");
-    auto parts = collect_scene_parts(scene_, asked_sets(), options_.engine.curves, context_);
+    auto parts = collect_scene_parts(scene_, sets_of_changed(), options_.engine.curves, context_);
     if (!parts) return parts.error();
     list_ = std::move(*parts);
     if (const Status s = set_source_errors(scene_, options_, list_, context_); !s) return s.error();
@@ -139,7 +138,7 @@ class Engine {
   }
 
   /// Returns the sets without objects that the run does not ask about.
-  [[nodiscard]] Sets asked_sets() const {
+  [[nodiscard]] Sets sets_of_changed() const {
     if (changed_ == nullptr) return sets_;
     Sets asked;
     asked.in_a.assign(sets_.in_a.size(), false);
@@ -229,7 +228,7 @@ class Engine {
     // The log has the classes of all, whatever is reported of them.
     if (options_.engine.log_pairs)
       if (const Status s = log_pairs(evaluated(), objects_, rules_, context_, report); !s) return s;
-    if (const Status s = keep_reported(results, sets_, context_, report); !s) return s;
+    if (const Status s = filter_reported(results, sets_, context_, report); !s) return s;
     if (report.options.engine.most_regions > 0 || !report.allowed.empty()) {
       if (const Status s = aggregate_regions(results, context_, report); !s) return s;
     } else {
@@ -267,7 +266,7 @@ class Engine {
     auto unknown_sag = files_of_unknown_sag(list_, *scene_.model, context_);
     if (!unknown_sag) return unknown_sag.error();
     unknown_sag_ = std::move(*unknown_sag);
-    tell_unknown_sag(unknown_sag_, *scene_.model, report.diagnostics);
+    report_unknown_sag(unknown_sag_, *scene_.model, report.diagnostics);
     return options_.engine.contacts == Contacts::count ? leave_out_contacts(context_, report)
                                                        : Status{};
   }

@@ -51,7 +51,7 @@ struct TileReport {
                                              const Options& options, const Policy& policy,
                                              const Cell& cell, const parallel::Context& context);
 
-/// Says how many objects the sets have, and that one has none.
+/// Reports how many objects the sets have, and that one has none.
 void describe_sets(Report& report);
 
 }  // namespace strake::clash

@@ -28,7 +28,7 @@ struct DrawingWriter {
                                const parallel::Context& context);
 };
 
-/// All of them, in the order of help and errors.
+/// Returns the writers of all formats, in the order of help and errors.
 [[nodiscard]] std::span<const DrawingWriter> drawing_writers();
 
 }  // namespace strake::drawing

@@ -25,17 +25,17 @@ using geometry::Vec3l;
 
 constexpr std::int64_t kLargest = std::int64_t{1} << 20;
 
-struct Named {
+struct NamedView {
   std::string_view name;
   Vec3l direction;
 };
-constexpr std::array<Named, 7> kNamed = {{{"top", {0, 0, 1}},
-                                          {"bottom", {0, 0, -1}},
-                                          {"front", {0, -1, 0}},
-                                          {"back", {0, 1, 0}},
-                                          {"left", {-1, 0, 0}},
-                                          {"right", {1, 0, 0}},
-                                          {"iso", {1, -1, 1}}}};
+constexpr std::array<NamedView, 7> kNamed = {{{"top", {0, 0, 1}},
+                                              {"bottom", {0, 0, -1}},
+                                              {"front", {0, -1, 0}},
+                                              {"back", {0, 1, 0}},
+                                              {"left", {-1, 0, 0}},
+                                              {"right", {1, 0, 0}},
+                                              {"iso", {1, -1, 1}}}};
 
 Vec3l reduced(const Vec3l& v) {
   const std::int64_t common = std::gcd(std::gcd(v.x, v.y), v.z);
@@ -93,7 +93,7 @@ Direction rounded_direction(const Vec3d& wanted) {
 }  // namespace
 
 Result<Vec3l> direction_by_name(std::string_view name) {
-  for (const Named& named : kNamed)
+  for (const NamedView& named : kNamed)
     if (named.name == name) return named.direction;
   return Error{ErrorCode::usage, fmt::format("no view is called \"{}\"", name), "",
                "use top, bottom, front, back, left, right or iso, or give a direction"};

@@ -17,7 +17,7 @@ struct ModelWriter {
                   const WriteOptions& options, const parallel::Context& context);
 };
 
-/// All of them, in the order of help and errors.
+/// Returns the writers of all formats, in the order of help and errors.
 [[nodiscard]] std::span<const ModelWriter> model_writers();
 
 }  // namespace strake::io

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/edit_distance.hpp"
+#include "core/text/edit_distance.hpp"
 #include "core/text_encoding.hpp"
 
 namespace strake::model {

@@ -10,7 +10,6 @@
 #include "page/geometry/model_blocks.hpp"
 #include "page/geometry/shown_objects.hpp"
 #include "page/page_head.hpp"
-#include "page/page_policy.hpp"
 #include "page/page_template.hpp"
 #include "page/results/page_objects.hpp"
 #include "page/results/result_blocks.hpp"
@@ -27,32 +26,32 @@ void visit_pairs(const clash::Findings& findings, clash::Class cls, const Visit&
       if (pair.cls == cls && pair.allowed < 0) visit(pair);
 }
 
-/// Returns what is wanted of the model: what clashes first, then what is near; contacts are mostly
+/// Returns which objects are shown first: what clashes, then what is near; contacts are mostly
 /// meant, and come last.
-ShownWishes wishes_of(const PageContents& contents) {
-  ShownWishes wishes{.how = contents.shown};
+ShowPriorities show_priorities(const PageContents& contents) {
+  ShowPriorities priorities{.how = contents.shown};
   if (contents.clash == nullptr) {
-    wishes.drawn = contents.drawn;
+    priorities.drawn = contents.drawn;
     for (std::uint32_t o = 0; o < contents.model.objects.size(); ++o)
-      wishes.last.push_back(model::ObjectId{o});
-    return wishes;
+      priorities.last.push_back(model::ObjectId{o});
+    return priorities;
   }
   const clash::Findings& findings = contents.clash->findings;
   for (const clash::Class cls : {clash::Class::hit, clash::Class::clearance_violation})
     visit_pairs(findings, cls, [&](const clash::Pair& pair) {
-      wishes.first.insert(wishes.first.end(), {pair.a, pair.b});
-      wishes.places_mm.push_back(pair.point_mm);
+      priorities.first.insert(priorities.first.end(), {pair.a, pair.b});
+      priorities.places_mm.push_back(pair.point_mm);
     });
   visit_pairs(findings, clash::Class::contact, [&](const clash::Pair& pair) {
-    wishes.last.insert(wishes.last.end(), {pair.a, pair.b});
+    priorities.last.insert(priorities.last.end(), {pair.a, pair.b});
   });
-  return wishes;
+  return priorities;
 }
 
 /// Returns which objects the page names: those of results, and those that it shows.
 std::vector<bool> named_objects(const PageContents& contents, const ShownObjects& shown) {
   std::vector<bool> named(contents.model.objects.size(), false);
-  for (std::size_t o = 0; o < shown.of.size(); ++o) named[o] = shown.of[o] != Shown::nothing;
+  for (std::size_t o = 0; o < shown.of.size(); ++o) named[o] = shown.of[o] != ShownAs::nothing;
   if (contents.clash == nullptr) return named;
   for (const clash::Report& test : contents.clash->findings.tests)
     for (const clash::Pair& pair : test.pairs)
@@ -87,7 +86,7 @@ Status write_page(const PageContents& contents, report::Sink sink,
                   const parallel::Context& context) {
   ShownObjects shown;
   if (contents.scene != nullptr && contents.shown != report::ModelShown::nothing) {
-    Result<ShownObjects> chosen = choose_shown(*contents.scene, wishes_of(contents), context);
+    Result<ShownObjects> chosen = choose_shown(*contents.scene, show_priorities(contents), context);
     if (!chosen) return chosen.error();
     shown = std::move(*chosen);
   }

@@ -67,7 +67,7 @@ struct PageContents {
   std::vector<bool> drawn = {};
   std::vector<PageDrawing> drawings = {};
   std::vector<TrendPoint> trend = {};
-  /// Of a page that 'strake view' serves: it may then ask its server, and nobody else.
+  /// The facts of a page that 'strake view' serves: it may then ask its server, and nobody else.
   std::optional<ServedFacts> served = {};
 };
 

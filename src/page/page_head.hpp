@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "page/blocks/block.hpp"
@@ -22,5 +23,13 @@ struct HeadFacts {
 /// Returns the JSON of the block strake-head. Errors: cancelled, out of memory.
 [[nodiscard]] Result<std::string> page_head(const PageContents& contents, const HeadFacts& facts,
                                             const parallel::Context& context);
+
+/// Returns the policy (Content-Security-Policy) that the head of a page states; empty where there
+/// is none.
+[[nodiscard]] std::string_view policy_in(std::string_view head);
+
+/// Returns the head of a page whose policy lets it ask the server that it comes from. A page that
+/// is a file asks nobody.
+[[nodiscard]] std::string with_served_policy(std::string_view head);
 
 }  // namespace strake::page

@@ -11,10 +11,10 @@
 /// a word has to be one of several, any other is taken for the first: who offers them checks that.
 namespace strake::publish {
 
-/// Of "standard", "excel" and "excel-comma".
+/// Returns the form that one of the words "standard", "excel" and "excel-comma" names.
 [[nodiscard]] report::CsvForm csv_form(std::string_view word);
 
-/// Of "auto", "all", "near", "boxes" and "none".
+/// Returns what one of the words "auto", "all", "near", "boxes" and "none" shows.
 [[nodiscard]] report::ModelShown model_shown(std::string_view word);
 
 /// Parses a class of results, "hit", "contact", "clearance" or "clearance_violation", and adds it.

@@ -31,11 +31,11 @@ struct ViewDiffWriter {
   void (*write)(const ViewDiff& diff, Sink sink);
 };
 
-/// All of them, in the order of help and errors.
+/// Returns the writers of all formats, in the order of help and errors.
 [[nodiscard]] std::span<const ClashWriter> clash_writers();
-/// All of them, in the order of help and errors.
+/// Returns the writers of all formats, in the order of help and errors.
 [[nodiscard]] std::span<const ClashDiffWriter> clash_diff_writers();
-/// All of them, in the order of help and errors.
+/// Returns the writers of all formats, in the order of help and errors.
 [[nodiscard]] std::span<const ViewDiffWriter> view_diff_writers();
 
 }  // namespace strake::report

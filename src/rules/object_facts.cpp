@@ -26,7 +26,7 @@ void ObjectFacts::append(const ObjectFacts& more) {
   objects += more.objects;
 }
 
-void look_for_categories(const model::Model& model, ObjectFacts& facts) {
+void detect_categories(const model::Model& model, ObjectFacts& facts) {
   for (const model::Body& body : model.bodies) {
     facts.obstructions = facts.obstructions || body.category == model::Category::obstruction;
     facts.insulation = facts.insulation || body.category == model::Category::insulation;
@@ -40,7 +40,7 @@ Result<ObjectFacts> Rules::facts(const model::Scene& scene,
   auto picked = picked_by(choosers_of(*file_), scene, context);
   if (!picked) return picked.error();
   facts.picked = std::move(*picked);
-  look_for_categories(*scene.model, facts);
+  detect_categories(*scene.model, facts);
   for (const ExemptingRule& rule : file_->exempting)
     if (std::holds_alternative<EndsRule>(rule.rule) && !facts.ends)
       facts.ends = model::ends_of(scene, std::vector<bool>(facts.objects, true));

@@ -12,7 +12,7 @@ namespace strake::rules {
 /// What rules ask of the geometry of objects, of each by itself.
 struct ObjectFacts {
   std::vector<std::vector<bool>> picked;  ///< by selection of the rules, an entry per object
-  /// Of all objects, by object; absent where no rule is about ends.
+  /// The ends of all objects, by object; absent where no rule is about ends.
   std::optional<std::vector<model::ObjectEnd>> ends;
   bool obstructions = false, insulation = false;  ///< whether a body is of that category
   std::size_t objects = 0;
@@ -22,6 +22,6 @@ struct ObjectFacts {
 };
 
 /// Sets whether bodies of a model are of these categories.
-void look_for_categories(const model::Model& model, ObjectFacts& facts);
+void detect_categories(const model::Model& model, ObjectFacts& facts);
 
 }  // namespace strake::rules

@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "rules/file_settings.hpp"
-#include "rules/relation_words.hpp"
 #include "rules/rule_file.hpp"
-#include "rules/tolerance_rule.hpp"
+#include "rules/test_options.hpp"
 #include "settings/named_sets.hpp"
 #include "settings/table_reader.hpp"
 

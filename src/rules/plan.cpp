@@ -228,7 +228,7 @@ Result<Plan> Rules::plan(const model::Scene& scene, const parallel::Context& con
   auto picked = picked_by(choosers_of(*file_), scene, context);
   if (!picked) return picked.error();
   facts.picked = std::move(*picked);
-  look_for_categories(*scene.model, facts);
+  detect_categories(*scene.model, facts);
   return plan(scene, std::move(facts), context);
 }
 

@@ -17,21 +17,21 @@ namespace {
 
 constexpr const char* kRoomMend = " (smaller letters, fewer tags or a larger sheet make room)";
 
-/// Tells of labels that a sheet lacks.
-class LabelTeller {
+/// Reports labels that a sheet lacks.
+class LabelDiagnostics {
  public:
-  LabelTeller(const SheetSpec& what, std::span<const std::vector<bool>> picked, Sheet& sheet)
+  LabelDiagnostics(const SheetSpec& what, std::span<const std::vector<bool>> picked, Sheet& sheet)
       : what_(what), picked_(picked), sheet_(sheet) {}
 
-  /// Tells of the tags of all tables, whose lists come table by table.
-  void tell(const std::vector<TagList>& lists) {
+  /// Reports the tags of all tables, whose lists come table by table.
+  void report(const std::vector<TagList>& lists) {
     auto list = lists.begin();
     for (std::size_t t = 0; t < what_.tags.size(); ++t) {
       const TagSpec& tag = what_.tags[t];
       const auto picked = static_cast<std::size_t>(std::ranges::count(picked_[t], true));
       bool seen = false;
       for (; list != lists.end() && list->spec == &tag; ++list) {
-        tell(*list);
+        report(*list);
         seen = seen || list->count.unseen < picked;
       }
       if (!seen && picked > 0)
@@ -41,14 +41,15 @@ class LabelTeller {
     }
   }
 
-  void tell(const BalloonList& list) {
-    tell_rows(list, list.unseen, "balloon-not-seen",
-              "no view shows an object of it (name views that do, or leave views out)",
-              "no view shows objects of them (name views that do, or leave views out)");
-    tell_rows(list, list.crowded, "balloon-no-room",
-              "there is no room for it (a smaller size, another side or a larger sheet make room)",
-              "there is no room for them (a smaller size, another side or a larger sheet make "
-              "room)");
+  void report(const BalloonList& list) {
+    report_rows(list, list.unseen, "balloon-not-seen",
+                "no view shows an object of it (name views that do, or leave views out)",
+                "no view shows objects of them (name views that do, or leave views out)");
+    report_rows(
+        list, list.crowded, "balloon-no-room",
+        "there is no room for it (a smaller size, another side or a larger sheet make room)",
+        "there is no room for them (a smaller size, another side or a larger sheet make "
+        "room)");
   }
 
  private:
@@ -56,7 +57,7 @@ class LabelTeller {
     sheet_.diagnostics.add(Severity::warning, code, std::move(message), std::move(where));
   }
 
-  void tell(const TagList& list) {
+  void report(const TagList& list) {
     const TagCount& count = list.count;
     const std::string where =
         list.spec->where + ", the view '" + sheet_.views[list.view].name + "'";
@@ -91,8 +92,8 @@ class LabelTeller {
   }
 
   /// Tells of rows of a list that have no balloon, and why: of one, or of several.
-  void tell_rows(const BalloonList& list, const std::vector<std::string>& rows, const char* code,
-                 const std::string& one, const std::string& many) {
+  void report_rows(const BalloonList& list, const std::vector<std::string>& rows, const char* code,
+                   const std::string& one, const std::string& many) {
     if (rows.empty()) return;
     constexpr std::size_t kMostNamed = 10;
     std::string numbers;
@@ -128,9 +129,9 @@ Status compose_labels(const SheetSpec& what, const model::Model& model,
           balloons_of(what.parts_lists[l], notes.listed[l], model.objects.size(), sheet));
   if (const Status status = write_labels(labels, model, room, sheet, context.stop); !status)
     return status;
-  LabelTeller teller(what, picked, sheet);
-  teller.tell(labels.tags);
-  for (const BalloonList& list : labels.balloons) teller.tell(list);
+  LabelDiagnostics diagnostics(what, picked, sheet);
+  diagnostics.report(labels.tags);
+  for (const BalloonList& list : labels.balloons) diagnostics.report(list);
   return {};
 }
 

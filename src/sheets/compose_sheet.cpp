@@ -162,20 +162,20 @@ class Composer {
   }
 
   /// The objects and hatches that selections choose for a view, and what sections leave whole.
-  struct Chosen {
+  struct ViewSelection {
     std::vector<bool> drawn;
     std::vector<hlr::Hatch> hatches;
     std::vector<bool> uncut;
   };
 
   Status draw() {
-    std::vector<Chosen> chosen;
+    std::vector<ViewSelection> chosen;
     for (const ViewSpec& view : what_.views) {
       chosen.push_back({next_picks(view.select.size()), {}, {}});
       chosen.back().hatches = hatches_of(view);
       chosen.back().uncut = next_picks(view.uncut.size());
     }
-    if (const Status status = mind_far(chosen); !status) return status;
+    if (const Status status = resolve_far(chosen); !status) return status;
     const Result<std::vector<double>> sags =
         options_.sag_for_paper ? sags_for_paper(chosen) : std::vector<double>{};
     if (!sags) return sags.error();
@@ -204,10 +204,10 @@ class Composer {
     return {};
   }
 
-  Status mind_far(std::vector<Chosen>& chosen) {
+  Status resolve_far(std::vector<ViewSelection>& chosen) {
     std::vector<std::vector<bool>*> drawn;
-    for (Chosen& of_view : chosen) drawn.push_back(&of_view.drawn);
-    auto left_out = mind_far_objects(what_, scene_, drawn, sheet_.diagnostics, context_);
+    for (ViewSelection& of_view : chosen) drawn.push_back(&of_view.drawn);
+    auto left_out = resolve_far_objects(what_, scene_, drawn, sheet_.diagnostics, context_);
     if (!left_out) return left_out.error();
     far_left_out_ = std::move(*left_out);
     return {};
@@ -216,7 +216,7 @@ class Composer {
   /// Returns the sag of each view, from about the scale that it will have; empty where nothing
   /// would fit.
   [[nodiscard]] Result<std::vector<double>> sags_for_paper(
-      const std::vector<Chosen>& chosen) const {
+      const std::vector<ViewSelection>& chosen) const {
     std::vector<drawing::PlaneBox> extents;
     for (std::size_t v = 0; v < what_.views.size(); ++v) {
       const ViewSpec& spec = what_.views[v];

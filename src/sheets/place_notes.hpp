@@ -19,7 +19,7 @@ namespace strake::sheets {
 /// Where the notes of a sheet stand.
 struct Notes {
   std::vector<std::pair<NoteTable, PaperPoint>> tables;  ///< with their upper left corners
-  /// Of each parts list the objects of the rows that it shows.
+  /// The objects of the rows that each parts list shows.
   std::vector<std::vector<std::vector<model::ObjectId>>> listed;
   std::optional<PaperPoint> scale_bar;  ///< its upper left corner
   std::optional<PaperPoint> north;      ///< its middle

@@ -9,8 +9,8 @@ namespace strake::test {
 
 namespace {
 
+using drawing::OverlapRank;
 using drawing::PlaneSegment;
-using drawing::Rank;
 
 class Maker {
  public:
@@ -50,8 +50,8 @@ class Maker {
             .by = by - o,
             .depth = static_cast<double>(below(4)),
             .reach = below(4) == 0 ? options_.reach / 2 : options_.reach,
-            .rank = std::array{Rank::visible, Rank::hidden, Rank::hidden,
-                               Rank::none}[below(below(8) == 0 ? 4 : 3)]};
+            .rank = std::array{OverlapRank::visible, OverlapRank::hidden, OverlapRank::hidden,
+                               OverlapRank::none}[below(below(8) == 0 ? 4 : 3)]};
   }
   PlaneSegment any() {
     const double length = std::pow(10.0, real(-2, 4)), x = real(0, 1000), y = real(0, 1000);

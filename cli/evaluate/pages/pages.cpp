@@ -59,7 +59,7 @@ std::string resolution(const EvaluationRecord& record) {
   std::string where;
   for (const CaseRecord& one : record.cases)
     for (const StageRecord& stage : one.stages)
-      if (const double noise = noise_of(stage); noise >= worst) {
+      if (const double noise = timing_noise(stage); noise >= worst) {
         worst = noise;
         where = one.name + ", " + stage.name;
       }
@@ -111,7 +111,7 @@ std::string evaluation_html(const EvaluationRecord& record) {
       drawing::xml_escaped(verdict(record)), drawing::xml_escaped(resolution(record)));
   for (const std::string& line : differences_of(record))
     out += "<p class=\"wrong\">" + drawing::xml_escaped(line) + "</p>\n";
-  for (const Section& section : sections_of(record)) {
+  for (const TableSection& section : sections_of(record)) {
     out += "<h2>" + drawing::xml_escaped(section.table.title) + "</h2>\n";
     for (const BarChart& chart : section.charts)
       out += "<figure>\n" + bar_chart_svg(chart) + "</figure>\n";
@@ -123,14 +123,14 @@ std::string evaluation_html(const EvaluationRecord& record) {
   return out;
 }
 
-std::string chart_file(const Section& section, std::size_t n) {
+std::string chart_file(const TableSection& section, std::size_t n) {
   return fmt::format("chart-{}-{}.svg", section.id, n + 1);
 }
 
 std::string evaluation_markdown(const EvaluationRecord& record) {
   std::string out = fmt::format("# {}\n\n{}\n\n{}\n", kTitle, verdict(record), resolution(record));
   for (const std::string& line : differences_of(record)) out += "\n- " + line;
-  for (const Section& section : sections_of(record)) {
+  for (const TableSection& section : sections_of(record)) {
     const auto& [id, table, charts] = section;
     out += "\n## " + table.title + "\n\n";
     for (std::size_t n = 0; n < charts.size(); ++n)

@@ -18,6 +18,6 @@ namespace strake::cli {
 [[nodiscard]] std::string studies_csv(const EvaluationRecord& record);
 
 /// Returns the name of the file of a section's n-th chart, which Markdown refers to.
-[[nodiscard]] std::string chart_file(const Section& section, std::size_t n);
+[[nodiscard]] std::string chart_file(const TableSection& section, std::size_t n);
 
 }  // namespace strake::cli

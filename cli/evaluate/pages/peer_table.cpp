@@ -48,8 +48,8 @@ std::vector<std::string> cells_of(const PeerRow& row) {
 
 }  // namespace
 
-Section peer_section(const EvaluationRecord& record) {
-  Section section;
+TableSection peer_section(const EvaluationRecord& record) {
+  TableSection section;
   section.id = "peers";
   section.table = {
       "Peers",

@@ -9,7 +9,7 @@
 namespace strake::cli {
 
 /// Returns what other programs did, a row for each and each scene.
-[[nodiscard]] Section peer_section(const EvaluationRecord& record);
+[[nodiscard]] TableSection peer_section(const EvaluationRecord& record);
 
 /// Returns the same as one line per row, with all digits.
 [[nodiscard]] std::string peers_csv(const EvaluationRecord& record);

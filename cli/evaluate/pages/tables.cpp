@@ -35,9 +35,9 @@ std::string title_of(const std::string& stage) {
   return "Clash detection";
 }
 
-Section summary(const EvaluationRecord& record) {
+TableSection summary(const EvaluationRecord& record) {
   const unsigned threads = most_threads(record);
-  Section section;
+  TableSection section;
   section.id = "summary";
   section.table = {
       "Speed-ups beside the thesis's",
@@ -74,9 +74,9 @@ std::pair<std::string, std::string> thesis_way(const StageRecord& stage, double 
   return {seconds, times};
 }
 
-Section speedups(const EvaluationRecord& record, const std::string& stage) {
+TableSection speedups(const EvaluationRecord& record, const std::string& stage) {
   const unsigned threads = most_threads(record);
-  Section section;
+  TableSection section;
   section.id = "speed-up-" + stage;
   section.table = {
       title_of(stage),
@@ -107,7 +107,7 @@ Section speedups(const EvaluationRecord& record, const std::string& stage) {
              ? percent(s->serial_share)
              : fmt::format("{} {}", percent(s->serial_share), s->serial_region),
          number(s->amdahl), number(s->bound), number(1000 * s->alone_s, 1), number(s->by_cpu),
-         percent(noise_of(measured)), measured.differences.empty() ? "yes" : "NO"});
+         percent(timing_noise(measured)), measured.differences.empty() ? "yes" : "NO"});
     chart.names.push_back(one.name);
     chart.series.front().values.push_back(s->speedup);
   });
@@ -119,8 +119,8 @@ Section speedups(const EvaluationRecord& record, const std::string& stage) {
   return section;
 }
 
-Section thesis_ways(const EvaluationRecord& record) {
-  Section section;
+TableSection thesis_ways(const EvaluationRecord& record) {
+  TableSection section;
   section.id = "thesis";
   section.table = {"The thesis's own way on the same input",
                    "Seconds of one run, and how many times as long as ours on as many threads as "
@@ -141,8 +141,8 @@ Section thesis_ways(const EvaluationRecord& record) {
   return section;
 }
 
-Section by_threads(const EvaluationRecord& record) {
-  Section section;
+TableSection by_threads(const EvaluationRecord& record) {
+  TableSection section;
   section.id = "threads";
   section.table = {
       "Speed-up by number of threads", "Mean, and the least of all cases.", {"Stage"}, {}};
@@ -172,9 +172,9 @@ Section by_threads(const EvaluationRecord& record) {
 }
 
 /// Shows what each worker did in the case that takes longest of each stage.
-Section distribution(const EvaluationRecord& record) {
+TableSection distribution(const EvaluationRecord& record) {
   const unsigned threads = most_threads(record);
-  Section section;
+  TableSection section;
   section.id = "workers";
   section.table = {"Distribution over the workers",
                    "Busy seconds of each worker in all regions, least and greatest.",
@@ -202,8 +202,8 @@ Section distribution(const EvaluationRecord& record) {
   return section;
 }
 
-Section memory(const EvaluationRecord& record) {
-  Section section;
+TableSection memory(const EvaluationRecord& record) {
+  TableSection section;
   section.id = "memory";
   section.table = {"Peak memory by number of threads",
                    "Mebibytes of the process while the contender ran; model and scene are among "
@@ -230,8 +230,8 @@ Section memory(const EvaluationRecord& record) {
   return section;
 }
 
-Section work(const EvaluationRecord& record) {
-  Section section;
+TableSection work(const EvaluationRecord& record) {
+  TableSection section;
   section.id = "work";
   section.table = {
       "Work",
@@ -253,12 +253,12 @@ Section work(const EvaluationRecord& record) {
   return section;
 }
 
-Section machine(const EvaluationRecord& record) {
+TableSection machine(const EvaluationRecord& record) {
   const Machine& m = record.machine;
   std::string threads;
   for (const unsigned n : record.settings.threads)
     threads += fmt::format("{}{}", threads.empty() ? "" : ", ", n);
-  Section section;
+  TableSection section;
   section.id = "machine";
   section.table = {
       "Machine and settings",
@@ -279,8 +279,8 @@ Section machine(const EvaluationRecord& record) {
 
 }  // namespace
 
-std::vector<Section> sections_of(const EvaluationRecord& record) {
-  std::vector<Section> sections{summary(record)};
+std::vector<TableSection> sections_of(const EvaluationRecord& record) {
+  std::vector<TableSection> sections{summary(record)};
   for (const ThesisFigures& thesis : thesis_figures())
     sections.push_back(speedups(record, thesis.stage));
   sections.push_back(thesis_ways(record));
@@ -293,7 +293,7 @@ std::vector<Section> sections_of(const EvaluationRecord& record) {
   sections.push_back(memory(record));
   sections.push_back(work(record));
   sections.push_back(machine(record));
-  std::erase_if(sections, [](const Section& section) { return section.table.rows.empty(); });
+  std::erase_if(sections, [](const TableSection& section) { return section.table.rows.empty(); });
   return sections;
 }
 

@@ -17,14 +17,14 @@ struct Table {
 };
 
 /// A part of the page: a chart, if there is something to show, and a table.
-struct Section {
+struct TableSection {
   std::string id;  ///< in names of files: "speed-up-local"
   Table table;
   std::vector<BarChart> charts;
 };
 
 /// Returns the sections of the page, those without rows left out.
-[[nodiscard]] std::vector<Section> sections_of(const EvaluationRecord& record);
+[[nodiscard]] std::vector<TableSection> sections_of(const EvaluationRecord& record);
 
 /// Returns the differences between what had to be equal, a line each.
 [[nodiscard]] std::vector<std::string> differences_of(const EvaluationRecord& record);

@@ -124,7 +124,7 @@ Result<PeerRecord> run_peer(const PeerCase& one, const PeerPrograms& programs, d
   return PeerRun(one, programs, scale).run(stop);
 }
 
-bool may_be_asked_again(const PeerRecord& record) {
+bool may_be_retried(const PeerRecord& record) {
   return std::ranges::any_of(record.rows, [](const PeerRow& row) {
     return row.outcome == kNotThere || row.outcome == kFailed;
   });

@@ -18,14 +18,14 @@ struct PeerPrograms {
   double limit_s = 60;           ///< of a peer; of a whole run several times that
 };
 
-/// Asks one peer, in a process of its own. Whatever becomes of that process is a row: it is not
+/// Runs one peer, in a process of its own. Whatever becomes of that process is a row: it is not
 /// there, it fails, it takes too long, it says what is no answer. Errors: cancelled, and output
 /// where the folder cannot be made.
 [[nodiscard]] Result<PeerRecord> run_peer(const PeerCase& one, const PeerPrograms& programs,
                                           double scale, const std::stop_token& stop);
 
 /// Whether a peer that was not there, or failed, may have an answer now.
-[[nodiscard]] bool may_be_asked_again(const PeerRecord& record);
+[[nodiscard]] bool may_be_retried(const PeerRecord& record);
 
 /// Returns what became of a peer, in a line.
 [[nodiscard]] std::string outcome_line(const PeerRecord& record);

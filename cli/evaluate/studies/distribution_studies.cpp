@@ -19,16 +19,16 @@ using parallel::Distribution;
 using parallel::RegionReport;
 
 /// A way to share work out, as a study names it.
-struct Way {
+struct SharingMode {
   std::string_view name;
   Distribution distribution;
 };
 
 /// A stage that is shared out in two ways; the first is what the engine does.
-struct TwoWays {
+struct SharingComparison {
   const Contender& stage;
   std::string title;
-  std::array<Way, 2> ways;
+  std::array<SharingMode, 2> ways;
   /// The region that is shown besides all of them; empty: the one that takes longest as planned.
   std::string_view region = {};
 };
@@ -57,10 +57,11 @@ void add_region_row(const std::string& stage, const std::string& region, std::st
 
 /// Runs a stage in both ways and adds a row for all its regions and for one of them, each way, and
 /// a chart of all.
-Status compare_ways(const StudyInput& input, const TwoWays& comparison, StudyRecord& study) {
+Status compare_ways(const StudyInput& input, const SharingComparison& comparison,
+                    StudyRecord& study) {
   std::array<StudyRun, 2> runs;
   for (std::size_t w = 0; w < runs.size(); ++w) {
-    const Way& way = comparison.ways[w];
+    const SharingMode& way = comparison.ways[w];
     input.narrate(fmt::format("{}, {}: {}", study.name, comparison.title, way.name));
     Result<StudyRun> run = run_for_study(input, comparison.stage,
                                          {.distribution = way.distribution, .with_regions = true});
@@ -73,7 +74,7 @@ Status compare_ways(const StudyInput& input, const TwoWays& comparison, StudyRec
   for (std::size_t w = 0; w < runs.size(); ++w) {
     const std::string same = w == 0 ? "-" : equal(runs[w], runs[0], comparison.title, study);
     const std::string_view way = comparison.ways[w].name;
-    const RegionReport whole = whole_of(runs[w].regions);
+    const RegionReport whole = merged_report(runs[w].regions);
     add_region_row(comparison.title, "all", way, whole, runs[w].text(), same, study);
     add_region_row(comparison.title, region, way, region_named(runs[w].regions, region), "-", same,
                    study);
@@ -93,7 +94,7 @@ std::vector<std::string> columns_of_ways() {
 }  // namespace
 
 Status study_distribution(const StudyInput& input, StudyRecord& study) {
-  constexpr std::array<Way, 2> kWays{
+  constexpr std::array<SharingMode, 2> kWays{
       {{"competitive", Distribution::planned}, {"equal ranges", Distribution::equal_ranges}}};
   study.columns = columns_of_ways();
   const Result<SkewedScene> scene = place_skewed_scene(input);
@@ -108,7 +109,7 @@ Status study_distribution(const StudyInput& input, StudyRecord& study) {
 }
 
 Status study_longest_first(const StudyInput& input, StudyRecord& study) {
-  constexpr std::array<Way, 2> kWays{
+  constexpr std::array<SharingMode, 2> kWays{
       {{"longest first", Distribution::planned}, {"as it comes", Distribution::in_order}}};
   study.columns = columns_of_ways();
   const Result<SkewedScene> scene = place_skewed_scene(input);

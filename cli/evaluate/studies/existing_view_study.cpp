@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "cli/evaluate/statistics.hpp"
 #include "cli/evaluate/studies/edited_ships.hpp"
 #include "cli/evaluate/studies/study_runs.hpp"
+#include "core/stopwatch.hpp"
 #include "project/views/drawing_codec.hpp"
 #include "strake/hlr/incremental.hpp"
 #include "strake/hlr/steps.hpp"
@@ -30,7 +30,7 @@ struct Seconds {
 };
 
 /// Those of several rounds.
-class Rounds {
+class RoundTimes {
  public:
   void add(double all, const parallel::RunReport& report) {
     all_.push_back(all);
@@ -57,7 +57,7 @@ struct ExistingView {
 };
 
 /// A drawing that was made from an existing view.
-struct Followed {
+struct FollowedView {
   hlr::Redrawn redrawn;
   std::size_t changed = 0;  ///< objects
   Seconds seconds;
@@ -107,13 +107,13 @@ class ViewRuns {
 
   Result<ExistingView> make_view() {
     ExistingView made;
-    Rounds rounds;
+    RoundTimes rounds;
     for (std::uint64_t round = 0; round < input_.settings.repeat; ++round) {
       parallel::RunReport report;
-      const auto start = std::chrono::steady_clock::now();
+      const Stopwatch watch;
       auto drawing = hlr::draw(ships_.before.scene, {}, view_, {}, context(&report));
       if (!drawing) return drawing.error();
-      rounds.add(seconds_since(start), report);
+      rounds.add(watch.seconds(), report);
       made.drawing = std::move(*drawing);
     }
     made.seconds = rounds.medians();
@@ -143,14 +143,14 @@ class ViewRuns {
   }
 
   /// What a run takes that has the earlier drawing in memory: signatures, their comparison, lines.
-  Result<Followed> follow_rounds(const ExistingView& existing, const model::Scene& scene) {
-    Followed followed;
-    Rounds rounds;
+  Result<FollowedView> follow_rounds(const ExistingView& existing, const model::Scene& scene) {
+    FollowedView followed;
+    RoundTimes rounds;
     for (std::uint64_t round = 0; round < input_.settings.repeat; ++round) {
       hlr::Drawing drawing = existing.drawing;
       drawing.pieces.reserve(drawing.pieces.size() + drawing.pieces.size() / 16);
       parallel::RunReport report;
-      const auto start = std::chrono::steady_clock::now();
+      const Stopwatch watch;
       const auto signatures = hlr::signatures(scene, {}, view_, {}, context(&report));
       if (!signatures) return signatures.error();
       const std::vector<std::uint32_t> numbers =
@@ -159,7 +159,7 @@ class ViewRuns {
                                        {std::move(drawing), numbers, existing.signatures.boxes},
                                        context(&report));
       if (!redrawn) return redrawn.error();
-      rounds.add(seconds_since(start), report);
+      rounds.add(watch.seconds(), report);
       followed.redrawn = std::move(*redrawn);
       const auto kept =
           numbers.size() - static_cast<std::size_t>(std::ranges::count(numbers, model::kNoObject));
@@ -193,10 +193,6 @@ class ViewRuns {
       row.push_back(fmt::format("{:.4f}", seconds));
     row.insert(row.end(), more.begin(), more.end());
     study_.rows.push_back(std::move(row));
-  }
-
-  static double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   const StudyInput& input_;

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kCells = 7;  // between the unit of work and the note
 
 /// A unit of work that can be run.
-struct Unit {
+struct WorkUnit {
   std::string algorithm, name;
   Contender contender;
   std::size_t least_chunk = 1;
@@ -29,14 +29,14 @@ struct Unit {
 };
 
 /// A unit of work that no run has, and why.
-struct Forbidden {
+struct InadmissibleUnit {
   std::string_view algorithm, name, reason;
 };
 
 constexpr std::string_view kLocal = "local hidden lines", kGlobal = "global hidden lines",
                            kClash = "clash detection";
 
-constexpr std::array<Forbidden, 5> kForbidden{{
+constexpr std::array<InadmissibleUnit, 5> kForbidden{{
     {kLocal, "reference plane",
      "all planes of an object write to the same lines, which would have to be locked for each "
      "test, or joined after"},
@@ -74,9 +74,9 @@ void add_unit_row(std::string_view algorithm, std::string_view unit, std::vector
 }
 
 /// Runs units of one algorithm; the results of all are that of the first.
-Status run_units(const StudyInput& input, const std::vector<Unit>& units, StudyRecord& study) {
+Status run_units(const StudyInput& input, const std::vector<WorkUnit>& units, StudyRecord& study) {
   StudyRun first;
-  for (const Unit& unit : units) {
+  for (const WorkUnit& unit : units) {
     input.narrate(fmt::format("granularity, {}: {}", unit.algorithm, unit.name));
     Result<StudyRun> run = run_for_study(input, unit.contender,
                                          {.least_chunk = unit.least_chunk, .with_regions = true});
@@ -84,7 +84,7 @@ Status run_units(const StudyInput& input, const std::vector<Unit>& units, StudyR
     const bool is_first = &unit == &units.front();
     if (is_first) first = std::move(*run);
     const StudyRun& done = is_first ? first : *run;
-    const parallel::RegionReport region = whole_of(done.regions, unit.regions);
+    const parallel::RegionReport region = merged_report(done.regions, unit.regions);
     std::string same =
         is_first ? "-" : equal(done, first, unit.algorithm + ", " + unit.name, study);
     add_unit_row(unit.algorithm, unit.name, unit_cells(done, region, std::move(same)),
@@ -94,11 +94,11 @@ Status run_units(const StudyInput& input, const std::vector<Unit>& units, StudyR
 }
 
 /// Returns the units of hidden lines: edges in runs, finer and coarser, and whole objects.
-std::vector<Unit> units_of_lines(const SkewedScene& scene, hlr::Stage stage) {
+std::vector<WorkUnit> units_of_lines(const SkewedScene& scene, hlr::Stage stage) {
   constexpr unsigned kEdges = 32;  // of an item of the engine
   const bool local = stage == hlr::Stage::local;
   const std::string algorithm(local ? kLocal : kGlobal);
-  std::vector<Unit> units;
+  std::vector<WorkUnit> units;
   for (const std::size_t chunk : {1U, 16U, 256U})
     units.push_back({algorithm,
                      fmt::format("up to {} edges", kEdges * chunk),
@@ -117,9 +117,9 @@ std::vector<Unit> units_of_lines(const SkewedScene& scene, hlr::Stage stage) {
   return units;
 }
 
-std::vector<Unit> units_of_clashes(const SkewedScene& scene) {
+std::vector<WorkUnit> units_of_clashes(const SkewedScene& scene) {
   constexpr unsigned kPairs = 8;  // of a block of the engine
-  std::vector<Unit> units;
+  std::vector<WorkUnit> units;
   for (const std::size_t chunk : {1U, 16U, 256U})
     units.push_back({std::string(kClash),
                      fmt::format("up to {} pairs of parts", kPairs * chunk),
@@ -165,7 +165,7 @@ Status study_granularity(const StudyInput& input, StudyRecord& study) {
   if (!scene) return scene.error();
   for (const hlr::Stage stage : {hlr::Stage::local, hlr::Stage::global}) {
     if (const Status s = run_units(input, units_of_lines(*scene, stage), study); !s) return s;
-    for (const Forbidden& one : kForbidden)
+    for (const InadmissibleUnit& one : kForbidden)
       if (one.algorithm == (stage == hlr::Stage::local ? kLocal : kGlobal))
         add_unit_row(one.algorithm, one.name, {}, "not run: " + std::string(one.reason), study);
   }

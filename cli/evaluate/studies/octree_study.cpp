@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "cli/evaluate/studies/loose_octree.hpp"
 #include "cli/evaluate/studies/object_boxes.hpp"
 #include "cli/evaluate/studies/study_runs.hpp"
+#include "core/stopwatch.hpp"
 #include "geometry/bvh/scene_bvh.hpp"
 #include "strake/generate/ship.hpp"
 
@@ -32,10 +32,9 @@ template <class Work>
 double seconds_of(std::uint64_t rounds, const Work& work) {
   std::vector<double> seconds;
   for (std::uint64_t round = 0; round < rounds; ++round) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     work();
-    seconds.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    seconds.push_back(watch.seconds());
   }
   return median(std::move(seconds));
 }

@@ -8,7 +8,7 @@
 
 namespace strake::cli {
 
-parallel::RegionReport whole_of(std::span<const parallel::RegionReport> regions) {
+parallel::RegionReport merged_report(std::span<const parallel::RegionReport> regions) {
   parallel::RegionReport whole;
   whole.name = "all";
   for (const parallel::RegionReport& region : regions) {
@@ -25,12 +25,12 @@ parallel::RegionReport whole_of(std::span<const parallel::RegionReport> regions)
   return whole;
 }
 
-parallel::RegionReport whole_of(std::span<const parallel::RegionReport> regions,
-                                std::span<const std::string_view> names) {
+parallel::RegionReport merged_report(std::span<const parallel::RegionReport> regions,
+                                     std::span<const std::string_view> names) {
   std::vector<parallel::RegionReport> some;
   for (const parallel::RegionReport& region : regions)
     if (std::ranges::find(names, region.name) != names.end()) some.push_back(region);
-  return whole_of(some);
+  return merged_report(some);
 }
 
 parallel::RegionReport longest_of(std::span<const parallel::RegionReport> regions) {

@@ -15,10 +15,10 @@ namespace strake::cli {
 inline constexpr unsigned kWorkersOfExample = 7;
 
 /// Returns all regions of a team as one, with the longest block of any.
-[[nodiscard]] parallel::RegionReport whole_of(std::span<const parallel::RegionReport> regions);
+[[nodiscard]] parallel::RegionReport merged_report(std::span<const parallel::RegionReport> regions);
 /// Returns those of some names as one.
-[[nodiscard]] parallel::RegionReport whole_of(std::span<const parallel::RegionReport> regions,
-                                              std::span<const std::string_view> names);
+[[nodiscard]] parallel::RegionReport merged_report(std::span<const parallel::RegionReport> regions,
+                                                   std::span<const std::string_view> names);
 
 /// Returns the region of a team that took most; one without a name where there is none.
 [[nodiscard]] parallel::RegionReport longest_of(std::span<const parallel::RegionReport> regions);

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <utility>
 
 #include "cli/evaluate/statistics.hpp"
 #include "cli/evaluate/time_limit.hpp"
+#include "core/stopwatch.hpp"
 #include "strake/parallel/team.hpp"
 
 namespace strake::cli {
@@ -37,9 +37,9 @@ Result<StudyRun> run_for_study(const StudyInput& input, const Contender& contend
                                     .report = conditions.with_regions ? &report : nullptr,
                                     .distribution = conditions.distribution,
                                     .least_chunk = conditions.least_chunk};
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch watch;
     Result<Computed> computed = contender.compute(context);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    const double took = watch.seconds();
     if (!computed) {
       if (input.stop.stop_requested() || computed.error().code != ErrorCode::cancelled)
         return computed.error();
@@ -47,9 +47,9 @@ Result<StudyRun> run_for_study(const StudyInput& input, const Contender& contend
       if (seconds.empty()) run.unfinished = fmt::format("over {:g} s", input.settings.limit_s);
       break;
     }
-    if (seconds.empty() || took.count() < *std::ranges::min_element(seconds))
+    if (seconds.empty() || took < *std::ranges::min_element(seconds))
       run.regions = report.regions();
-    seconds.push_back(took.count());
+    seconds.push_back(took);
     run.computed = std::move(*computed);
   }
   run.seconds = median(std::move(seconds));

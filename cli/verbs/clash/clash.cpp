@@ -126,7 +126,7 @@ Status write_files(Session& session, const ClashOptions& given,
     const Status status = session.write(
         file, [&](Session::Sink sink) { return writer->write(contents, sink, session.context()); });
     if (!status) return status;
-    tell_left_out(session.console(), file, contents);
+    report_left_out(session.console(), file, contents);
   }
   if (given.result.log_pairs.empty()) return {};
   return session.write(given.result.log_pairs, [&](Session::Sink sink) {
@@ -226,7 +226,8 @@ Result<ClashRequest> request_of(const ClashOptions& given, bool json) {
 }
 
 /// Returns the tests of the rules file, or the one that the command line asks for.
-Result<rules::Plan> plan_of(Session& session, const Loaded& loaded, const ClashRequest& request) {
+Result<rules::Plan> plan_of(Session& session, const LoadedModel& loaded,
+                            const ClashRequest& request) {
   const auto timer = session.step("select");
   if (request.rules) {
     Result<rules::Plan> plan = request.rules->plan(loaded.scene, session.context());
@@ -249,7 +250,7 @@ Result<rules::Plan> plan_of(Session& session, const Loaded& loaded, const ClashR
   return plan;
 }
 
-Result<clash::Findings> find(Session& session, const Loaded& loaded, rules::Plan plan,
+Result<clash::Findings> find(Session& session, const LoadedModel& loaded, rules::Plan plan,
                              bool list_exempted) {
   clash::Findings findings;
   findings.diagnostics = std::move(plan.diagnostics);
@@ -267,7 +268,7 @@ Result<clash::Findings> find(Session& session, const Loaded& loaded, rules::Plan
 }
 
 /// `project` is null where files are tested.
-Result<clash::Findings> findings_of(Session& session, const Loaded& loaded,
+Result<clash::Findings> findings_of(Session& session, const LoadedModel& loaded,
                                     const ClashRequest& request, bool list_exempted,
                                     ProjectClashes* project) {
   Result<rules::Plan> plan = plan_of(session, loaded, request);
@@ -313,7 +314,7 @@ Status check_contacts(const ClashOptions& given, const ClashOutput& output) {
 }
 
 /// Prints and counts what the tests noticed.
-void tell(Session& session, const clash::Findings& findings, const model::Model& model) {
+void print_findings(Session& session, const clash::Findings& findings, const model::Model& model) {
   // A rule or a set that does nothing is misspelt more often than meant: each is named.
   print_diagnostics(session.console(), findings.all_diagnostics(),
                     {"rule-matches-nothing", "rule-shadowed", "selection-picks-nothing",
@@ -334,7 +335,7 @@ std::optional<report::RulesSource> rules_source(const ClashOptions& given,
 /// Groups and writes what was found, after what is not to be written is taken out of it; `project`
 /// is null where files are tested.
 Status put_out(Session& session, const ClashOptions& given, const ClashRequest& request,
-               const Loaded& loaded, const report::DecidedResults* decided,
+               const LoadedModel& loaded, const report::DecidedResults* decided,
                clash::Findings& findings, ProjectClashes* project) {
   if (!request.output.classes.all()) report::leave_out_others(findings, request.output.classes);
   const Result<std::optional<clash::Grouping>> grouping =
@@ -353,7 +354,7 @@ Status put_out(Session& session, const ClashOptions& given, const ClashRequest& 
                                        decided,
                                        &loaded.scene,
                                        {},
-                                       form_of_run(request.output.bcf, project),
+                                       with_run_date(request.output.bcf, project),
                                        request.output.shown};
   if (const Status status = write_files(session, given, contents); !status) return status;
   if (const Status status = write_pictures(session, given.pictures, contents); !status)
@@ -376,29 +377,28 @@ bool lists_contacts(const ClashRequest& request) {
 /// What a run works with: files, or a project.
 struct ClashSource {
   std::optional<ProjectClashes> project;
-  Loaded loaded;
+  LoadedModel loaded;
 };
 
 Result<ClashSource> source_of(Session& session, const ClashOptions& given,
                               const ClashRequest& request) {
   if (!given.project.is_given()) {
-    Result<Loaded> loaded = load(session, given.input, request.scene, files_of(request));
+    Result<LoadedModel> loaded = load(session, given.input, request.scene, files_of(request));
     if (!loaded) return loaded.error();
     return ClashSource{{}, std::move(*loaded)};
   }
   Result<ProjectClashes> project = ProjectClashes::open(session, given.project);
   if (!project) return project.error();
-  Result<Loaded> loaded = project->load(session, request.scene, files_of(request));
+  Result<LoadedModel> loaded = project->load(session, request.scene, files_of(request));
   if (!loaded) return loaded.error();
   return ClashSource{std::move(*project), std::move(*loaded)};
 }
 
 /// Looks up what was decided about findings, in a file or in the project, which remembers them.
 /// `from_file` holds what a file says.
-Result<const report::DecidedResults*> decided_of(Session& session, const ClashOptions& given,
-                                                 const ClashRequest& request, ClashSource& source,
-                                                 clash::Findings& findings,
-                                                 std::optional<report::DecidedResults>& from_file) {
+Result<const report::DecidedResults*> decision_about(
+    Session& session, const ClashOptions& given, const ClashRequest& request, ClashSource& source,
+    clash::Findings& findings, std::optional<report::DecidedResults>& from_file) {
   if (source.project) {
     const Status status = source.project->remember(
         session, source.loaded, findings,
@@ -430,17 +430,17 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   if (const Status status = name_files(session, given); !status) return status.error();
   Result<ClashSource> source = source_of(session, given, *request);
   if (!source) return source.error();
-  const Loaded& loaded = source->loaded;
+  const LoadedModel& loaded = source->loaded;
   ProjectClashes* const project = source->project ? &*source->project : nullptr;
   Result<clash::Findings> findings =
       findings_of(session, loaded, *request, given.list_exempted, project);
   if (!findings) return findings.error();
   findings->diagnostics.append(idle_file_settings(files_of(*request), loaded.files));
   findings->diagnostics.append(check_columns(request->output.columns, *loaded.model));
-  tell(session, *findings, *loaded.model);
+  print_findings(session, *findings, *loaded.model);
   std::optional<report::DecidedResults> from_file;
   const Result<const report::DecidedResults*> decided =
-      decided_of(session, given, *request, *source, *findings, from_file);
+      decision_about(session, given, *request, *source, *findings, from_file);
   if (!decided) return decided.error();
   const FailingPairs failing = failing_pairs(*findings, given.fail_on, *decided);
   if (const Status status = put_out(session, given, *request, loaded, *decided, *findings, project);

@@ -14,7 +14,7 @@
 #include <system_error>
 #include <utility>
 
-#include "clash/results/unlisted_contacts.hpp"
+#include "clash/results/reported.hpp"
 #include "cli/options/options.hpp"
 #include "core/output_format.hpp"
 #include "core/text/counted.hpp"

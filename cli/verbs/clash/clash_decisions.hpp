@@ -39,7 +39,7 @@ struct DecisionRequest {
 /// is not there unless it is to be written.
 [[nodiscard]] Result<std::optional<DecisionRequest>> decision_request(const DecisionInput& input);
 
-/// Looks up the decisions about findings, and tells which files are taken as renamed. With
+/// Finds the decisions about findings, and prints which files are taken as renamed. With
 /// `counts_contacts`, contacts that have no row are taken out of the findings and only counted. The
 /// request must outlive the result.
 [[nodiscard]] Result<std::optional<report::DecidedResults>> decide(

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cli/run/project_input.hpp"
+#include "cli/run/write_files.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/verb.hpp"
 #include "core/output_format.hpp"
@@ -124,7 +125,7 @@ Result<Compared> compare_files(Session& session, const ClashDiffOptions& given,
 }
 
 /// Returns how many results both runs counted in a test, in one line.
-std::string told(const project::TestCounts& test) {
+std::string counts_text(const project::TestCounts& test) {
   const project::ResultCounts &was = test.before, &is = test.after;
   return fmt::format(
       "{}counted: {} -> {} hits, {} -> {} contacts, {} -> {} clearance violations, {} -> {} "
@@ -149,7 +150,7 @@ Result<Compared> compare_runs(Session& session, const ClashDiffOptions& given,
     return error;
   }
   session.console().note((*made)->before.name + " against " + (*made)->after.name);
-  for (const project::TestCounts& test : (*made)->counts) session.console().note(told(test));
+  for (const project::TestCounts& test : (*made)->counts) session.console().note(counts_text(test));
   return Compared{{}, std::move(*made), {}};
 }
 
@@ -167,15 +168,9 @@ Result<ExitCode> run_diff(Session& session, const ClashDiffOptions& given,
     report::write_clash_diff_json(diff, sink);
     return Status{};
   };
-  for (const std::string& file : given.outputs) {
-    const Result<report::ClashDiffWriter> writer = find_writer(report::clash_diff_writers(), file);
-    if (!writer) return writer.error();
-    const Status status = session.write(file, [&](Session::Sink sink) {
-      writer->write(diff, sink);
-      return Status{};
-    });
-    if (!status) return status.error();
-  }
+  if (const Status status = write_files(session, given.outputs, report::clash_diff_writers(), diff);
+      !status)
+    return status.error();
   const Status written =
       session.json()
           ? session.write_stdout(as_json)

@@ -104,8 +104,8 @@ Result<std::optional<project::RunRecord>> record_of_last_run(project::Database& 
 }
 
 /// Returns what is asked for; where nothing is, how the run grouped.
-ClashGroupingInput asked_or_of_run(const ClashGroupingInput& input,
-                                   const std::optional<project::RunRecord>& run) {
+ClashGroupingInput grouping_or_that_of_run(const ClashGroupingInput& input,
+                                           const std::optional<project::RunRecord>& run) {
   ClashGroupingInput asked = input;
   if (input.first_given() == nullptr && run && !run->grouping.by.empty()) {
     asked.result.group_by = run->grouping.by;
@@ -156,7 +156,7 @@ void add_grouping_options(CLI::App& command, ClashGroupingInput& options) {
 }
 
 Status check(const ClashGroupingInput& input) {
-  return check(asked_or_of_run(input, std::nullopt).result);
+  return check(grouping_or_that_of_run(input, std::nullopt).result);
 }
 
 project::RunGrouping grouping_of(const ClashResultInput& result, const std::string& classes) {
@@ -168,7 +168,7 @@ Result<std::vector<ProjectGroup>> groups_of_last_run(Session& session, OpenedPro
   project::Database& database = opened.project.database();
   const Result<std::optional<project::RunRecord>> run = record_of_last_run(database);
   if (!run) return run.error();
-  const ClashGroupingInput asked = asked_or_of_run(input, *run);
+  const ClashGroupingInput asked = grouping_or_that_of_run(input, *run);
   ClashOutputInput shown;
   shown.classes = asked.classes;
   const Result<ClashOutput> output = clash_output(shown, {});

@@ -21,25 +21,25 @@ namespace {
 constexpr std::uint64_t kLeastHits = 20;
 
 /// What an object is a part of: its assembly, or its file where it has none.
-struct Whole {
+struct AssemblyOrFile {
   model::GroupId assembly = model::GroupId::none;
   std::uint32_t file = 0;
 
   [[nodiscard]] bool is_file() const { return assembly == model::GroupId::none; }
-  friend auto operator<=>(const Whole&, const Whole&) = default;
+  friend auto operator<=>(const AssemblyOrFile&, const AssemblyOrFile&) = default;
 };
 
 /// The hits of a run by what they are between.
 struct HitsByWhole {
   std::uint64_t all = 0, within = 0;  ///< `within` one
-  std::map<std::pair<Whole, Whole>, std::uint64_t> by_pair;
+  std::map<std::pair<AssemblyOrFile, AssemblyOrFile>, std::uint64_t> by_pair;
 };
 
 HitsByWhole hits_of(const clash::Findings& findings, const model::Model& model,
                     const model::ObjectAssemblies& assemblies,
                     const report::DecidedResults* decided) {
   const auto whole_of = [&](model::ObjectId id) {
-    return Whole{assemblies.of(id), model.object(id).file};
+    return AssemblyOrFile{assemblies.of(id), model.object(id).file};
   };
   HitsByWhole hits;
   for (std::size_t t = 0; t < findings.tests.size(); ++t)
@@ -47,7 +47,7 @@ HitsByWhole hits_of(const clash::Findings& findings, const model::Model& model,
       if (pair.cls != clash::Class::hit || pair.allowed >= 0) continue;
       if (decided != nullptr && decided->is_settled(t, pair)) continue;
       ++hits.all;
-      const Whole a = whole_of(pair.a), b = whole_of(pair.b);
+      const AssemblyOrFile a = whole_of(pair.a), b = whole_of(pair.b);
       // Between two files, or within one, all hits lie: that is no news.
       if (a.is_file() && b.is_file() && model.files.size() < 3) continue;
       if (a == b) ++hits.within;
@@ -72,7 +72,7 @@ std::string hint_of_pair(const HitsByWhole& hits, const model::Model& model) {
   const auto most =
       std::ranges::max_element(hits.by_pair, {}, [](const auto& entry) { return entry.second; });
   if (most == hits.by_pair.end() || most->second * kLeastPart < hits.all) return {};
-  const auto name = [&](const Whole& whole) {
+  const auto name = [&](const AssemblyOrFile& whole) {
     return printable(whole.is_file() ? model.files[whole.file].label
                                      : model.groups[index(whole.assembly)].name);
   };

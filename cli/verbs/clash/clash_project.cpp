@@ -12,8 +12,7 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/run/person.hpp"
-#include "cli/run/utc_time.hpp"
+#include "cli/run/authorship.hpp"
 #include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "project/model/file_rows.hpp"
@@ -42,7 +41,7 @@ std::string called(std::string_view test) {
 }
 
 /// Returns what was tested again, in one line.
-std::string told(std::string_view test, const project::TestWork& work) {
+std::string work_text(std::string_view test, const project::TestWork& work) {
   switch (work.how) {
     case project::Retested::nothing:
       return fmt::format("{}nothing changed, {} kept", called(test),
@@ -59,14 +58,15 @@ std::string told(std::string_view test, const project::TestWork& work) {
 
 /// Whether a run finds what the one before found, and has it under the same names: where files have
 /// other labels, what is written of the same results is other, too.
-Result<bool> is_same_run(Session& session, const Loaded& loaded, const project::StoredTest& before,
+Result<bool> is_same_run(Session& session, const LoadedModel& loaded,
+                         const project::StoredTest& before,
                          const std::vector<std::uint32_t>& now_of) {
   if (!is_same(now_of, loaded.model->objects.size())) return false;
   return clash::have_same_names(before.results.report, *loaded.model, session.context());
 }
 
 /// Returns a hash of a model, of which the project has this seal, and of how it is on the grid.
-Hash128 hash_of_scene(const Hash128& seal, const Loaded& loaded,
+Hash128 hash_of_scene(const Hash128& seal, const LoadedModel& loaded,
                       const model::SceneOptions& options) {
   WordHash hash;
   hash.add(seal).add(hash_bytes(std::as_bytes(std::span(loaded.shape_hashes))));
@@ -121,19 +121,19 @@ Result<ProjectClashes> ProjectClashes::open(Session& session, const ClashProject
   return ProjectClashes(std::move(*opened), input);
 }
 
-Result<Loaded> ProjectClashes::load(Session& session, const model::SceneOptions& options,
-                                    std::span<const rules::FileSettings> said_of_files) {
+Result<LoadedModel> ProjectClashes::load(Session& session, const model::SceneOptions& options,
+                                         std::span<const rules::FileSettings> said_of_files) {
   const Result<project::ReadScope> moment = project::ReadScope::begin(opened_.project.database());
   if (!moment) return moment.error();
   const Result<Hash128> seal = project::model_seal(opened_.project.database());
   if (!seal) return seal.error();
   model_seal_ = *seal;
-  Result<Loaded> loaded = load_project(session, opened_, options, said_of_files);
+  Result<LoadedModel> loaded = load_project(session, opened_, options, said_of_files);
   if (loaded) scene_ = hash_of_scene(*seal, *loaded, options);
   return loaded;
 }
 
-Result<clash::Findings> ProjectClashes::find(Session& session, const Loaded& loaded,
+Result<clash::Findings> ProjectClashes::find(Session& session, const LoadedModel& loaded,
                                              rules::Plan plan, bool list_exempted) {
   clash::Findings findings;
   findings.diagnostics = plan.diagnostics;
@@ -144,7 +144,7 @@ Result<clash::Findings> ProjectClashes::find(Session& session, const Loaded& loa
     Result<clash::Report> report = test(session, loaded, planned, tested);
     if (!report) return report.error();
     report->name = planned.name;
-    session.console().note(told(planned.name, tested.work));
+    session.console().note(work_text(planned.name, tested.work));
     if (input_.verify && tested.work.how != project::Retested::full)
       if (const Status status = verify(session, loaded, planned, *report); !status)
         return status.error();
@@ -158,7 +158,7 @@ Result<clash::Findings> ProjectClashes::find(Session& session, const Loaded& loa
   return findings;
 }
 
-Result<clash::Report> ProjectClashes::test(Session& session, const Loaded& loaded,
+Result<clash::Report> ProjectClashes::test(Session& session, const LoadedModel& loaded,
                                            const rules::PlannedTest& planned, Tested& tested) {
   {
     const auto timer = session.step("read earlier result");
@@ -182,7 +182,7 @@ Result<clash::Report> ProjectClashes::test(Session& session, const Loaded& loade
   return report;
 }
 
-Status ProjectClashes::sign(Session& session, const Loaded& loaded,
+Status ProjectClashes::sign(Session& session, const LoadedModel& loaded,
                             const rules::PlannedTest& planned, Tested& tested) {
   const auto timer = session.step("signatures");
   const Hash128 source =
@@ -213,7 +213,7 @@ Status ProjectClashes::sign(Session& session, const Loaded& loaded,
   return {};
 }
 
-Result<clash::Report> ProjectClashes::follow(Session& session, const Loaded& loaded,
+Result<clash::Report> ProjectClashes::follow(Session& session, const LoadedModel& loaded,
                                              const rules::PlannedTest& planned, Tested& tested) {
   project::StoredTest& before = *tested.before;
   if (!tested.made) return keep(planned, tested);
@@ -253,7 +253,7 @@ clash::Report ProjectClashes::keep(const rules::PlannedTest& planned, Tested& te
   return report;
 }
 
-Status ProjectClashes::verify(Session& session, const Loaded& loaded,
+Status ProjectClashes::verify(Session& session, const LoadedModel& loaded,
                               const rules::PlannedTest& planned, clash::Report& report) {
   const auto timer = session.step("verify");
   Result<clash::Report> full =
@@ -274,7 +274,7 @@ Status ProjectClashes::verify(Session& session, const Loaded& loaded,
   return {};
 }
 
-Status ProjectClashes::remember(Session& session, const Loaded& loaded,
+Status ProjectClashes::remember(Session& session, const LoadedModel& loaded,
                                 const clash::Findings& findings, RunRequest request) {
   const auto timer = session.step("remember");
   Result<project::Transaction> transaction =

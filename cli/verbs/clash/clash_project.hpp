@@ -51,14 +51,14 @@ class ProjectClashes {
   [[nodiscard]] static Result<ProjectClashes> open(Session& session,
                                                    const ClashProjectInput& input);
 
-  [[nodiscard]] Result<Loaded> load(Session& session, const model::SceneOptions& options,
-                                    std::span<const rules::FileSettings> said_of_files);
+  [[nodiscard]] Result<LoadedModel> load(Session& session, const model::SceneOptions& options,
+                                         std::span<const rules::FileSettings> said_of_files);
   /// Runs the tests of a plan; of those that ran before, what changed since.
-  [[nodiscard]] Result<clash::Findings> find(Session& session, const Loaded& loaded,
+  [[nodiscard]] Result<clash::Findings> find(Session& session, const LoadedModel& loaded,
                                              rules::Plan plan, bool list_exempted);
   /// Begins the transaction and writes the run into it. The findings are still as find() gave them.
   /// Errors: output where the model is another than load() read; those of project::remember().
-  [[nodiscard]] Status remember(Session& session, const Loaded& loaded,
+  [[nodiscard]] Status remember(Session& session, const LoadedModel& loaded,
                                 const clash::Findings& findings, RunRequest request);
   /// Returns what was decided about the findings; only after remember().
   [[nodiscard]] const report::DecidedResults* decided() const { return &run_->decided; }
@@ -86,17 +86,17 @@ class ProjectClashes {
   };
 
   ProjectClashes(OpenedProject opened, const ClashProjectInput& input);
-  [[nodiscard]] Result<clash::Report> test(Session& session, const Loaded& loaded,
+  [[nodiscard]] Result<clash::Report> test(Session& session, const LoadedModel& loaded,
                                            const rules::PlannedTest& planned, Tested& tested);
   /// Finds out what the test is computed from; that of the run before it where all of it is the
   /// same.
-  [[nodiscard]] Status sign(Session& session, const Loaded& loaded,
+  [[nodiscard]] Status sign(Session& session, const LoadedModel& loaded,
                             const rules::PlannedTest& planned, Tested& tested);
-  [[nodiscard]] Result<clash::Report> follow(Session& session, const Loaded& loaded,
+  [[nodiscard]] Result<clash::Report> follow(Session& session, const LoadedModel& loaded,
                                              const rules::PlannedTest& planned, Tested& tested);
   /// Takes the result of the run before, which is that of this one.
   [[nodiscard]] static clash::Report keep(const rules::PlannedTest& planned, Tested& tested);
-  [[nodiscard]] Status verify(Session& session, const Loaded& loaded,
+  [[nodiscard]] Status verify(Session& session, const LoadedModel& loaded,
                               const rules::PlannedTest& planned, clash::Report& report);
 
   OpenedProject opened_;

@@ -304,7 +304,7 @@ FailingPairs failing_pairs(const clash::Findings& findings, const std::string& f
 
 ExitCode clash_exit_code(const clash::Findings& findings, const FailingPairs& failing,
                          const std::string& fail_on, const InputOptions& input,
-                         const Loaded& loaded, Console& console) {
+                         const LoadedModel& loaded, Console& console) {
   const std::vector<std::string> tests = empty_tests(findings);
   if (!fail_on.empty()) {
     const bool fails = has_failing_pair(findings, failing, fail_on, console);

@@ -70,6 +70,6 @@ struct FailingPairs {
 /// clearance got less than its attribute asks for.
 [[nodiscard]] ExitCode clash_exit_code(const clash::Findings& findings, const FailingPairs& failing,
                                        const std::string& fail_on, const InputOptions& input,
-                                       const Loaded& loaded, Console& console);
+                                       const LoadedModel& loaded, Console& console);
 
 }  // namespace strake::cli

@@ -12,10 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "cli/run/authorship.hpp"
 #include "cli/run/object_selection.hpp"
-#include "cli/run/person.hpp"
 #include "cli/run/project_input.hpp"
-#include "cli/run/utc_time.hpp"
 #include "cli/verbs/clash/bcf/bcf_review.hpp"
 #include "cli/verbs/clash/clash_groups.hpp"
 #include "cli/verbs/verb.hpp"
@@ -82,7 +81,7 @@ Result<std::vector<std::string>> keys_by_selection(Session& session, OpenedProje
                                                    const std::vector<std::string>& texts) {
   const Result<std::vector<model::Selection>> selections = parse_selections(texts, "--select");
   if (!selections) return selections.error();
-  const Result<Loaded> loaded = load_project(session, opened, {});
+  const Result<LoadedModel> loaded = load_project(session, opened, {});
   if (!loaded) return loaded.error();
   const Result<std::vector<bool>> picked =
       pick_any(session, loaded->scene, *selections, "--select");

@@ -24,12 +24,7 @@ std::string joined(const std::vector<model::Selection>& selections) {
 
 void add_set_options(CLI::App& command, SetInput& options) {
   const auto set = [&](const char* name, std::vector<std::string>& texts, const char* help) {
-    return command.add_option(name, texts, help)
-        ->type_name("SELECTION")
-        ->expected(1)
-        ->allow_extra_args(false)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->group("Sets");
+    return may_repeat(command.add_option(name, texts, help))->type_name("SELECTION")->group("Sets");
   };
   CLI::Option* const a = set("--a", options.a,
                              "Set A: objects that this picks, as 'path = \"*/PIPING/*\"' or "
@@ -50,7 +45,8 @@ Result<SetRequest> set_request(const SetInput& input) {
   return SetRequest{std::move(*a), std::move(*b), input.self};
 }
 
-Result<ChosenSets> choose_sets(Session& session, const Loaded& loaded, const SetRequest& request) {
+Result<ChosenSets> choose_sets(Session& session, const LoadedModel& loaded,
+                               const SetRequest& request) {
   if (request.a.empty() && request.b.empty())
     return ChosenSets{
         request.self ? clash::one_set(loaded.scene) : clash::sets_by_file(*loaded.model), {}};
@@ -64,7 +60,7 @@ Result<ChosenSets> choose_sets(Session& session, const Loaded& loaded, const Set
   for (const Side& side : {Side{request.a, chosen.sets.in_a, chosen.sets.name_a, "--a"},
                            Side{request.b, chosen.sets.in_b, chosen.sets.name_b, "--b"}}) {
     if (side.selections.empty()) continue;
-    Result<Picked> picked = pick_all(session, loaded.scene, side.selections);
+    Result<SelectedObjects> picked = pick_all(session, loaded.scene, side.selections);
     if (!picked) return picked.error();
     side.members = std::move(picked->any);
     side.name = joined(side.selections);

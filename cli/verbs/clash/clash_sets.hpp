@@ -36,7 +36,7 @@ struct ChosenSets {
 
 /// Compares what --a picks with what --b picks, or with everything where one of them is not given.
 /// Without either: one file with itself, several with each other, or with --self all with all.
-[[nodiscard]] Result<ChosenSets> choose_sets(Session& session, const Loaded& loaded,
+[[nodiscard]] Result<ChosenSets> choose_sets(Session& session, const LoadedModel& loaded,
                                              const SetRequest& request);
 
 }  // namespace strake::cli

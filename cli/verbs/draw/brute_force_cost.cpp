@@ -46,9 +46,9 @@ std::string brute_force_cost(const hlr::BruteForceWork& work, unsigned workers) 
       workers == 1 ? "" : "s");
 }
 
-Status tell_brute_force_cost(Session& session, const model::Scene& scene,
-                             const std::vector<bool>& drawn, const hlr::View& view,
-                             const hlr::Options& options) {
+Status print_brute_force_cost(Session& session, const model::Scene& scene,
+                              const std::vector<bool>& drawn, const hlr::View& view,
+                              const hlr::Options& options) {
   const auto timer = session.step("count the work");
   const parallel::Context context = session.context();
   const Result<hlr::BruteForceWork> work =

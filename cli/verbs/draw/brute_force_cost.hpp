@@ -14,9 +14,9 @@ namespace strake::cli {
 /// Returns what the brute force has to do and about how long that takes so many workers, in words.
 [[nodiscard]] std::string brute_force_cost(const hlr::BruteForceWork& work, unsigned workers);
 
-/// Says on standard error what the brute force will cost, before it starts.
-[[nodiscard]] Status tell_brute_force_cost(Session& session, const model::Scene& scene,
-                                           const std::vector<bool>& drawn, const hlr::View& view,
-                                           const hlr::Options& options);
+/// Prints on standard error what the brute force will cost, before it starts.
+[[nodiscard]] Status print_brute_force_cost(Session& session, const model::Scene& scene,
+                                            const std::vector<bool>& drawn, const hlr::View& view,
+                                            const hlr::Options& options);
 
 }  // namespace strake::cli

@@ -63,7 +63,7 @@ Status check_drawing_outputs(Session& session, const DrawOptions& given) {
 /// Draws the model files, or a project as if its model came from them.
 Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
                             const DrawRequest& request) {
-  Result<Loaded> loaded = [&]() -> Result<Loaded> {
+  Result<LoadedModel> loaded = [&]() -> Result<LoadedModel> {
     if (given.project.file.empty()) return load(session, given.input, request.scene);
     Result<OpenedProject> opened = open_project(session, given.project, project::Access::read);
     if (!opened) return opened.error();
@@ -78,7 +78,7 @@ Result<ExitCode> draw_model(Session& session, const DrawOptions& given,
   if (!lines) return lines.error();
   const auto drawing = put_on_paper(session, *lines, *loaded->model, prepared->layout);
   if (!drawing) return drawing.error();
-  tell_drawing(session, *drawing, *loaded->model);
+  report_drawing(session, *drawing, *loaded->model);
   if (const Status status = write_drawing(session, given, *drawing, *loaded->model, &loaded->scene);
       !status)
     return status.error();
@@ -137,48 +137,36 @@ void add_view(CLI::App& command, DrawOptions& options) {
       ->type_name("BOX|auto")
       ->group("View");
   CLI::Option* const section =
-      command
-          .add_option(
+      may_repeat(
+          command.add_option(
               "--section", options.sections,
               "Cut away what lies beyond a plane: 'z>4500mm' above, 'z<4500mm' below, z=4500mm "
               "what is nearer to the viewer; for z also x, y or a normal, '1,2,0>4500mm'. "
-              "Solids are closed by a hatched face where it cuts them; may be repeated")
+              "Solids are closed by a hatched face where it cuts them; may be repeated"))
           ->type_name("PLANE")
-          ->expected(1)
-          ->allow_extra_args(false)
-          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
           ->group("View");
-  command
-      .add_option("--uncut", options.uncut,
-                  "Leave the objects that this picks whole where a section cuts them, neither cut "
-                  "nor hatched, as bolts, shafts and ribs along it (ISO 128-3): 'name = BOLT*'; "
-                  "what lies wholly beyond a plane is cut away all the same; may be repeated")
+  may_repeat(command.add_option(
+                 "--uncut", options.uncut,
+                 "Leave the objects that this picks whole where a section cuts them, neither cut "
+                 "nor hatched, as bolts, shafts and ribs along it (ISO 128-3): 'name = BOLT*'; "
+                 "what lies wholly beyond a plane is cut away all the same; may be repeated"))
       ->type_name("SELECTION")
       ->needs(section)
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("View");
-  command
-      .add_option("--hatch", options.hatches,
-                  "How sections are hatched: angle, distance of lines in the model, or both with "
-                  "their units, or off, and of which objects: '30deg,80mm: PIPE*'; may be "
-                  "repeated, the first that "
-                  "picks an object counts (default: neighbours differ in angle, colours in "
-                  "distance)")
+  may_repeat(command.add_option(
+                 "--hatch", options.hatches,
+                 "How sections are hatched: angle, distance of lines in the model, or both with "
+                 "their units, or off, and of which objects: '30deg,80mm: PIPE*'; may be "
+                 "repeated, the first that "
+                 "picks an object counts (default: neighbours differ in angle, colours in "
+                 "distance)"))
       ->type_name("PATTERN")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("View");
-  command
-      .add_option("--select", options.select,
-                  "Draw only objects that this picks, as 'PIPE*' or 'type = box and @DN > 80mm'; "
-                  "may be repeated")
+  may_repeat(command.add_option(
+                 "--select", options.select,
+                 "Draw only objects that this picks, as 'PIPE*' or 'type = box and @DN > 80mm'; "
+                 "may be repeated"))
       ->type_name("SELECTION")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("View");
 }
 
@@ -218,18 +206,15 @@ void add_lines(CLI::App& command, DrawOptions& options) {
           "model space of .dxf, too (default off)")
       ->type_name("on|off|LENGTH[+dxf]")
       ->group("Lines");
-  command
-      .add_option(
+  may_repeat(
+      command.add_option(
           "--style", options.styles,
           fmt::format("How the lines of some objects are drawn in {}: name of their layer, colour, "
                       "width of visible edges and type of line, each as you like: "
                       "'name=PIPING,color=#c00000,pen=0.35mm,line=dashed: @discipline = PIPING'; "
                       "may be repeated, the first that picks an object counts",
-                      suffixes_by_ink(true)))
+                      suffixes_by_ink(true))))
       ->type_name("STYLE")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->group("Lines");
   command
       .add_flag("--visible-only", options.visible_only,
@@ -304,16 +289,13 @@ void add_stored(CLI::App& command, DrawOptions& options) {
 /// Adds --sheet; it excludes the options that a sheet states itself.
 void add_sheet(CLI::App& command, DrawOptions& options) {
   CLI::Option* const sheet =
-      command
-          .add_option(
+      may_repeat(
+          command.add_option(
               "--sheet", options.sheets,
               "Several views with frame and title block, as a sheet file (TOML) says; may "
               "be repeated; several sheets are pages of a .pdf, layouts of a .dxf, or a file "
-              "each, -o 'NAME-{sheet}.svg'")
+              "each, -o 'NAME-{sheet}.svg'"))
           ->type_name("FILE")
-          ->expected(1)
-          ->allow_extra_args(false)
-          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
           ->group("Output");
   for (const char* const other : {"--view",
                                   "--direction",

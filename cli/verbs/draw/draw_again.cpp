@@ -66,7 +66,7 @@ Result<ExitCode> draw_again(Session& session, const DrawOptions& given) {
     if (error.where.empty()) error.where = file;
     return error;
   }
-  tell_drawing(session, *drawing, read->model);
+  report_drawing(session, *drawing, read->model);
   if (const Status status = write_drawing(session, given, *drawing, read->model, nullptr); !status)
     return status.error();
   return ExitCode::done;

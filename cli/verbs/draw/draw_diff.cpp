@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/run/project_input.hpp"
+#include "cli/run/write_files.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/draw/draw_stored.hpp"
 #include "cli/verbs/verb.hpp"
@@ -97,15 +98,9 @@ Result<std::vector<report::ViewDocument>> read(Session& session, const DrawDiffO
 }
 
 Status write(Session& session, const DrawDiffOptions& given, const report::ViewDiff& diff) {
-  for (const std::string& file : given.outputs) {
-    const Result<report::ViewDiffWriter> writer = find_writer(report::view_diff_writers(), file);
-    if (!writer) return writer.error();
-    const Status status = session.write(file, [&](Session::Sink sink) {
-      writer->write(diff, sink);
-      return Status{};
-    });
-    if (!status) return status;
-  }
+  if (const Status status = write_files(session, given.outputs, report::view_diff_writers(), diff);
+      !status)
+    return status;
   if (!session.json())
     return session.write_stdout(report::view_diff_table(diff, {.width = terminal_width()}));
   return session.write_stdout([&](Session::Sink sink) {

@@ -9,20 +9,64 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "cli/run/load.hpp"
 #include "cli/run/object_selection.hpp"
+#include "cli/run/session.hpp"
 #include "cli/verbs/draw/brute_force_cost.hpp"
 #include "cli/verbs/draw/draw_summary.hpp"
-#include "cli/verbs/draw/far_objects.hpp"
 #include "cli/verbs/draw/styles/style_option.hpp"
 #include "core/number.hpp"
 #include "core/output_format.hpp"
 #include "drawing/drawing_writers.hpp"
+#include "drawing/layout/far_objects.hpp"
+#include "drawing/layout/view_plane.hpp"
 #include "publish/drawing_formats.hpp"
+#include "strake/core/result.hpp"
+#include "strake/drawing/drawing.hpp"
 #include "strake/drawing/write.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/model/scene.hpp"
 
 namespace strake::cli {
+namespace {
+
+/// "1:50 on 420 x 297 mm"
+std::string sheet_text(const drawing::PlaneBox& box, const drawing::LayoutOptions& layout) {
+  const drawing::Sheet sheet = drawing::choose_sheet(box, layout);
+  return fmt::format("{} on {} x {} mm", sheet.scale_text, sheet.width_mm, sheet.height_mm);
+}
+
+/// Looks for objects that lie so far from all others that they decide the scale of a view. It takes
+/// them out of `drawn` and names them in `layout` where they are to be left out, and warns of them
+/// otherwise. Errors: cancelled.
+Status resolve_far_objects(Session& session, const model::Scene& scene, const hlr::View& view,
+                           bool leave_out, std::vector<bool>& drawn,
+                           drawing::LayoutOptions& layout) {
+  const Result<drawing::FarObjects> far =
+      drawing::find_far_objects(scene, drawn, view, session.context());
+  if (!far) return far.error();
+  if (far->objects.empty()) return {};
+  const std::string text = drawing::far_objects_text(*far, *scene.model);
+  const bool one = far->objects.size() == 1;
+  if (!leave_out) {
+    session.console().note(fmt::format(
+        "warning far-object: {}: the view is about {} for {}, without {} {} (--limits auto leaves "
+        "{} out)",
+        text, sheet_text(far->whole, layout), one ? "it" : "them", one ? "it" : "them",
+        sheet_text(far->rest, layout), one ? "it" : "them"));
+    return {};
+  }
+  drawing::leave_out(*far, *scene.model, drawn);
+  layout.far_left_out = far->objects;
+  session.stats().count("far objects left out", far->objects.size());
+  session.console().note(fmt::format("note far-object-left-out: {} and {} left out (--limits auto)",
+                                     text, one ? "is" : "are"));
+  return {};
+}
+
+}  // namespace
 
 Status draw_pipes_as_lines(Session& session, const DrawRequest& request, model::Scene& scene) {
   if (!request.single_line) return {};
@@ -42,8 +86,8 @@ Result<PreparedView> prepare_view(Session& session, const DrawRequest& request,
   Result<std::vector<bool>> drawn = pick_any(session, scene, request.selections, "--select");
   if (!drawn) return drawn.error();
   prepared.drawn = std::move(*drawn);
-  if (const Status status = mind_far_objects(session, scene, request.view, !request.far_objects,
-                                             prepared.drawn, prepared.layout);
+  if (const Status status = resolve_far_objects(session, scene, request.view, !request.far_objects,
+                                                prepared.drawn, prepared.layout);
       !status)
     return status.error();
   auto hatches = hatches_of(session, scene, request.hatches);
@@ -66,7 +110,7 @@ Result<hlr::Drawing> solve(Session& session, const DrawRequest& request,
                            const PreparedView& prepared, const model::Scene& scene) {
   if (prepared.options.solver == hlr::Solver::brute_force)
     if (const Status told =
-            tell_brute_force_cost(session, scene, prepared.drawn, request.view, prepared.options);
+            print_brute_force_cost(session, scene, prepared.drawn, request.view, prepared.options);
         !told)
       return told.error();
   const auto timer = session.step("hidden lines");
@@ -120,8 +164,8 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
 }
 
 /// Says what thinning left out, and how many break lines there are.
-void tell_conventions(Session& session, const drawing::Conventions& conventions,
-                      const drawing::Ink& ink) {
+void print_conventions(Session& session, const drawing::Conventions& conventions,
+                       const drawing::Ink& ink) {
   if (ink.thinned) {
     session.stats().count("lines thinned", ink.thinned->lines);
     session.console().note(thinned_line(*ink.thinned));
@@ -131,8 +175,8 @@ void tell_conventions(Session& session, const drawing::Conventions& conventions,
 
 }  // namespace
 
-void tell_drawing(Session& session, const drawing::NeutralDrawing& drawing,
-                  const model::Model& model) {
+void report_drawing(Session& session, const drawing::NeutralDrawing& drawing,
+                    const model::Model& model) {
   count_work(session.stats(), drawing);
   print_drawing_summary(session.console(), drawing, model);
 }
@@ -167,7 +211,7 @@ Status write_drawing(Session& session, const DrawOptions& given,
             drawing::apply_conventions(ink, drawing, model, *conventions, session.context());
         !status)
       return status;
-    tell_conventions(session, *conventions, ink);
+    print_conventions(session, *conventions, ink);
   }
   for (std::size_t i = 0; i < writers.size(); ++i) {
     Diagnostics noticed;

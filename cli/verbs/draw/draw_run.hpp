@@ -42,8 +42,8 @@ struct PreparedView {
                                                            const drawing::LayoutOptions& layout);
 
 /// Counts the work for --stats, and prints what was drawn.
-void tell_drawing(Session& session, const drawing::NeutralDrawing& drawing,
-                  const model::Model& model);
+void report_drawing(Session& session, const drawing::NeutralDrawing& drawing,
+                    const model::Model& model);
 
 /// Writes a drawing to the files of -o, and to standard output under --json. `scene` is what was
 /// drawn; null: it is not known.

@@ -221,7 +221,7 @@ Result<ExitCode> draw_sheet(Session& session, const SheetRequest& request,
   if (!files) return files.error();
   const auto outputs = outputs_of(session, request, *files);
   if (!outputs) return outputs.error();
-  const Result<Loaded> loaded = load(session, input, scene);
+  const Result<LoadedModel> loaded = load(session, input, scene);
   if (!loaded) return loaded.error();
   if (request.options.solver == hlr::Solver::brute_force)
     session.console().note(

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +19,7 @@
 #include "cli/verbs/draw/draw_run.hpp"
 #include "cli/verbs/draw/draw_summary.hpp"
 #include "cli/verbs/draw/view_settings.hpp"
+#include "core/stopwatch.hpp"
 #include "project/snapshot/snapshot.hpp"
 #include "project/views/drawing_codec.hpp"
 #include "project/views/stored_views.hpp"
@@ -46,21 +46,10 @@ struct SolvedView {
   ViewWork work;
 };
 
-/// Wall seconds of a piece of work.
-class Lap {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
-
 /// Seconds of the steps of hidden lines, from when it was made.
-class Steps {
+class StepTimes {
  public:
-  explicit Steps(Session& session) : report_(session.measured()), before_(all()) {}
+  explicit StepTimes(Session& session) : report_(session.measured()), before_(all()) {}
 
   void add_to(ViewWork& work) const {
     const std::array<double, 3> now = all();
@@ -83,7 +72,7 @@ class Steps {
                                                           hlr::kGlobalStep};
   const parallel::RunReport& report_;
   std::array<double, 3> before_;
-  Lap lap_;
+  Stopwatch lap_;
 };
 
 /// Fills what the drawing tells of the work.
@@ -171,7 +160,7 @@ Result<SolvedView> solve_changes(Session& session, const DrawRequest& request,
     count_lines(solved);
     return solved;
   }
-  const Lap lap;
+  const Stopwatch lap;
   const auto now_of = [&] {
     const auto timer = session.step("match");
     return project::unchanged(stored.made_from, now, session.context());
@@ -180,7 +169,7 @@ Result<SolvedView> solve_changes(Session& session, const DrawRequest& request,
   solved.work.match_s = lap.seconds();
   solved.work.objects_changed = count_changed(*now_of, now.identities.size());
   const auto timer = session.step("hidden lines");
-  const Steps steps(session);
+  const StepTimes steps(session);
   Result<hlr::Redrawn> redrawn =
       hlr::draw_changes(scene, prepared.drawn, request.view, prepared.options,
                         {std::move(stored.drawing), *now_of, stored.boxes}, session.context());
@@ -201,7 +190,7 @@ Result<SolvedView> solve_changes(Session& session, const DrawRequest& request,
 Result<SolvedView> solve_in_full(Session& session, const DrawRequest& request,
                                  const PreparedView& prepared, const model::Scene& scene,
                                  ViewRun run, std::string_view why) {
-  const Steps steps(session);
+  const StepTimes steps(session);
   Result<hlr::Drawing> drawing = solve(session, request, prepared, scene);
   if (!drawing) return drawing.error();
   SolvedView solved{.drawing = std::move(*drawing), .work = {.run = run, .why = std::string(why)}};
@@ -243,7 +232,7 @@ void note_coarse_curves(Session& session, const drawing::NeutralDrawing& drawing
 class StoredRun {
  public:
   StoredRun(Session& session, const DrawOptions& given, const ViewOfProject& view,
-            const DrawRequest& request, const Loaded& loaded)
+            const DrawRequest& request, const LoadedModel& loaded)
       : session_(session), given_(given), view_(view), request_(request), loaded_(loaded) {}
 
   /// Finds the lines, and what they are made from.
@@ -251,7 +240,7 @@ class StoredRun {
     Result<PreparedView> prepared = prepare_view(session_, request_, loaded_.scene);
     if (!prepared) return prepared.error();
     prepared_ = std::move(*prepared);
-    const Lap lap;
+    const Stopwatch lap;
     Result<ViewState> now = state_of(session_, request_, prepared_, loaded_.scene);
     if (!now) return now.error();
     const double signatures_s = lap.seconds();
@@ -305,7 +294,7 @@ class StoredRun {
     if (given_.full)
       return solve_in_full(session_, request_, prepared_, loaded_.scene, ViewRun::in_full,
                            "as asked");
-    const Lap lap;
+    const Stopwatch lap;
     auto stored = remembered(session_, opened, view_.name, now_.snapshot);
     if (!stored) return stored.error();
     const double read_s = lap.seconds();
@@ -350,7 +339,7 @@ class StoredRun {
   const DrawOptions& given_;
   const ViewOfProject& view_;
   const DrawRequest& request_;
-  const Loaded& loaded_;
+  const LoadedModel& loaded_;
   PreparedView prepared_;
   ViewState now_;
   SolvedView solved_;
@@ -418,7 +407,7 @@ Result<report::ViewDocument> document_of_now(Session& session, OpenedProject& op
   if (!asked) return asked.error();
   const Result<DrawRequest> request = request_of(asked->solved, session, true);
   if (!request) return request.error();
-  Result<Loaded> loaded = load_project(session, opened, request->scene);
+  Result<LoadedModel> loaded = load_project(session, opened, request->scene);
   if (!loaded) return loaded.error();
   if (const Status status = draw_pipes_as_lines(session, *request, loaded->scene); !status)
     return status.error();
@@ -438,7 +427,7 @@ Result<ExitCode> draw_stored(Session& session, const DrawOptions& given) {
   if (!view) return view.error();
   const Result<DrawRequest> request = request_of(view->solved, session, true);
   if (!request) return request.error();
-  Result<Loaded> loaded = load_project(session, *reader, request->scene);
+  Result<LoadedModel> loaded = load_project(session, *reader, request->scene);
   if (!loaded) return loaded.error();
   if (const Status status = draw_pipes_as_lines(session, *request, loaded->scene); !status)
     return status.error();
@@ -448,7 +437,7 @@ Result<ExitCode> draw_stored(Session& session, const DrawOptions& given) {
   reader.reset();
   const Result<drawing::NeutralDrawing> drawing = run.lay_out();
   if (!drawing) return drawing.error();
-  tell_drawing(session, *drawing, *loaded->model);
+  report_drawing(session, *drawing, *loaded->model);
   if (const Status status = run.store(); !status) return status.error();
   if (const Status status =
           write_drawing(session, view->shown, *drawing, *loaded->model, &loaded->scene);

@@ -119,7 +119,7 @@ std::string cost_line(const std::string& view, const ViewWork& work) {
 }
 
 void count_view_work(Stats& stats, const ViewWork& work) {
-  stats.tell("view", words(work.run));
+  stats.note("view", words(work.run));
   stats.count("objects changed", work.objects_changed);
   stats.count("objects solved locally", work.solved_locally());
   stats.count("objects solved globally", work.solved_globally());

@@ -14,13 +14,13 @@ using Json = nlohmann::ordered_json;
 
 /// An option and where its value lies.
 template <class Value>
-struct Setting {
+struct ViewOption {
   std::string_view name;
   Value& (*of)(DrawOptions& options);
 };
 
-using Text = Setting<std::string>;
-using List = Setting<std::vector<std::string>>;
+using Text = ViewOption<std::string>;
+using List = ViewOption<std::vector<std::string>>;
 
 /// Those that decide which lines there are.
 constexpr std::array kTextsOfLines{
@@ -80,7 +80,7 @@ constexpr std::array kListsOfWork{
     List{"sheet", [](DrawOptions& o) -> std::vector<std::string>& { return o.sheets; }},
 };
 
-using Flag = Setting<bool>;
+using Flag = ViewOption<bool>;
 constexpr std::array kFlags{
     Flag{"visible-only", [](DrawOptions& o) -> bool& { return o.visible_only; }},
     Flag{"obstructions", [](DrawOptions& o) -> bool& { return o.scene.obstructions; }},

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/run/write_files.hpp"
 #include "cli/verbs/clash/clash_lines.hpp"
 #include "cli/verbs/project/project_verbs.hpp"
 #include "core/output_format.hpp"
@@ -47,16 +48,9 @@ Status write_models(Session& session, project::Project& project,
     return project_model(session, project);
   }();
   if (!model) return model.error();
-  tell_of_model(session, *model);
-  for (const std::string& file : files) {
-    const Result<io::ModelWriter> writer = find_writer(io::model_writers(), file);
-    if (!writer) return writer.error();
-    if (const Status status = session.will_write(file); !status) return status;
-    const auto timer = session.step("write " + file);
-    if (const Status status = writer->write(*model, file, {}, session.context()); !status)
-      return status;
-    session.console().note("wrote " + file);
-  }
+  print_model_notes(session, *model);
+  for (const std::string& file : files)
+    if (const Status status = write_model(session, *model, file); !status) return status;
   return {};
 }
 

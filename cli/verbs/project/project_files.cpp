@@ -10,8 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "cli/run/authorship.hpp"
 #include "cli/run/load.hpp"
-#include "cli/run/utc_time.hpp"
+#include "cli/run/write_files.hpp"
 #include "cli/verbs/clash/clash_result.hpp"
 #include "cli/verbs/project/project_verbs.hpp"
 #include "core/output_format.hpp"
@@ -29,7 +30,7 @@ struct FileOptions {
 };
 
 /// Prints what was read of files, as load() does.
-Status tell_of_files(Session& session, project::Project& project, const project::Update& done) {
+Status print_file_notes(Session& session, project::Project& project, const project::Update& done) {
   const Result<std::vector<project::StoredFile>> files = project.files();
   if (!files) return files.error();
   for (const project::StoredFile& file : *files)
@@ -43,15 +44,9 @@ Status tell_of_files(Session& session, project::Project& project, const project:
 }
 
 Status write_outputs(Session& session, const FileOptions& given, const project::Changes& changes) {
-  for (const std::string& file : given.outputs) {
-    const Result<project::ChangeWriter> writer = find_writer(project::change_writers(), file);
-    if (!writer) return writer.error();
-    const Status status = session.write(file, [&](Session::Sink sink) {
-      writer->write(changes, sink);
-      return Status{};
-    });
-    if (!status) return status;
-  }
+  if (const Status status = write_files(session, given.outputs, project::change_writers(), changes);
+      !status)
+    return status;
   if (!session.json())
     return session.write_stdout(project::changes_text(changes, {.width = terminal_width()}));
   return session.write_stdout([&](Session::Sink sink) {
@@ -61,9 +56,10 @@ Status write_outputs(Session& session, const FileOptions& given, const project::
 }
 
 /// Tells what became of the project, and returns the exit code.
-Result<ExitCode> tell(Session& session, const FileOptions& given, project::Project& project,
-                      const project::Update& done) {
-  if (const Status status = tell_of_files(session, project, done); !status) return status.error();
+Result<ExitCode> print_update(Session& session, const FileOptions& given, project::Project& project,
+                              const project::Update& done) {
+  if (const Status status = print_file_notes(session, project, done); !status)
+    return status.error();
   if (const Status status = write_outputs(session, given, done.changes); !status)
     return status.error();
   return given.input.strict && done.noticed.skipped() > 0 ? ExitCode::partial : ExitCode::done;
@@ -122,7 +118,7 @@ Result<ExitCode> run_new(Session& session, const FileOptions& given) {
     return done.error();
   }
   session.console().note("wrote " + given.project.file);
-  return tell(session, given, project->value(), *done);
+  return print_update(session, given, project->value(), *done);
 }
 
 Result<ExitCode> run_add(Session& session, const FileOptions& given) {
@@ -137,7 +133,7 @@ Result<ExitCode> run_add(Session& session, const FileOptions& given) {
   if (!project) return project.error();
   const Result<project::Update> done = add_files(session, *project, *files);
   if (!done) return done.error();
-  return tell(session, given, *project, *done);
+  return print_update(session, given, *project, *done);
 }
 
 Result<ExitCode> run_update(Session& session, const FileOptions& given) {
@@ -150,7 +146,7 @@ Result<ExitCode> run_update(Session& session, const FileOptions& given) {
     return project::update(*project, {*files, given.match_files}, note_of_now(), session.context());
   }();
   if (!done) return done.error();
-  return tell(session, given, *project, *done);
+  return print_update(session, given, *project, *done);
 }
 
 Result<ExitCode> run_remove(Session& session, const FileOptions& given) {
@@ -159,7 +155,7 @@ Result<ExitCode> run_remove(Session& session, const FileOptions& given) {
   const Result<project::Update> done =
       project::remove_model_files(*project, given.labels, note_of_now(), session.context());
   if (!done) return done.error();
-  return tell(session, given, *project, *done);
+  return print_update(session, given, *project, *done);
 }
 
 }  // namespace

@@ -25,9 +25,9 @@ struct Signatures {
   static constexpr std::size_t kObjectsPerRange = 4096;
 
   Hash128 rules;  ///< of options, rules and the program's version: what is said of no single object
-  /// Of each object: its bodies on the grid, and what sets and rules say of it; not its file label
-  /// and id, which tell whose signature it is. Equal signatures of two runs say nothing where their
-  /// `rules` differ.
+  /// Hashes of each object: its bodies on the grid, and what sets and rules say of it; not its file
+  /// label and id, which tell whose signature it is. Equal signatures of two runs say nothing where
+  /// their `rules` differ.
   std::vector<Hash128> objects;
   /// Of kObjectsPerRange objects each, all that their signatures were made from; none where not all
   /// of it was known of the model.
@@ -43,12 +43,12 @@ struct HashedBodies {
 /// What somebody knows of a model without looking at all of it: hashes that are equal only where
 /// what they are of is.
 struct KnownModel {
-  /// Of each shape, so that meshes are not hashed again; zeros for one that is not known. Runs with
-  /// and without them have other signatures.
+  /// Hashes of each shape, so that meshes are not hashed again; zeros for one that is not known.
+  /// Runs with and without them have other signatures.
   std::span<const Hash128> shapes = {};
-  /// Of all bodies, with the numbers of the shapes that they refer to, ascending.
+  /// Hashes of all bodies, with the numbers of the shapes that they refer to, ascending.
   std::span<const HashedBodies> bodies = {};
-  /// Of all that objects are but their bodies, in their order; zeros: not known.
+  /// The hash of all that objects are but their bodies, in their order; zeros: not known.
   Hash128 objects = {};
 };
 

@@ -25,9 +25,9 @@ struct ReadComment {
 struct ReadTopic {
   std::string guid;  ///< in small letters
   std::string title, status, assignee;
-  std::string changed, changer;        ///< the last change, as a comment has them; or empty
-  std::vector<ReadComment> comments;   ///< by date; of an edited one the last form
-  std::optional<Reference> reference;  ///< where the topic is one that was written by Strake
+  std::string changed, changer;             ///< the last change, as a comment has them; or empty
+  std::vector<ReadComment> comments;        ///< by date; of an edited one the last form
+  std::optional<ClashReference> reference;  ///< where the topic is one that was written by Strake
 };
 
 struct ReadFile {

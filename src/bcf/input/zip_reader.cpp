@@ -14,13 +14,13 @@ namespace {
 constexpr zip_int64_t kMostListedEntries = 200'000;
 constexpr std::size_t kPiece = std::size_t{1} << 16U;
 
-struct ClosesFile {
+struct EntryCloser {
   void operator()(zip_file_t* file) const { zip_fclose(file); }
 };
 
 }  // namespace
 
-void ZipReader::Closes::operator()(zip* archive) const { zip_discard(archive); }
+void ZipReader::ArchiveCloser::operator()(zip* archive) const { zip_discard(archive); }
 
 Result<ZipReader> ZipReader::open(const std::filesystem::path& file) {
   const std::string name = file.string();
@@ -32,7 +32,7 @@ Result<ZipReader> ZipReader::open(const std::filesystem::path& file) {
     return Error{ErrorCode::input, missing ? "the file cannot be opened" : "this is no BCF file",
                  name, missing ? "check its name" : "a BCF file is a zip archive of topics"};
   }
-  ZipReader reader(std::unique_ptr<zip, Closes>(opened), name);
+  ZipReader reader(std::unique_ptr<zip, ArchiveCloser>(opened), name);
   if (const Status status = reader.list(); !status) return status.error();
   return reader;
 }
@@ -57,7 +57,7 @@ Status ZipReader::list() {
 }
 
 Result<std::string> ZipReader::read(const Entry& entry, std::size_t most) {
-  const std::unique_ptr<zip_file_t, ClosesFile> file(
+  const std::unique_ptr<zip_file_t, EntryCloser> file(
       zip_fopen_index(archive_.get(), entry.index, 0));
   if (!file) {
     const int code = zip_error_code_zip(zip_get_error(archive_.get()));

@@ -38,15 +38,15 @@ class ZipReader {
   [[nodiscard]] std::uint64_t unpacked() const { return unpacked_; }
 
  private:
-  struct Closes {
+  struct ArchiveCloser {
     void operator()(zip* archive) const;
   };
-  ZipReader(std::unique_ptr<zip, Closes> archive, std::string name)
+  ZipReader(std::unique_ptr<zip, ArchiveCloser> archive, std::string name)
       : archive_(std::move(archive)), name_(std::move(name)) {}
   Status list();
   [[nodiscard]] Error fault(const Entry& entry, std::string message) const;
 
-  std::unique_ptr<zip, Closes> archive_;
+  std::unique_ptr<zip, ArchiveCloser> archive_;
   std::string name_;
   std::vector<Entry> entries_;
   std::uint64_t unpacked_ = 0;

@@ -32,13 +32,14 @@ struct TopicFiles {
   std::vector<std::pair<const char*, report::PackedFile>> files;
 };
 
-/// A viewpoint with what it looks like.
-struct SeenTopic {
+/// The viewpoint of a topic: its GUID, its file and its picture.
+struct TopicViewpoint {
   std::string guid, file, picture;
 };
 
-Result<SeenTopic> look_at(const pictures::Scenery& scenery, const PlannedTopic& topic,
-                          const std::string& topic_guid, const parallel::Context& context) {
+Result<TopicViewpoint> make_viewpoint(const pictures::Scenery& scenery, const PlannedTopic& topic,
+                                      const std::string& topic_guid,
+                                      const parallel::Context& context) {
   const report::ClashContents& contents = scenery.contents();
   const pictures::Subject subject = topic.group != nullptr
                                         ? pictures::subject_of(contents, *topic.group)
@@ -47,7 +48,7 @@ Result<SeenTopic> look_at(const pictures::Scenery& scenery, const PlannedTopic& 
       pictures::choose_viewpoint(scenery, subject, {}, context);
   if (!seen) return seen.error();
   // A viewpoint never changes: what is seen differently is another one.
-  SeenTopic view;
+  TopicViewpoint view;
   view.guid = part_guid(topic_guid, viewpoint_file(contents, topic, topic_guid, *seen));
   view.file = viewpoint_file(contents, topic, view.guid, *seen);
   const Result<pictures::ClashPicture> drawn =
@@ -72,9 +73,9 @@ Result<TopicFiles> make_topic(const report::ClashContents& contents,
                               const parallel::Context& context) {
   const TopicFacts facts = facts_of(contents, topic);
   TopicFiles made{facts.guid, {}};
-  SeenTopic view;
+  TopicViewpoint view;
   if (scenery != nullptr) {
-    Result<SeenTopic> seen = look_at(*scenery, topic, facts.guid, context);
+    Result<TopicViewpoint> seen = make_viewpoint(*scenery, topic, facts.guid, context);
     if (!seen) return seen.error();
     view = std::move(*seen);
   }
@@ -158,7 +159,7 @@ std::uint64_t strange_dates_of_bcf(const report::ClashContents& contents) {
 }
 
 std::string left_out_of_bcf(const report::ClashContents& contents) {
-  const LeftOut left_out = plan_topics(contents).left_out;
+  const LeftOutCounts left_out = plan_topics(contents).left_out;
   std::string text;
   if (left_out.groups > 0) text = counted(left_out.groups, "group");
   if (left_out.results > 0) text = counted(left_out.results, "result");

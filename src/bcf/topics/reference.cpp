@@ -42,7 +42,7 @@ std::optional<ReferredClash> referred(std::string_view word) {
 
 }  // namespace
 
-DecisionStatus Reference::status() const {
+DecisionStatus ClashReference::status() const {
   if (clashes.empty()) return DecisionStatus::undecided;
   return std::ranges::min(clashes, {}, &ReferredClash::status).status;
 }
@@ -55,7 +55,7 @@ std::string group_guid(std::string_view group_id) {
   return report::uuid_from_key(report::kClashNamespace, "group:" + std::string(group_id));
 }
 
-std::string guid_of(const Reference& reference) {
+std::string guid_of(const ClashReference& reference) {
   if (!reference.group.empty()) return group_guid(reference.group);
   return reference.clashes.empty() ? std::string() : clash_guid(reference.clashes.front().key);
 }
@@ -75,14 +75,14 @@ bool is_guid(std::string_view text) {
   return true;
 }
 
-std::string mark_of(std::string_view assignee) {
+std::string assignee_digest(std::string_view assignee) {
   if (assignee.empty()) return "none";
   constexpr std::size_t kDigits = 8;
   return report::uuid_from_key(report::kClashNamespace, "assignee:" + std::string(assignee))
       .substr(0, kDigits);
 }
 
-std::string reference_line(const Reference& reference) {
+std::string reference_line(const ClashReference& reference) {
   std::string line(kBegin);
   if (!reference.group.empty()) line.append(" ").append(kGroup).append(reference.group);
   line.append(" ").append(kAssignee).append(reference.assignee_mark);
@@ -91,12 +91,12 @@ std::string reference_line(const Reference& reference) {
   return line;
 }
 
-std::optional<Reference> find_reference(std::string_view description) {
+std::optional<ClashReference> find_reference(std::string_view description) {
   // Names that stand before it may hold the same words: the last one counts.
   const std::size_t at = description.rfind(kBegin);
   if (at == std::string_view::npos) return std::nullopt;
   std::string_view rest = description.substr(at + kBegin.size());
-  Reference reference;
+  ClashReference reference;
   std::string_view word = take_word(rest);
   if (word.starts_with(kGroup)) {
     reference.group = word.substr(kGroup.size());

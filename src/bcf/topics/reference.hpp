@@ -19,9 +19,9 @@ struct ReferredClash {
   report::DecisionStatus status = report::DecisionStatus::undecided;
 };
 
-struct Reference {
+struct ClashReference {
   std::string group;          ///< clash::Group::id; empty: the topic is about one clash
-  std::string assignee_mark;  ///< mark_of() of whom the topic was assigned to
+  std::string assignee_mark;  ///< assignee_digest() of whom the topic was assigned to
   std::vector<ReferredClash> clashes;
 
   /// Returns the status that the topic was written with: the least of those of its clashes.
@@ -36,7 +36,7 @@ inline constexpr std::size_t kMostReferred = 1000;
 [[nodiscard]] std::string clash_guid(std::string_view key);
 [[nodiscard]] std::string group_guid(std::string_view group_id);
 /// Returns the GUID that a topic with this reference has.
-[[nodiscard]] std::string guid_of(const Reference& reference);
+[[nodiscard]] std::string guid_of(const ClashReference& reference);
 /// Returns the GUID of something of a topic, as of its viewpoint.
 [[nodiscard]] std::string part_guid(std::string_view topic_guid, std::string_view part);
 
@@ -44,13 +44,13 @@ inline constexpr std::size_t kMostReferred = 1000;
 [[nodiscard]] bool is_guid(std::string_view text);
 
 /// Returns eight digits by which an assignee is known again; "none" for nobody.
-[[nodiscard]] std::string mark_of(std::string_view assignee);
+[[nodiscard]] std::string assignee_digest(std::string_view assignee);
 
 /// Returns the reference as a line of a description.
-[[nodiscard]] std::string reference_line(const Reference& reference);
+[[nodiscard]] std::string reference_line(const ClashReference& reference);
 
 /// Finds the reference in a description, however its blanks and line ends were laid out anew;
 /// nothing where there is none, or it is damaged.
-[[nodiscard]] std::optional<Reference> find_reference(std::string_view description);
+[[nodiscard]] std::optional<ClashReference> find_reference(std::string_view description);
 
 }  // namespace strake::bcf

@@ -18,7 +18,6 @@
 #include "core/number.hpp"
 #include "core/text/counted.hpp"
 #include "core/text/dates.hpp"
-#include "report/clash/attribute_columns.hpp"
 #include "report/clash/contents.hpp"
 
 namespace strake::bcf {
@@ -89,20 +88,20 @@ void append_result(std::string& text, const report::ClashContents& contents,
   append_object(text, "B: ", contents.model, pair.b);
 }
 
-Reference reference_of(const report::ClashContents& contents, const PlannedTopic& topic,
-                       std::string_view assignee) {
-  Reference reference;
+ClashReference reference_of(const report::ClashContents& contents, const PlannedTopic& topic,
+                            std::string_view assignee) {
+  ClashReference reference;
   if (topic.group != nullptr) reference.group = topic.group->id;
-  reference.assignee_mark = mark_of(assignee);
+  reference.assignee_mark = assignee_digest(assignee);
   const std::size_t named = std::min(topic.results.size(), kMostReferred);
   for (std::size_t r = 0; r < named; ++r)
     reference.clashes.push_back({key_of(contents, topic.results[r]),
-                                 current_status(decided_of(contents, topic.results[r]))});
+                                 current_status(decision_about(contents, topic.results[r]))});
   return reference;
 }
 
 std::string description_of(const report::ClashContents& contents, const PlannedTopic& topic,
-                           const Reference& reference) {
+                           const ClashReference& reference) {
   std::string text;
   const std::size_t listed = std::min(topic.results.size(), kMostListed);
   for (std::size_t r = 0; r < listed; ++r) append_result(text, contents, topic.results[r]);
@@ -141,7 +140,7 @@ std::vector<std::string> labels_of(const report::ClashContents& contents,
 std::string assignee_of(const report::ClashContents& contents, const PlannedTopic& topic) {
   std::string common;
   for (std::size_t r = 0; r < topic.results.size(); ++r) {
-    const report::DecidedResult* const decided = decided_of(contents, topic.results[r]);
+    const report::DecidedResult* const decided = decision_about(contents, topic.results[r]);
     const std::string assignee =
         decided == nullptr ? std::string() : compared_text(decided->decision->assignee);
     if (r > 0 && assignee != common) return {};
@@ -193,7 +192,7 @@ std::vector<TopicComment> comments_of(const report::ClashContents& contents,
                                       const PlannedTopic& topic, const std::string& guid) {
   std::map<std::string, TopicComment> by_guid;
   for (const ResultRef& result : topic.results) {
-    const report::DecidedResult* const decided = decided_of(contents, result);
+    const report::DecidedResult* const decided = decision_about(contents, result);
     if (decided == nullptr) continue;
     for (const report::DecisionComment& said : said_of(*decided->decision)) {
       TopicComment comment = topic_comment(said, guid, contents.bcf);
@@ -231,8 +230,8 @@ std::vector<TopicFile> files_of(const report::ClashContents& contents, const Pla
   return files;
 }
 
-/// Returns when a decision was made, as exactly as it is known; or an empty text.
-const std::string& told_time(const report::Decision& decision) {
+/// Returns when a decision was made, as exactly as it is known; empty where that is not known.
+const std::string& decision_time(const report::Decision& decision) {
   return decision.at.empty() ? decision.date : decision.at;
 }
 
@@ -240,9 +239,9 @@ const std::string& told_time(const report::Decision& decision) {
 void set_change(TopicFacts& facts, const report::ClashContents& contents,
                 const PlannedTopic& topic) {
   for (const ResultRef& result : topic.results) {
-    const report::DecidedResult* const decided = decided_of(contents, result);
+    const report::DecidedResult* const decided = decision_about(contents, result);
     if (decided == nullptr || decided->decision->by.empty()) continue;
-    auto date = stated_time(told_time(*decided->decision));
+    auto date = stated_time(decision_time(*decided->decision));
     if (!date || *date <= facts.changed) continue;
     facts.changed = std::move(*date);
     facts.changer = compared_text(decided->decision->by);
@@ -267,9 +266,9 @@ std::uint64_t count_strange_dates(const report::ClashContents& contents, const T
   };
   for (const PlannedTopic& topic : plan.topics)
     for (const ResultRef& result : topic.results) {
-      const report::DecidedResult* const decided = decided_of(contents, result);
+      const report::DecidedResult* const decided = decision_about(contents, result);
       if (decided == nullptr) continue;
-      look(told_time(*decided->decision));
+      look(decision_time(*decided->decision));
       for (const report::DecisionComment& said : decided->decision->comments) {
         look(said.at);
         look(said.first_at);
@@ -292,7 +291,7 @@ std::string newest_date(const model::Model& model) {
 TopicFacts facts_of(const report::ClashContents& contents, const PlannedTopic& topic) {
   TopicFacts facts;
   facts.assignee = assignee_of(contents, topic);
-  const Reference reference = reference_of(contents, topic, facts.assignee);
+  const ClashReference reference = reference_of(contents, topic, facts.assignee);
   facts.guid = guid_of(reference);
   facts.title = title_of(contents, topic);
   facts.status = topic_status(reference.status());

@@ -25,7 +25,7 @@ bool is_decided(const report::DecidedResult* decided) {
 /// The order of results: less comes first.
 auto rank(const report::ClashContents& contents, const ResultRef& result) {
   const clash::Pair& pair = pair_of(contents, result);
-  const report::DecidedResult* const decided = decided_of(contents, result);
+  const report::DecidedResult* const decided = decision_about(contents, result);
   const bool settled = decided != nullptr && decided->is_settled();
   return std::tuple(settled, -static_cast<int>(pair.cls), pair.d_mm, result.test, result.pair);
 }
@@ -61,7 +61,7 @@ TopicPlan plan_results(const report::ClashContents& contents) {
       const ResultRef result{static_cast<std::uint32_t>(t), static_cast<std::uint32_t>(p)};
       if (pairs[p].allowed >= 0) continue;
       if (pairs[p].cls == clash::Class::contact && !contents.bcf.contacts &&
-          !is_decided(decided_of(contents, result)))
+          !is_decided(decision_about(contents, result)))
         ++plan.left_out.contacts;
       else
         results.push_back(result);

@@ -16,7 +16,7 @@ struct PlannedTopic {
 };
 
 /// What no topic is about.
-struct LeftOut {
+struct LeftOutCounts {
   std::uint64_t groups = 0;    ///< beyond the most topics
   std::uint64_t results = 0;   ///< beyond the most topics, where there are no groups
   std::uint64_t contacts = 0;  ///< not asked for
@@ -24,7 +24,7 @@ struct LeftOut {
 
 struct TopicPlan {
   std::vector<PlannedTopic> topics;  ///< in their order
-  LeftOut left_out;
+  LeftOutCounts left_out;
 };
 
 /// Chooses topics: the groups in their order; without groups the results that no rule allows, those

@@ -12,23 +12,32 @@ namespace {
 
 using report::DecisionStatus;
 
-struct Word {
+struct StatusWord {
   std::string_view text;
-  SaidStatus said;
+  ParsedStatus said;
 };
 
 /// In small letters; words of ours, then those that other programs have for the same.
 constexpr std::array kWords{
-    Word{"new", SaidStatus::open},           Word{"active", SaidStatus::active},
-    Word{"reviewed", SaidStatus::reviewed},  Word{"approved", SaidStatus::approved},
-    Word{"resolved", SaidStatus::resolved},  Word{"open", SaidStatus::open},
-    Word{"opened", SaidStatus::open},        Word{"reopened", SaidStatus::active},
-    Word{"re-opened", SaidStatus::active},   Word{"assigned", SaidStatus::active},
-    Word{"in progress", SaidStatus::active}, Word{"in_progress", SaidStatus::active},
-    Word{"inprogress", SaidStatus::active},  Word{"in review", SaidStatus::reviewed},
-    Word{"accepted", SaidStatus::approved},  Word{"ignored", SaidStatus::approved},
-    Word{"closed", SaidStatus::resolved},    Word{"done", SaidStatus::resolved},
-    Word{"fixed", SaidStatus::resolved},
+    StatusWord{"new", ParsedStatus::open},
+    StatusWord{"active", ParsedStatus::active},
+    StatusWord{"reviewed", ParsedStatus::reviewed},
+    StatusWord{"approved", ParsedStatus::approved},
+    StatusWord{"resolved", ParsedStatus::resolved},
+    StatusWord{"open", ParsedStatus::open},
+    StatusWord{"opened", ParsedStatus::open},
+    StatusWord{"reopened", ParsedStatus::active},
+    StatusWord{"re-opened", ParsedStatus::active},
+    StatusWord{"assigned", ParsedStatus::active},
+    StatusWord{"in progress", ParsedStatus::active},
+    StatusWord{"in_progress", ParsedStatus::active},
+    StatusWord{"inprogress", ParsedStatus::active},
+    StatusWord{"in review", ParsedStatus::reviewed},
+    StatusWord{"accepted", ParsedStatus::approved},
+    StatusWord{"ignored", ParsedStatus::approved},
+    StatusWord{"closed", ParsedStatus::resolved},
+    StatusWord{"done", ParsedStatus::resolved},
+    StatusWord{"fixed", ParsedStatus::resolved},
 };
 
 }  // namespace
@@ -49,22 +58,22 @@ std::string_view topic_status(DecisionStatus status) {
   return "Resolved";
 }
 
-std::optional<SaidStatus> said_status(std::string_view word) {
+std::optional<ParsedStatus> parse_topic_status(std::string_view word) {
   const std::string small = lowered(trimmed(word, " \t\r\n"));
-  const auto* const at = std::ranges::find(kWords, small, &Word::text);
+  const auto* const at = std::ranges::find(kWords, small, &StatusWord::text);
   return at == kWords.end() ? std::nullopt : std::optional(at->said);
 }
 
-DecisionStatus decided_status(SaidStatus said) {
+DecisionStatus decided_status(ParsedStatus said) {
   switch (said) {
-    case SaidStatus::open:
-    case SaidStatus::active:
+    case ParsedStatus::open:
+    case ParsedStatus::active:
       return DecisionStatus::active;
-    case SaidStatus::reviewed:
+    case ParsedStatus::reviewed:
       return DecisionStatus::reviewed;
-    case SaidStatus::approved:
+    case ParsedStatus::approved:
       return DecisionStatus::approved;
-    case SaidStatus::resolved:
+    case ParsedStatus::resolved:
       break;
   }
   return DecisionStatus::resolved;

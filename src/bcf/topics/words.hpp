@@ -17,15 +17,15 @@ inline constexpr std::string_view kTopicType = "Clash";
 [[nodiscard]] std::string_view topic_status(report::DecisionStatus status);
 
 /// What the status of a topic says of a clash.
-enum class SaidStatus : std::uint8_t { open, active, reviewed, approved, resolved };
+enum class ParsedStatus : std::uint8_t { open, active, reviewed, approved, resolved };
 
 /// Returns what the status of a topic says, in the words of Strake or of other programs ("Open",
 /// "In Progress", "Closed" …), whatever their case; nothing for any other word. `open` is what New
 /// and Active have in common.
-[[nodiscard]] std::optional<SaidStatus> said_status(std::string_view word);
+[[nodiscard]] std::optional<ParsedStatus> parse_topic_status(std::string_view word);
 
 /// Returns the status that a topic gives to a clash which is in another one.
-[[nodiscard]] report::DecisionStatus decided_status(SaidStatus said);
+[[nodiscard]] report::DecisionStatus decided_status(ParsedStatus said);
 
 /// Returns "High" for a hit, "Normal" for a clearance violation, "Low" for a contact.
 [[nodiscard]] std::string_view priority(clash::Class cls);

@@ -31,7 +31,7 @@ class XmlWriter {
   XmlWriter& end();
   /// Adds an element that has nothing but a text.
   XmlWriter& leaf(std::string_view name, std::string_view text);
-  /// Likewise, but nothing where the text is empty or blank: the schemas have it so.
+  /// Writes a leaf, but nothing where the text is empty or blank: the schemas have it so.
   XmlWriter& leaf_if(std::string_view name, std::string_view text);
   /// Adds an element with X, Y and Z, the coordinates over `divisor`.
   XmlWriter& vector(std::string_view name, const geometry::Vec3d& v, double divisor);

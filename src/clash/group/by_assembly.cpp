@@ -9,10 +9,10 @@ namespace strake::clash {
 namespace {
 
 /// What an object is a part of: its assembly, or its file where it has none.
-using Whole = std::pair<std::uint32_t, model::GroupId>;
+using AssemblyOrFile = std::pair<std::uint32_t, model::GroupId>;
 
-Whole whole_of(const model::Model& model, const model::ObjectAssemblies& assemblies,
-               model::ObjectId id) {
+AssemblyOrFile whole_of(const model::Model& model, const model::ObjectAssemblies& assemblies,
+                        model::ObjectId id) {
   return {model.object(id).file, assemblies.of(id)};
 }
 
@@ -20,11 +20,11 @@ Whole whole_of(const model::Model& model, const model::ObjectAssemblies& assembl
 
 Partition by_assembly(std::span<const GroupingItem> items, const model::Model& model,
                       const model::ObjectAssemblies& assemblies) {
-  std::map<std::pair<Whole, Whole>, std::uint32_t> numbers;
+  std::map<std::pair<AssemblyOrFile, AssemblyOrFile>, std::uint32_t> numbers;
   Partition partition;
   for (const GroupingItem& item : items) {
-    const std::pair<Whole, Whole> pair = std::minmax(whole_of(model, assemblies, item.pair->a),
-                                                     whole_of(model, assemblies, item.pair->b));
+    const std::pair<AssemblyOrFile, AssemblyOrFile> pair = std::minmax(
+        whole_of(model, assemblies, item.pair->a), whole_of(model, assemblies, item.pair->b));
     const auto [at, is_new] = numbers.try_emplace(pair, partition.count);
     if (is_new) ++partition.count;
     partition.group.push_back(at->second);

@@ -12,9 +12,9 @@ namespace {
 constexpr std::uint32_t kNone = 0xffffffffU;
 
 /// The items of each object.
-class Uses {
+class ItemsOfObjects {
  public:
-  explicit Uses(std::span<const GroupingItem> items) {
+  explicit ItemsOfObjects(std::span<const GroupingItem> items) {
     std::uint32_t objects = 0;
     for (const GroupingItem& item : items) objects = std::max(objects, index(item.pair->b) + 1);
     first_.assign(objects + 1, 0);
@@ -52,7 +52,7 @@ struct CoverCandidate {
 Partition by_element(std::span<const GroupingItem> items) {
   Partition partition;
   partition.group.assign(items.size(), kNone);
-  const Uses uses(items);
+  const ItemsOfObjects uses(items);
   std::vector<std::size_t> left(uses.objects());
   std::priority_queue<CoverCandidate> queue;
   for (std::uint32_t o = 0; o < uses.objects(); ++o) {

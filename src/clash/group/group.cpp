@@ -130,7 +130,7 @@ class Namer {
 
   /// Gives groups by assembly of one name their paths, and an id of its own to each of those that
   /// paths do not tell apart.
-  void tell_apart(std::vector<Group>& groups, const GroupRules& rules) const {
+  void make_names_unique(std::vector<Group>& groups, const GroupRules& rules) const {
     std::map<std::string, std::size_t> names, ids;
     for (const Group& group : groups) ++names[group.name], ++ids[group.id];
     for (Group& group : groups) {
@@ -145,26 +145,27 @@ class Namer {
 
  private:
   /// An assembly, or a file: ordered by what lasts. Neighbours of one name differ in `group`.
-  struct Whole {
+  struct AssemblyOrFile {
     std::string file, path, name;
     model::GroupId group = model::GroupId::none;
-    friend auto operator<=>(const Whole&, const Whole&) = default;
+    friend auto operator<=>(const AssemblyOrFile&, const AssemblyOrFile&) = default;
   };
 
-  [[nodiscard]] Whole whole_of(model::ObjectId id) const {
+  [[nodiscard]] AssemblyOrFile whole_of(model::ObjectId id) const {
     const std::string& file = model_.files[model_.object(id).file].label;
     const model::GroupId assembly = assemblies_->of(id);
     if (assembly == model::GroupId::none) return {file, {}, file, assembly};
     return {file, assemblies_->path(assembly), model_.groups[index(assembly)].name, assembly};
   }
 
-  [[nodiscard]] std::pair<Whole, Whole> wholes_of(const Group& group) const {
+  [[nodiscard]] std::pair<AssemblyOrFile, AssemblyOrFile> wholes_of(const Group& group) const {
     const Pair& pair = pair_of(group);
     return std::minmax(whole_of(pair.a), whole_of(pair.b));
   }
 
-  [[nodiscard]] static std::string name_of(const std::pair<Whole, Whole>& wholes, bool by_path) {
-    const auto text = [by_path](const Whole& whole) {
+  [[nodiscard]] static std::string name_of(const std::pair<AssemblyOrFile, AssemblyOrFile>& wholes,
+                                           bool by_path) {
+    const auto text = [by_path](const AssemblyOrFile& whole) {
       return by_path && !whole.path.empty() ? whole.path : whole.name;
     };
     return wholes.first == wholes.second ? "within " + text(wholes.first)
@@ -172,8 +173,9 @@ class Namer {
   }
 
   void name_by_assembly(Group& group, Hasher& hasher) const {
-    const std::pair<Whole, Whole> wholes = wholes_of(group);
-    for (const Whole& whole : {wholes.first, wholes.second}) hasher.add(whole.file).add(whole.path);
+    const std::pair<AssemblyOrFile, AssemblyOrFile> wholes = wholes_of(group);
+    for (const AssemblyOrFile& whole : {wholes.first, wholes.second})
+      hasher.add(whole.file).add(whole.path);
     group.name = name_of(wholes, false);
   }
 
@@ -227,7 +229,7 @@ Result<Grouping> group_results(const Findings& findings, const model::Model& mod
   for (std::size_t i = 0; i < items.size(); ++i) add(groups[partition.group[i]], items[i]);
   const Namer namer(findings, model, known);
   for (std::size_t g = 0; g < groups.size(); ++g) namer.name(groups[g], rules, partition, g);
-  if (rules.by == GroupBy::assembly) namer.tell_apart(groups, rules);
+  if (rules.by == GroupBy::assembly) namer.make_names_unique(groups, rules);
   sort_groups(groups, rules.sort);
   return Grouping{rules, std::move(groups)};
 }

@@ -89,7 +89,7 @@ Result<Report> run_after(const model::Scene& scene, const Sets& sets, const Opti
     }
     return taken_over(std::move(earlier.report), options, policy);
   }
-  if (!same_names || map->renumbered) let_go_of_hashed_contacts(kept, names, *map);
+  if (!same_names || map->renumbered) mark_hashed_contacts_changed(kept, names, *map);
   if (map->changed > objects / kFewChanged) return full();
 
   std::optional<parallel::StageTimer> timer;

@@ -49,7 +49,7 @@ bool is_in_place(std::span<const std::uint32_t> now, std::size_t objects) {
 
 }  // namespace
 
-void ObjectMap::let_go(std::uint32_t object) {
+void ObjectMap::count_as_changed(std::uint32_t object) {
   before[now[object]] = model::kNoObject;
   now[object] = model::kNoObject;
   ++changed;

@@ -20,8 +20,8 @@ struct ObjectMap {
   std::size_t changed = 0;            ///< objects now that were not there, or not so
   bool renumbered = false;            ///< an unchanged object has another number
 
-  /// Counts an unchanged object, by its number before, as changed.
-  void let_go(std::uint32_t object);
+  /// Counts an unchanged object as changed; `object` is its number before.
+  void count_as_changed(std::uint32_t object);
 
   /// Whether all objects are there, unchanged.
   [[nodiscard]] bool is_identity() const {

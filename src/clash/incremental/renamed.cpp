@@ -76,12 +76,12 @@ Result<bool> have_same_names(const Report& earlier, const model::Model& model,
   return earlier.kept && earlier.kept->elements == *names;
 }
 
-void let_go_of_hashed_contacts(const KeptForChanges& kept, std::span<const std::uint64_t> names,
-                               ObjectMap& map) {
+void mark_hashed_contacts_changed(const KeptForChanges& kept, std::span<const std::uint64_t> names,
+                                  ObjectMap& map) {
   const RenamedObjects renamed(kept.elements, names, map);
   for (const UnlistedContact& contact : kept.unlisted)
     if (renamed.concern(contact))
-      map.let_go(index(renamed.is_renamed(contact.a) ? contact.a : contact.b));
+      map.count_as_changed(index(renamed.is_renamed(contact.a) ? contact.a : contact.b));
 }
 
 Result<HashChange> rehash_renamed(const Report& earlier, std::span<const std::uint64_t> names,

@@ -26,8 +26,8 @@ namespace strake::clash {
 
 /// Counts as changed the objects that have other names and a contact of which only the hash was
 /// kept: it has to be found again to be hashed under the new name. `names` are those of today.
-void let_go_of_hashed_contacts(const KeptForChanges& kept, std::span<const std::uint64_t> names,
-                               ObjectMap& map);
+void mark_hashed_contacts_changed(const KeptForChanges& kept, std::span<const std::uint64_t> names,
+                                  ObjectMap& map);
 
 /// What hashes of pairs come to.
 struct HashChange {

@@ -63,7 +63,7 @@ class ReportMerge {
   /// Brings a list up to date and leaves it in the new report.
   template <class T, class Gone>
   Status take(std::vector<T>& was, std::vector<T>& now, const Gone& gone) const {
-    const auto places = follow(was, now, inputs_.map, context_, gone);
+    const auto places = splice_changes(was, now, inputs_.map, context_, gone);
     if (!places) return places.error();
     now = std::move(was);
     return {};
@@ -111,7 +111,7 @@ class ReportMerge {
     const auto behind = static_cast<std::uint32_t>(was_.regions.size());
     for (Pair& pair : now_.pairs)
       if (listed_regions(pair, now_.options) > 0) pair.first_region += behind;
-    const auto places = follow(
+    const auto places = splice_changes(
         was_.pairs, now_.pairs, inputs_.map, context_,
         [&](const Pair& pair) {
           count_gone(pair);
@@ -250,9 +250,9 @@ class ReportMerge {
     for (const NotComparedPair& pair : now)
       now_.not_compared.push_back({pair.a, pair.b, pair.code});
     now_.diagnostics = {};
-    tell_not_compared(inputs_.model, now_);
+    report_not_compared(inputs_.model, now_);
     describe_sets(now_);
-    tell_unknown_sag(inputs_.neighbours.unknown_sag, inputs_.model, now_.diagnostics);
+    report_unknown_sag(inputs_.neighbours.unknown_sag, inputs_.model, now_.diagnostics);
     return {};
   }
 

@@ -137,7 +137,7 @@ std::vector<std::size_t> splice(std::vector<T>& list, std::span<const ItemRun> r
 /// others the new numbers, and puts in `added`; returns where these are now. `blocks` says of which
 /// PartnerBlocks any item has a changed object; null: it is not known. Errors: cancelled.
 template <class T, class Gone>
-[[nodiscard]] Result<std::vector<std::size_t>> follow(
+[[nodiscard]] Result<std::vector<std::size_t>> splice_changes(
     std::vector<T>& list, const std::vector<T>& added, const ObjectMap& map,
     const parallel::Context& context, const Gone& gone, const std::vector<bool>* blocks = nullptr) {
   /// Only shares the work out: between 4096 and 65'536 no difference can be seen (decision 0073).

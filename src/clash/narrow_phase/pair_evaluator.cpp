@@ -200,7 +200,7 @@ double PairEvaluator::measure_gap(double limit, PartPairResult& answer) {
     return a_.placed.part->primitive ? b_.placed.part->sag : a_.placed.part->sag;
   const auto way = hulls.lower > 0 ? std::optional(hulls.normal) : std::nullopt;
   auto near = geometry::find_closest_pair(a_, b_, reach, work_.pair, kSnapSlack, way);
-  if (near && !decide_alike(near->lower, near->distance))
+  if (near && !give_same_class(near->lower, near->distance))
     near = geometry::find_closest_pair(a_, b_, reach, work_.pair, 0, way);
   if (!near) {
     answer.separation = separated_by(std::numeric_limits<double>::infinity());
@@ -228,7 +228,7 @@ void PairEvaluator::narrow_bracket(const SignedSeparation& meshes,
 }
 
 /// Whether any distance in a bracket gives the same result.
-bool PairEvaluator::decide_alike(double lower, double upper) const {
+bool PairEvaluator::give_same_class(double lower, double upper) const {
   const double band = options_.contact_distance;
   if (lower == upper) return true;
   if (lower <= band && band < upper) return false;

@@ -57,7 +57,7 @@ class PairEvaluator {
  private:
   double measure_gap(double limit, PartPairResult& answer);
   void narrow_bracket(const SignedSeparation& meshes, geometry::PrimitiveSeparation& form) const;
-  [[nodiscard]] bool decide_alike(double lower, double upper) const;
+  [[nodiscard]] bool give_same_class(double lower, double upper) const;
   bool measure_gap_to_mesh(double reach, PartPairResult& answer);
   [[nodiscard]] bool hulls_part() const;
   [[nodiscard]] bool equal_solids() const;

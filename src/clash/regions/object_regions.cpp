@@ -33,7 +33,7 @@ struct Regions {
 };
 
 /// The regions of a pair that does not have just one, or has allowed ones besides.
-struct NotOne {
+struct RegionList {
   std::size_t pair = 0;
   Regions regions;
 };
@@ -202,9 +202,9 @@ Status aggregate_regions(const PartResults& results, const parallel::Context& co
   constexpr std::size_t kGrain = 256;
   const bool found_regions = report.options.engine.most_regions > 0;
   const RegionsOfPairs regions(results, report.options.engine.most_regions);
-  auto others = parallel::collect<NotOne>(
+  auto others = parallel::collect<RegionList>(
       context, {.name = "regions", .n = report.pairs.size(), .grain = kGrain},
-      [&](std::size_t i, std::vector<NotOne>& out) {
+      [&](std::size_t i, std::vector<RegionList>& out) {
         Pair& pair = report.pairs[i];
         Regions of = regions.of(pair);
         pair.regions = found_regions ? of.count : 0;
@@ -215,7 +215,7 @@ Status aggregate_regions(const PartResults& results, const parallel::Context& co
   if (!others) return others.error();
   // Where the regions of each pair begin is known before they are written, by all workers.
   std::size_t regions_listed = 0;
-  for (const NotOne& other : *others) {
+  for (const RegionList& other : *others) {
     const auto& [count, worst, allowed] = other.regions;
     Pair& pair = report.pairs[other.pair];
     const std::size_t listed = worst.size() + pair.allowed_regions_listed(report.options);

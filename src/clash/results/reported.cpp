@@ -6,13 +6,19 @@
 #include <utility>
 #include <vector>
 
+#include "clash/results/result_hash.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::clash {
 namespace {
 
-/// What becomes of a result.
-enum class Fate : std::uint8_t {
+// Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
+constexpr std::size_t kPairsAtOnce = 4096;
+
+/// Whether a result is reported, and what decides it.
+enum class ReportDecision : std::uint8_t {
   reported,
   volume_open,  ///< reported, though it may have less in common than asked for
   by_relation,  ///< not reported
@@ -24,13 +30,15 @@ class Reported {
   Reported(const PartResults& results, const Sets& sets, const Reporting& reporting)
       : results_(results), sets_(sets), reporting_(reporting) {}
 
-  [[nodiscard]] Fate of(const Pair& pair) const {
-    if (!has_relation(pair)) return Fate::by_relation;
+  [[nodiscard]] ReportDecision of(const Pair& pair) const {
+    if (!has_relation(pair)) return ReportDecision::by_relation;
     const CommonVolume* const common = results_.found[pair.first_region].common;
-    if (!(reporting_.min_volume_mm3 > 0) || common == nullptr) return Fate::reported;
-    if (pair.cls != Class::hit) return Fate::reported;  // an allowed hit goes by its volume as well
-    if (common->is_less_than(reporting_.min_volume_mm3)) return Fate::by_volume;
-    return common->may_be_less_than(reporting_.min_volume_mm3) ? Fate::volume_open : Fate::reported;
+    if (!(reporting_.min_volume_mm3 > 0) || common == nullptr) return ReportDecision::reported;
+    if (pair.cls != Class::hit)
+      return ReportDecision::reported;  // an allowed hit goes by its volume as well
+    if (common->is_less_than(reporting_.min_volume_mm3)) return ReportDecision::by_volume;
+    return common->may_be_less_than(reporting_.min_volume_mm3) ? ReportDecision::volume_open
+                                                               : ReportDecision::reported;
   }
 
  private:
@@ -58,6 +66,38 @@ class Reported {
   const Reporting& reporting_;
 };
 
+/// Parts side by side: the same sheet twice, or one within the other, is a contact that is seldom
+/// meant.
+bool is_side_by_side(Relation relation) {
+  return relation == Relation::abut_outside || relation == Relation::separate;
+}
+
+bool is_left_out(const Pair& pair) {
+  return is_side_by_side(pair.relation) && pair.cls == Class::contact &&
+         pair.severest <= Class::contact && (pair.flags & kUncertain) == 0 &&
+         pair.allowed_regions == 0;
+}
+
+/// Keeps of the contacts that are not listed what detect_changes() needs.
+template <class IsUnlisted>
+Status keep_unlisted(const parallel::Context& context, const IsUnlisted& is_unlisted,
+                     Report& report) {
+  const std::vector<std::uint64_t>& elements = report.kept->elements;
+  auto contacts = parallel::collect<UnlistedContact>(
+      context, {.name = "contacts kept", .n = report.pairs.size(), .grain = kPairsAtOnce},
+      [&](std::size_t i, std::vector<UnlistedContact>& out) {
+        const Pair& pair = report.pairs[i];
+        if (is_unlisted(pair))
+          out.push_back({pair.a, pair.b, pair.allowed,
+                         hash_of(pair, report, elements[index(pair.a)], elements[index(pair.b)])});
+      });
+  if (!contacts) return contacts.error();
+  report.kept->unlisted = std::move(*contacts);
+  for (const Pair& pair : report.pairs)
+    if (is_unlisted(pair) && pair.allowed >= 0) report.kept->allowed_contacts.push_back(pair);
+  return {};
+}
+
 }  // namespace
 
 std::uint64_t& count_of(NotReported::Counts& counts, Class cls, bool allowed) {
@@ -66,29 +106,27 @@ std::uint64_t& count_of(NotReported::Counts& counts, Class cls, bool allowed) {
   return cls == Class::contact ? counts.contact : counts.clearance_violation;
 }
 
-Status keep_reported(const PartResults& results, const Sets& sets, const parallel::Context& context,
-                     Report& report) {
-  // Only shares the work out: between 1024 and 16'384 no difference can be seen (decision 0073).
-  constexpr std::size_t kGrain = 4096;
+Status filter_reported(const PartResults& results, const Sets& sets,
+                       const parallel::Context& context, Report& report) {
   if (!report.options.reporting.leaves_out()) return {};
   const Reported reported(results, sets, report.options.reporting);
   const auto fates = parallel::transform(
-      context, {.name = "what is reported", .n = report.pairs.size(), .grain = kGrain},
+      context, {.name = "what is reported", .n = report.pairs.size(), .grain = kPairsAtOnce},
       [&](std::size_t i) { return reported.of(report.pairs[i]); });
   if (!fates) return fates.error();
   std::vector<Pair> kept;
   for (std::size_t i = 0; i < fates->size(); ++i) {
     Pair& pair = report.pairs[i];
-    const Fate fate = (*fates)[i];
-    if (report.kept && (fate == Fate::by_relation || fate == Fate::by_volume))
+    const ReportDecision fate = (*fates)[i];
+    if (report.kept && (fate == ReportDecision::by_relation || fate == ReportDecision::by_volume))
       report.kept->unreported.push_back(
-          {pair.a, pair.b, pair.cls, pair.allowed >= 0, fate == Fate::by_volume});
-    if (fate == Fate::by_relation) {
+          {pair.a, pair.b, pair.cls, pair.allowed >= 0, fate == ReportDecision::by_volume});
+    if (fate == ReportDecision::by_relation) {
       ++count_of(report.not_reported.by_relation, pair.cls, pair.allowed >= 0);
-    } else if (fate == Fate::by_volume) {
+    } else if (fate == ReportDecision::by_volume) {
       ++count_of(report.not_reported.by_volume, pair.cls, pair.allowed >= 0);
     } else {
-      if (fate == Fate::volume_open) pair.flags |= kUncertain;
+      if (fate == ReportDecision::volume_open) pair.flags |= kUncertain;
       kept.push_back(pair);
     }
   }
@@ -111,6 +149,40 @@ void put_regions_in_order(Report& report) {
     ordered.insert(ordered.end(), first, first + static_cast<std::ptrdiff_t>(listed));
   }
   report.regions = std::move(ordered);
+}
+
+Status leave_out_contacts(const parallel::Context& context, Report& report) {
+  return leave_out_contacts(context, report, [](const Pair&) { return false; });
+}
+
+Status leave_out_contacts(const parallel::Context& context, Report& report,
+                          parallel::FunctionRef<bool(const Pair&)> stays) {
+  const auto is_unlisted = [&](const Pair& pair) { return is_left_out(pair) && !stays(pair); };
+  const auto unlisted = parallel::reduce(
+      context, {.name = "count contacts", .n = report.pairs.size(), .grain = kPairsAtOnce},
+      UnlistedContacts{},
+      [&](UnlistedContacts& counts, std::size_t i) {
+        const Pair& pair = report.pairs[i];
+        if (is_unlisted(pair)) ++(pair.allowed < 0 ? counts.contacts : counts.allowed);
+      },
+      [](UnlistedContacts& into, const UnlistedContacts& counts) {
+        into.contacts += counts.contacts;
+        into.allowed += counts.allowed;
+      });
+  if (!unlisted) return unlisted.error();
+  auto kept = parallel::collect<Pair>(
+      context, {.name = "list without contacts", .n = report.pairs.size(), .grain = kPairsAtOnce},
+      [&](std::size_t i, std::vector<Pair>& out) {
+        if (!is_unlisted(report.pairs[i])) out.push_back(report.pairs[i]);
+      });
+  if (!kept) return kept.error();
+  if (report.kept)
+    if (const Status s = keep_unlisted(context, is_unlisted, report); !s) return s;
+  report.unlisted = *unlisted;
+  const bool some = kept->size() < report.pairs.size();
+  report.pairs = std::move(*kept);
+  if (some) put_regions_in_order(report);
+  return {};
 }
 
 }  // namespace strake::clash

@@ -68,11 +68,11 @@ Status record_not_compared(const EvaluatedPairs& evaluated, const ObjectPairs& o
       });
   if (!pairs) return pairs.error();
   report.not_compared.insert(report.not_compared.end(), pairs->begin(), pairs->end());
-  tell_not_compared(*scene.model, report);
+  report_not_compared(*scene.model, report);
   return {};
 }
 
-void tell_not_compared(const model::Model& model, Report& report) {
+void report_not_compared(const model::Model& model, Report& report) {
   for (const NotCompared& pair : report.not_compared)
     if (pair.b)
       report.diagnostics.add(Severity::skipped, pair.code,
@@ -115,8 +115,8 @@ Result<std::vector<std::uint8_t>> files_of_unknown_sag(const ScenePartList& list
       });
 }
 
-void tell_unknown_sag(std::span<const std::uint8_t> by_file, const model::Model& model,
-                      Diagnostics& diagnostics) {
+void report_unknown_sag(std::span<const std::uint8_t> by_file, const model::Model& model,
+                        Diagnostics& diagnostics) {
   for (std::size_t f = 0; f < by_file.size(); ++f)
     if (by_file[f] != 0)
       diagnostics.add(Severity::note, "unknown-sag",

@@ -22,7 +22,7 @@ namespace strake::clash {
                                          const parallel::Context& context, Report& report);
 
 /// Adds the messages about pairs in Report::not_compared.
-void tell_not_compared(const model::Model& model, Report& report);
+void report_not_compared(const model::Model& model, Report& report);
 
 /// Fills Report::sheets. Errors: cancelled.
 [[nodiscard]] Status count_sheets(const ScenePartList& list, const parallel::Context& context,
@@ -33,8 +33,8 @@ void tell_not_compared(const model::Model& model, Report& report);
     const ScenePartList& list, const model::Model& model, const parallel::Context& context);
 
 /// Adds "unknown-sag" for each of these files.
-void tell_unknown_sag(std::span<const std::uint8_t> by_file, const model::Model& model,
-                      Diagnostics& diagnostics);
+void report_unknown_sag(std::span<const std::uint8_t> by_file, const model::Model& model,
+                        Diagnostics& diagnostics);
 
 /// Fills Report::counters, and the candidates of each rule.
 [[nodiscard]] Status fill_counters(const EvaluatedPairs& evaluated, const ObjectPairs& objects,

@@ -421,7 +421,7 @@ bool RuleMatcher::limits_volumes() const {
                              [](const Allowed& rule) { return rule.max_volume_mm3.has_value(); });
 }
 
-void RuleMatcher::allow(const ScenePart& a, const ScenePart& b, const Surroundings& known,
+void RuleMatcher::allow(const ScenePart& a, const ScenePart& b, const PairContext& known,
                         Pair& pair) const {
   const double moved = static_cast<double>(a.snap) + static_cast<double>(b.snap);
   bool volume_open = false;

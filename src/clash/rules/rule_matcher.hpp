@@ -174,7 +174,7 @@ class RuleMatcher {
   [[nodiscard]] bool limits_volumes() const;  ///< whether a rule does, whatever it concerns
 
   /// What is known of a result beside its numbers.
-  struct Surroundings {
+  struct PairContext {
     /// Encloses the region; if absent, it may be anywhere between the two parts.
     std::optional<geometry::Box3d> extent_mm;
     const CommonVolume* common = nullptr;  ///< not null where limits_volume()
@@ -182,7 +182,7 @@ class RuleMatcher {
   /// Sets Pair::allowed by the first rule that allows the result, flagged uncertain where the
   /// region may reach beyond what the rule allows, or where the volume in common leaves open
   /// whether one does.
-  void allow(const ScenePart& a, const ScenePart& b, const Surroundings& known, Pair& pair) const;
+  void allow(const ScenePart& a, const ScenePart& b, const PairContext& known, Pair& pair) const;
 
   /// Names the rules in force, with counts of 0, and the disciplines of the sets.
   void begin_report(const Sets& sets, Report& report) const;

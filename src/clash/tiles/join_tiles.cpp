@@ -144,9 +144,9 @@ Result<Report> TileJoin::finish(const parallel::Context& context) && {
     return std::tie(x.a, *x.b) < std::tie(y.a, *y.b);
   });
   all_.not_compared.insert(all_.not_compared.end(), not_compared_.begin(), not_compared_.end());
-  tell_not_compared(test_.model, all_);
+  report_not_compared(test_.model, all_);
   describe_sets(all_);
-  tell_unknown_sag(unknown_sag_, test_.model, all_.diagnostics);
+  report_unknown_sag(unknown_sag_, test_.model, all_.diagnostics);
   return std::move(all_);
 }
 

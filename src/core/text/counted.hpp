@@ -12,7 +12,7 @@ namespace strake {
                                          std::string_view many) {
   return std::to_string(count).append(" ").append(count == 1 ? one : many);
 }
-/// The same for words of which many are one and an s.
+/// Returns the same text for words whose plural is one and an s.
 [[nodiscard]] inline std::string counted(std::uint64_t count, std::string_view one) {
   return counted(count, one, std::string(one) + "s");
 }

@@ -27,10 +27,10 @@ struct Cover {
 /// For the lines of a leaf, covering lines are sought in their own class of lengths and in lower
 /// ones; lines of lower classes that they cover are found on the same pass, so that a short line
 /// need not search for long ones, which are everywhere.
-class Finder {
+class OverlapSearch {
  public:
   /// `fully_covered`, by line: marks the lines that one other covers as a whole.
-  Finder(const OverlapRule& rule, const LineIndex& index, parallel::Marks& fully_covered)
+  OverlapSearch(const OverlapRule& rule, const LineIndex& index, parallel::Marks& fully_covered)
       : rule_(rule), index_(index), fully_covered_(fully_covered) {}
 
   /// Returns the covered intervals of lines that are covered in part.
@@ -45,13 +45,13 @@ class Finder {
 
  private:
   /// The covers of one line of a leaf.
-  struct List {
+  struct CoverList {
     std::uint32_t position = 0;
     bool can_be_covered = false;
     std::vector<ParamInterval> covers;
     std::size_t many = 0;  ///< the number from which on uniting them pays
   };
-  using Lists = std::array<List, LineIndex::kFan>;
+  using Lists = std::array<CoverList, LineIndex::kFan>;
   static constexpr std::size_t kMany = 64;
 
   /// Whether one other line covers a line as a whole: then nothing else matters. When a worker sees
@@ -69,7 +69,7 @@ class Finder {
   void visit(const LineIndex::Leaf& leaf, Lists& lists, std::vector<Cover>& out) {
     bool any = false;
     for (std::uint32_t k = leaf.first; k < leaf.last; ++k) {
-      List& list = lists[k - leaf.first];
+      CoverList& list = lists[k - leaf.first];
       list.position = k;
       list.can_be_covered = can_be_covered(index_.flat(k), rule_) && !is_fully_covered(k);
       list.covers.clear();
@@ -80,7 +80,7 @@ class Finder {
     for (unsigned c = 0; c <= own; ++c) {
       if (c == own && !any) continue;
       index_.candidates(leaf, c, [&](std::size_t i, std::uint32_t other) {
-        List& list = lists[i];
+        CoverList& list = lists[i];
         if (other != list.position) {
           if (stays_over(other, list.position))
             cover(list, other);
@@ -91,7 +91,7 @@ class Finder {
       });
     }
     for (std::uint32_t k = 0; k < leaf.last - leaf.first; ++k) {
-      List& list = lists[k];
+      CoverList& list = lists[k];
       if (!list.can_be_covered) continue;
       unite(list.covers);
       for (const ParamInterval& interval : list.covers)
@@ -99,7 +99,7 @@ class Finder {
     }
   }
 
-  void cover(List& list, std::uint32_t other) {
+  void cover(CoverList& list, std::uint32_t other) {
     if (!list.can_be_covered || !can_cover(index_.flat(other), rule_)) return;
     const auto interval = covered(index_.flat(list.position), index_.flat(other), rule_);
     if (!interval) return;
@@ -196,11 +196,13 @@ bool has_precedence(std::span<const PlaneSegment> lines, std::uint32_t i, std::u
 }
 
 bool can_be_covered(const PlaneSegment& line, const OverlapRule& rule) {
-  return line.rank == Rank::hidden || (line.rank == Rank::visible && rule.covers_visible);
+  return line.rank == OverlapRank::hidden ||
+         (line.rank == OverlapRank::visible && rule.covers_visible);
 }
 
 bool can_cover(const PlaneSegment& line, const OverlapRule& rule) {
-  return line.rank == Rank::visible || (line.rank == Rank::hidden && rule.hidden_covers);
+  return line.rank == OverlapRank::visible ||
+         (line.rank == OverlapRank::hidden && rule.hidden_covers);
 }
 
 void append_intervals(LineIntervals& out, std::uint32_t line, std::span<ParamInterval> covers,
@@ -230,7 +232,7 @@ Result<LineOverlaps> cut_overlaps(std::span<const PlaneSegment> lines, const Ove
   const Result<std::vector<Cover>> covers = [&]() -> Result<std::vector<Cover>> {
     const Result<LineIndex> index = LineIndex::build(lines, rule, found.fully_covered, context);
     if (!index) return index.error();
-    return Finder(rule, *index, found.fully_covered).run(context);
+    return OverlapSearch(rule, *index, found.fully_covered).run(context);
   }();
   if (!covers) return covers.error();
   const Result<std::vector<KeyedItem>> order = by_line(*covers, context);

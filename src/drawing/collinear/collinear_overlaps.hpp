@@ -16,7 +16,11 @@
 namespace strake::drawing {
 
 /// The rank of a line: of two that lie on each other the one of lower rank stays, then the nearer.
-enum class Rank : std::uint8_t { visible, hidden, none };  ///< none: neither covers nor is covered
+enum class OverlapRank : std::uint8_t {
+  visible,
+  hidden,
+  none
+};  ///< none: neither covers nor is covered
 
 /// Both ends of a line, equal for both ways of running.
 using SegmentEnds = std::array<double, 4>;
@@ -26,7 +30,7 @@ struct PlaneSegment {
   double ax = 0, ay = 0, bx = 0, by = 0;
   double depth = 0;  ///< larger is nearer to the viewer
   double reach = 0;  ///< two lines coincide within the sum of their reaches
-  Rank rank = Rank::none;
+  OverlapRank rank = OverlapRank::none;
 
   [[nodiscard]] double length() const {
     const double x = bx - ax, y = by - ay;

@@ -120,7 +120,7 @@ std::uint64_t whole(double share, unsigned bits) {
   return static_cast<std::uint64_t>(std::clamp(share * most, 0.0, most - 1));
 }
 
-struct Extent {
+struct LineExtent {
   double left = std::numeric_limits<double>::max(), right = -left, low = left, high = -left;
   double reach = 0;
   void add(const PlaneSegment& line) {
@@ -130,7 +130,7 @@ struct Extent {
     high = std::max({high, line.ay, line.by});
     reach = std::max(reach, line.reach);
   }
-  void add(const Extent& other) {
+  void add(const LineExtent& other) {
     left = std::min(left, other.left);
     right = std::max(right, other.right);
     low = std::min(low, other.low);
@@ -144,7 +144,7 @@ bool takes_part(const PlaneSegment& line, double least) {
   // compared.
   constexpr double kBelow = 1 - 1e-9;
   const double length = line.length();
-  return line.rank != Rank::none && length > 0 && length > least * kBelow;
+  return line.rank != OverlapRank::none && length > 0 && length > least * kBelow;
 }
 
 }  // namespace
@@ -175,11 +175,11 @@ Result<LineIndex> LineIndex::build(std::span<const PlaneSegment> lines, const Ov
 Status LineIndex::measure(std::span<const PlaneSegment> lines, double least,
                           const parallel::Context& context) {
   const auto extent = parallel::reduce(
-      context, {.name = "extent of lines", .n = lines.size(), .grain = kGrain}, Extent{},
-      [&](Extent& e, std::size_t i) {
+      context, {.name = "extent of lines", .n = lines.size(), .grain = kGrain}, LineExtent{},
+      [&](LineExtent& e, std::size_t i) {
         if (takes_part(lines[i], least)) e.add(lines[i]);
       },
-      [](Extent& into, const Extent& e) { into.add(e); });
+      [](LineExtent& into, const LineExtent& e) { into.add(e); });
   if (!extent) return extent.error();
   sectors_.resize(kSectors);
   if (extent->left > extent->right) return {};

@@ -18,7 +18,7 @@ void begin_section(Groups& groups, std::string_view name) {
   groups.text(0, "SECTION").text(2, name);
 }
 
-void append_header(Groups& groups, const Document& document) {
+void append_header(Groups& groups, const DxfDocument& document) {
   constexpr int kMillimetres = 4;
   const auto variable = [&](std::string_view name) { groups.text(9, name); };
   begin_section(groups, "HEADER");
@@ -29,7 +29,7 @@ void append_header(Groups& groups, const Document& document) {
   groups.text(3, "ANSI_1252");
   variable("$INSBASE");
   groups.point_in_space(10, 0, 0);
-  const Extent& model = document.model;
+  const DxfExtent& model = document.model;
   variable("$EXTMIN");
   groups.point_in_space(10, model.left, model.bottom);
   variable("$EXTMAX");
@@ -132,7 +132,7 @@ Groups& begin_dictionary(Groups& groups, Handle handle, Handle owner) {
 struct Layout {
   const PaperLayout& paper;
   std::int64_t number;
-  Extent extent;
+  DxfExtent extent;
 };
 
 void append_layout(Groups& groups, const Layout& layout) {
@@ -182,7 +182,7 @@ void append_layout(Groups& groups, const Layout& layout) {
   if (!is_model) groups.handle(331, paper.paper);
 }
 
-void append_objects(Groups& groups, const Document& document) {
+void append_objects(Groups& groups, const DxfDocument& document) {
   begin_section(groups, "OBJECTS");
   begin_dictionary(groups, kRoot, 0);
   const auto entry = [&](std::string_view name, Handle handle) {
@@ -231,7 +231,7 @@ void append_objects(Groups& groups, const Document& document) {
   append_layout(groups, {model, 0, document.model});
   std::int64_t number = 0;
   for (const PaperLayout& paper : document.papers) {
-    Extent extent;
+    DxfExtent extent;
     extent.include({0, 0});
     extent.include({paper.width_mm, paper.height_mm});
     append_layout(groups, {paper, ++number, extent});
@@ -241,7 +241,7 @@ void append_objects(Groups& groups, const Document& document) {
 
 }  // namespace
 
-void Extent::include(const PaperPoint& point) {
+void DxfExtent::include(const PaperPoint& point) {
   left = std::min(left, point.x);
   right = std::max(right, point.x);
   bottom = std::min(bottom, point.y);
@@ -252,7 +252,7 @@ std::string name_of_paper_block(std::size_t number) {
   return "*Paper_Space" + (number == 0 ? std::string() : std::to_string(number - 1));
 }
 
-void append_front(std::string& out, const Document& document) {
+void append_dxf_head(std::string& out, const DxfDocument& document) {
   Groups groups(out);
   append_header(groups, document);
   append_classes(groups);
@@ -267,7 +267,7 @@ void append_front(std::string& out, const Document& document) {
   begin_section(groups, "ENTITIES");
 }
 
-void append_back(std::string& out, const Document& document) {
+void append_dxf_tail(std::string& out, const DxfDocument& document) {
   Groups groups(out);
   groups.text(0, "ENDSEC");
   append_objects(groups, document);

@@ -15,7 +15,7 @@
 namespace strake::drawing::dxf {
 
 /// A box with y upwards; empty where left is greater than right.
-struct Extent {
+struct DxfExtent {
   double left = 1e20, bottom = 1e20, right = -1e20, top = -1e20;
   [[nodiscard]] bool empty() const { return left > right; }
   [[nodiscard]] double width() const { return right - left; }
@@ -39,18 +39,18 @@ struct PaperLayout {
 [[nodiscard]] std::string name_of_paper_block(std::size_t number);
 
 /// What a file says of itself before its first entity.
-struct Document {
+struct DxfDocument {
   std::vector<LayerStyle> layers;
   std::vector<PaperLayout> papers;  ///< one at least
   bool opens_on_paper = false;      ///< shows the first sheet first, not model space
-  Extent model;                     ///< of all that lies in model space
+  DxfExtent model;                  ///< of all that lies in model space
   Handle next = kFirstEntity;       ///< greater than every handle of an entity
 };
 
 /// Appends what stands before the entities, and the beginning of their section.
-void append_front(std::string& out, const Document& document);
+void append_dxf_head(std::string& out, const DxfDocument& document);
 
 /// Appends the end of their section, and what stands behind.
-void append_back(std::string& out, const Document& document);
+void append_dxf_tail(std::string& out, const DxfDocument& document);
 
 }  // namespace strake::drawing::dxf

@@ -124,16 +124,17 @@ int line_weight(double width_mm) {
 }
 
 int color_number(const model::Color& color) {
-  struct Basic {
+  struct BasicColor {
     int number = 0;
     model::Color color;
   };
-  constexpr std::array kBasic{Basic{7, {0, 0, 0, 255}},       Basic{1, {255, 0, 0, 255}},
-                              Basic{2, {255, 255, 0, 255}},   Basic{3, {0, 255, 0, 255}},
-                              Basic{4, {0, 255, 255, 255}},   Basic{5, {0, 0, 255, 255}},
-                              Basic{6, {255, 0, 255, 255}},   Basic{8, {128, 128, 128, 255}},
-                              Basic{9, {192, 192, 192, 255}}, Basic{255, {255, 255, 255, 255}}};
-  const auto apart = [&](const Basic& basic) {
+  constexpr std::array kBasic{
+      BasicColor{7, {0, 0, 0, 255}},       BasicColor{1, {255, 0, 0, 255}},
+      BasicColor{2, {255, 255, 0, 255}},   BasicColor{3, {0, 255, 0, 255}},
+      BasicColor{4, {0, 255, 255, 255}},   BasicColor{5, {0, 0, 255, 255}},
+      BasicColor{6, {255, 0, 255, 255}},   BasicColor{8, {128, 128, 128, 255}},
+      BasicColor{9, {192, 192, 192, 255}}, BasicColor{255, {255, 255, 255, 255}}};
+  const auto apart = [&](const BasicColor& basic) {
     const int r = basic.color.red - color.red, g = basic.color.green - color.green,
               b = basic.color.blue - color.blue;
     return r * r + g * g + b * b;

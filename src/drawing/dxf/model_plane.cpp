@@ -9,12 +9,12 @@ namespace strake::drawing::dxf {
 
 namespace {
 
-struct End {
+struct ProjectedEnd {
   geometry::Vec3d mm;
   PaperPoint paper;
 };
-std::array<End, 2> ends_of(const Line& line) {
-  return {End{line.a_mm, line.a_paper}, End{line.b_mm, line.b_paper}};
+std::array<ProjectedEnd, 2> ends_of(const Line& line) {
+  return {ProjectedEnd{line.a_mm, line.a_paper}, ProjectedEnd{line.b_mm, line.b_paper}};
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ ModelPlane::ModelPlane(const NeutralDrawing& drawing, const Ink& ink)
     there_ = true_place(lines.front().a_mm);
     double x = 0, y = 0;
     for (const Line& line : lines)
-      for (const End& end : ends_of(line)) {
+      for (const ProjectedEnd& end : ends_of(line)) {
         const PaperPoint there = true_place(end.mm);
         x += end.paper.x - paper_.x - (there.x - there_.x) / scale_;
         y += end.paper.y - paper_.y + (there.y - there_.y) / scale_;
@@ -39,7 +39,7 @@ ModelPlane::ModelPlane(const NeutralDrawing& drawing, const Ink& ink)
     paper_ = {paper_.x + x / ends, paper_.y + y / ends};
   }
   for (const Line& line : lines)
-    for (const End& end : ends_of(line)) include(end.paper, place(end.mm, end.paper));
+    for (const ProjectedEnd& end : ends_of(line)) include(end.paper, place(end.mm, end.paper));
   for (const CentreLine& line : ink.centre_lines)
     for (const PaperPoint& point : line.points) include(point, place(point));
   for (const BreakLine& line : ink.break_lines)

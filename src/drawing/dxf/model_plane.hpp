@@ -22,7 +22,7 @@ class ModelPlane {
   /// How many mm a mm of paper is.
   [[nodiscard]] double scale() const { return scale_; }
   /// What the lines and centre lines fill, in model space and on paper.
-  [[nodiscard]] const Extent& extent() const { return extent_; }
+  [[nodiscard]] const DxfExtent& extent() const { return extent_; }
   [[nodiscard]] const PaperFrame& on_paper() const { return on_paper_; }
 
   [[nodiscard]] PaperPoint from_paper(const PaperPoint& paper) const;
@@ -43,7 +43,7 @@ class ModelPlane {
   double scale_ = 1;
   PaperPoint paper_, there_;  ///< a point on paper, and where it lies in model space before a move
   PaperPoint moved_;
-  Extent extent_;
+  DxfExtent extent_;
   PaperFrame on_paper_{kFarthestPaperMm, kFarthestPaperMm, -kFarthestPaperMm, -kFarthestPaperMm};
 };
 

@@ -114,7 +114,7 @@ std::vector<LayerStyle> layers_of_sheets(const SheetFile& file) {
 Status write_sheet_file(const SheetFile& file, AddMarks add_marks, const model::Model& model,
                         Sink sink, const parallel::Context& context) {
   const ViewsOfSheets placed = placed_views(file);
-  Document document;
+  DxfDocument document;
   document.layers = layers_of_sheets(file);
   document.opens_on_paper = file.opens_on_paper;
   document.next = first_entity(document.layers.size());
@@ -130,7 +130,7 @@ Status write_sheet_file(const SheetFile& file, AddMarks add_marks, const model::
     PaperSpace paper({sheet.width_mm, sheet.height_mm}, sheet.layers, sheet.viewport_layer,
                      layout.record, layout.paper);
     for (const PlacedView& view : placed[s]) {
-      const Extent& extent = view.plane.extent();
+      const DxfExtent& extent = view.plane.extent();
       document.model.include({extent.left, extent.bottom});
       document.model.include({extent.right, extent.top});
       paper.add_viewport(view.window, view.plane.from_paper(middle_of(view.window)),
@@ -146,7 +146,7 @@ Status write_sheet_file(const SheetFile& file, AddMarks add_marks, const model::
   for (const std::vector<PlacedView>& views : placed)
     for (const PlacedView& view : views) document.next += entities_at_most(view.view->ink);
   std::string text;
-  append_front(text, document);
+  append_dxf_head(text, document);
   sink(text);
   for (std::size_t s = 0; s < placed.size(); ++s)
     for (const PlacedView& view : placed[s]) {
@@ -160,7 +160,7 @@ Status write_sheet_file(const SheetFile& file, AddMarks add_marks, const model::
     }
   sink(papers.front().text());
   text.clear();
-  append_back(text, document);
+  append_dxf_tail(text, document);
   sink(text);
   return {};
 }

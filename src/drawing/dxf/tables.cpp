@@ -38,7 +38,7 @@ Groups& begin_record(Groups& groups, std::string_view type, Handle handle, Handl
 }
 
 /// Appends what a window that opens on model space shows: all of it.
-void append_viewports(Groups& groups, const Extent& model) {
+void append_viewports(Groups& groups, const DxfExtent& model) {
   constexpr double kWindow = 1.6;  // a window is about as much wider than high
   const PaperPoint middle = model.empty() ? PaperPoint{} : model.middle();
   const double height =
@@ -235,7 +235,7 @@ void append_empty_table(Groups& groups, std::string_view name, Handle handle) {
 
 }  // namespace
 
-void append_tables(std::string& out, const Document& document) {
+void append_tables(std::string& out, const DxfDocument& document) {
   Groups groups(out);
   const LineTypes types = line_types(document.layers);
   append_viewports(groups, document.model);

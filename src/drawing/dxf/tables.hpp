@@ -9,6 +9,6 @@ namespace strake::drawing::dxf {
 
 /// Appends the tables of a file: what viewports, types of lines, layers, styles and blocks there
 /// are. Layers with the same dashes share a type of line.
-void append_tables(std::string& out, const Document& document);
+void append_tables(std::string& out, const DxfDocument& document);
 
 }  // namespace strake::drawing::dxf

@@ -160,13 +160,13 @@ std::string break_lines_of(const ViewLines& view, const model::Model& model,
 
 /// The lines of a view by layers, those of an object side by side.
 struct SortedLines {
-  struct OfObject {
+  struct LinesOfObject {
     std::size_t layer = 0;  ///< its number
     bool dashes_fit = false;
     std::size_t begin = 0, end = 0;
   };
   std::vector<const Line*> lines;
-  std::vector<OfObject> objects;
+  std::vector<LinesOfObject> objects;
 };
 
 bool is_hidden_layer(std::size_t layer) {
@@ -199,7 +199,7 @@ SortedLines sorted_lines(const Ink& ink, const StyleLayers& style_layers) {
 
 /// Cuts the objects into shares of work of some thousand lines, or one object; returns where each
 /// begins, and the end.
-std::vector<std::size_t> shares_of(const std::vector<SortedLines::OfObject>& objects) {
+std::vector<std::size_t> shares_of(const std::vector<SortedLines::LinesOfObject>& objects) {
   constexpr std::size_t kLines = 4096;
   std::vector<std::size_t> begins{0};
   for (std::size_t i = 1; i < objects.size(); ++i)
@@ -222,7 +222,7 @@ Status write_view_lines(const ViewLines& view, const model::Model& model,
                         const parallel::Context& context) {
   const SortedLines sorted = sorted_lines(view.ink, view.style_layers);
   const PaperCurves curves = view.plane.curves(view.curves);
-  const auto append_object = [&](const SortedLines::OfObject& of_object, std::string& out) {
+  const auto append_object = [&](const SortedLines::LinesOfObject& of_object, std::string& out) {
     std::vector<Line> placed;
     std::vector<const Line*> lines;
     placed.reserve(of_object.end - of_object.begin);

@@ -119,9 +119,9 @@ std::vector<PlaneSegment> flatten(const Ink& ink, const OnPaper& on_paper, doubl
     f = on_paper(line);
     f.reach = (width_of(line, ink) + touch) / 2;
     if (is_hidden(line.state))
-      f.rank = Rank::hidden;
+      f.rank = OverlapRank::hidden;
     else if (f.length() > 0)
-      f.rank = Rank::visible;
+      f.rank = OverlapRank::visible;
   }
   return flat;
 }
@@ -147,7 +147,7 @@ class HiddenChooser {
           own.clear();
           for (std::size_t i = first; i < lines_.size() && lines_[i].object == lines_[first].object;
                ++i)
-            if (flat_[i].rank == Rank::hidden && flat_[i].length() > rule.touch &&
+            if (flat_[i].rank == OverlapRank::hidden && flat_[i].length() > rule.touch &&
                 !beside_visible_.fully_covered.is_set(i))
               own.push_back(hidden_line(static_cast<std::uint32_t>(i)));
           choose_hidden_lines(own, rule, context.stop, out);
@@ -192,7 +192,7 @@ Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
   ink.lines.reserve(lines.size());
   std::size_t next = 0;
   for (std::uint32_t i = 0; i < lines.size(); ++i) {
-    if (flat[i].rank != Rank::hidden) {
+    if (flat[i].rank != OverlapRank::hidden) {
       ink.lines.push_back(lines[i]);
       continue;
     }

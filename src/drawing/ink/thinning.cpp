@@ -47,7 +47,7 @@ double side_at(const PlaneSegment& line, const PlaneSegment& other, double t) {
 }
 
 /// Intervals of a line beside which others lie, by side.
-struct BothSides {
+struct CoverBySide {
   std::vector<ParamInterval> left, right;
   bool whole_left = false, whole_right = false;
 
@@ -130,7 +130,7 @@ class ObjectThinner {
     const std::vector<std::uint32_t> mixed = mixed_up(static_cast<std::uint32_t>(lines_.size()));
     for (const std::uint32_t i : mixed) all.add(lines_[i].flat);
     bool any = false;
-    BothSides sides;
+    CoverBySide sides;
     for (std::uint32_t i = 0; i < lines_.size(); ++i) {
       if (i % 1024 == 0 && stop.stop_requested()) return false;
       if (lines_[i].stays) continue;
@@ -262,7 +262,7 @@ Result<LineIntervals> thinned_intervals(const std::vector<Line>& lines, const On
             continue;
           PlaneSegment flat = on_paper(lines[i]);
           flat.reach = rule.reach;
-          flat.rank = Rank::visible;
+          flat.rank = OverlapRank::visible;
           if (flat.length() > rule.laying.touch)
             own.push_back({flat, static_cast<std::uint32_t>(i), !may_be_thinned(lines[i]), {}});
         }

@@ -13,18 +13,18 @@ namespace {
 using geometry::Vec3d;
 using geometry::Vec3l;
 
-Rank rank_of(hlr::State state) {
+OverlapRank rank_of(hlr::State state) {
   switch (state) {
     case hlr::State::visible:
-      return Rank::visible;
+      return OverlapRank::visible;
     case hlr::State::hidden_by_self:
     case hlr::State::hidden_by_other:
-      return Rank::hidden;
+      return OverlapRank::hidden;
     case hlr::State::projecting:
     case hlr::State::clipped:
       break;
   }
-  return Rank::none;
+  return OverlapRank::none;
 }
 
 /// Returns a piece in the plane of the view.

@@ -21,7 +21,7 @@ using geometry::Vec3l;
 /// The scale of models larger than this is so small that boxes give it well enough.
 constexpr double kLargeMm = 20'000;
 
-enum class By : std::uint8_t { boxes, corners };
+enum class ExtentMethod : std::uint8_t { boxes, corners };
 
 /// Returns what a section at right angles to an axis leaves of a box; other sections leave it
 /// whole.
@@ -47,7 +47,7 @@ class PaperExtent {
     return PaperExtent(scene, drawn, view, {view, *sections}, {*axes, origin});
   }
 
-  [[nodiscard]] Result<PlaneBox> of_all(By by, const parallel::Context& context) const {
+  [[nodiscard]] Result<PlaneBox> of_all(ExtentMethod by, const parallel::Context& context) const {
     return parallel::reduce(
         context, {.name = "expected extent", .n = scene_.bodies.size(), .grain = 1024}, kNoPlaneBox,
         [&](PlaneBox& part, std::size_t b) { include(part, scene_.bodies[b], by); },
@@ -59,7 +59,7 @@ class PaperExtent {
         context, {.name = "expected extents", .n = scene_.bodies.size(), .grain = 1024},
         [&](std::size_t b) {
           PlaneBox box = kNoPlaneBox;
-          include(box, scene_.bodies[b], By::boxes);
+          include(box, scene_.bodies[b], ExtentMethod::boxes);
           return box;
         });
     if (!of_bodies) return of_bodies.error();
@@ -74,7 +74,7 @@ class PaperExtent {
               hlr::ViewVolume shown, const ViewPlane& plane)
       : scene_(scene), drawn_(drawn), view_(view), shown_(std::move(shown)), plane_(plane) {}
 
-  void include(PlaneBox& extent, const model::GridBody& body, By by) const {
+  void include(PlaneBox& extent, const model::GridBody& body, ExtentMethod by) const {
     const model::GridShape& shape = scene_.shapes[body.grid_shape];
     if (shape.box.empty() || (!drawn_.empty() && !drawn_[model::index(body.object)])) return;
     const Box3l whole = body.box(shape);
@@ -82,7 +82,7 @@ class PaperExtent {
     Box3l box = view_.limits ? whole.common(*view_.limits) : whole;
     for (const hlr::Section& section : view_.sections) box = cut_along_axis(box, section);
     if (box.empty()) return;
-    if (by == By::corners && box == whole) {
+    if (by == ExtentMethod::corners && box == whole) {
       for (const geometry::Part& part : shape.parts)
         for (const geometry::Vec3i& v : part.vertices)
           include(extent, body.origin + v.as<std::int64_t>());
@@ -113,9 +113,9 @@ Result<PlaneBox> expected_extent(const model::Scene& scene, const std::vector<bo
   if (const Status status = hlr::check_drawn(scene, drawn); !status) return status.error();
   const auto measure = PaperExtent::of(scene, drawn, view, origin);
   if (!measure) return PlaneBox{};
-  Result<PlaneBox> extent = measure->of_all(By::boxes, context);
+  Result<PlaneBox> extent = measure->of_all(ExtentMethod::boxes, context);
   if (extent && std::max(extent->width(), extent->height()) < kLargeMm)
-    extent = measure->of_all(By::corners, context);
+    extent = measure->of_all(ExtentMethod::corners, context);
   if (!extent) return extent;
   if (const auto seen = field_of_view(view, origin))
     *extent = {std::max(extent->left, seen->left), std::min(extent->right, seen->right),

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lay_out(), and its parts: the hash of a view, the counts of its lines, lines and curves on the
 // sheet.
-#include "drawing/layout/layout.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,15 +15,19 @@
 #include "drawing/layout/placement.hpp"
 #include "drawing/layout/view_plane.hpp"
 #include "drawing/layout/view_title.hpp"
+#include "strake/core/hash.hpp"
+#include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/hlr/hlr.hpp"
+#include "strake/model/model.hpp"
+#include "strake/parallel/context.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
 #include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::drawing {
-
 namespace {
 
 /// Returns texts whose order says nothing so that equal ones are written alike.
@@ -76,8 +78,8 @@ Hash128 hash_of_run(std::span<const hlr::EdgePiece> pieces, const model::Model& 
   return hasher.value();
 }
 
-}  // namespace
-
+/// Returns the hash of the view and of every piece in the model. It does not depend on the team.
+/// Errors: cancelled, out of memory.
 Result<Hash128> hash_of(const hlr::Drawing& drawing, const model::Model& model,
                         const parallel::Context& context) {
   // Hashed run by run, in parallel; the length of a run changes the hash.
@@ -97,16 +99,14 @@ Result<Hash128> hash_of(const hlr::Drawing& drawing, const model::Model& model,
   return hasher.value();
 }
 
-namespace {
-
 /// The counts of a run of lines, which are sorted by object.
 struct Tally {
   std::array<std::uint64_t, kLineStates> count{};
   std::vector<model::ObjectId> seen;  ///< objects with visible lines, each once in a row
 };
 
-}  // namespace
-
+/// Counts the lines of a drawing by state, and makes drawn objects without visible lines on paper
+/// coincident. Errors: cancelled.
 Status count_lines(NeutralDrawing& drawing, const parallel::Context& context) {
   const auto see = [](Tally& tally, model::ObjectId object) {
     if (tally.seen.empty() || tally.seen.back() != object) tally.seen.push_back(object);
@@ -137,8 +137,6 @@ Status count_lines(NeutralDrawing& drawing, const parallel::Context& context) {
   }
   return {};
 }
-
-namespace {
 
 using geometry::Vec3d;
 using geometry::Vec3l;

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <cstdint>
+
 #include "core/text_encoding.hpp"
 #include "drawing/lettering/font_data.hpp"
 
 namespace strake::drawing {
-
 namespace {
 
 /// Whether a character belongs to writing that is not set glyph by glyph from left to right: Hebrew
@@ -52,6 +54,16 @@ Diagnostics Letterer::diagnostics() const {
                           code),
               "the text " + in_quotes(text));
   return found;
+}
+
+LetterWidths::LetterWidths() : font_(font_data()) {}
+
+double LetterWidths::of(const TakenCharacter& character) const {
+  const GlyphId glyph = character.length > 0 ? font_.glyph_of(character.code) : kMissingGlyph;
+  if (glyph != kMissingGlyph) return std::round(font_.advance(glyph)) / 1000;
+  constexpr double kSquareLetter = 1.05, kOtherLetter = 0.8;
+  constexpr std::uint32_t kFirstSquareLetter = 0x1100;
+  return character.code >= kFirstSquareLetter ? kSquareLetter : kOtherLetter;
 }
 
 }  // namespace strake::drawing

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texts as glyphs of the font that drawings carry with them, and which of its glyphs were used.
+// Texts as glyphs of the font that drawings carry with them, which of its glyphs were used, and the
+// widths of letters.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/text_encoding.hpp"
 #include "drawing/lettering/true_type.hpp"
 #include "strake/core/diagnostics.hpp"
 
@@ -44,6 +46,20 @@ class Letterer {
   TrueTypeFont font_;
   std::map<GlyphId, std::uint32_t> used_;
   std::map<std::uint32_t, std::string> missing_;  ///< character and the first text with it
+};
+
+/// Widths of characters, by which all texts of drawings are laid out, whatever program shows them.
+/// The font is DejaVu Sans, the widest of those that "sans-serif" usually stands for.
+class LetterWidths {
+ public:
+  LetterWidths();
+
+  /// Returns the width of a character in sizes of the font, in whole thousandths. What the font
+  /// lacks is as wide as such writing usually is.
+  [[nodiscard]] double of(const TakenCharacter& character) const;
+
+ private:
+  TrueTypeFont font_;
 };
 
 }  // namespace strake::drawing

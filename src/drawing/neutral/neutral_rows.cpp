@@ -27,7 +27,7 @@ std::int64_t micrometres(double mm) { return geometry::snap(mm).value_or(0); }
 Vec3l micrometres(const geometry::Vec3d& mm) { return geometry::snap(mm).value_or(Vec3l{}); }
 
 /// The extents of the lines, in the model and on paper.
-struct Reach {
+struct LineExtents {
   static constexpr std::int64_t kBig = std::int64_t{1} << 62U;
   geometry::Box3l model{{kBig, kBig, kBig}, {-kBig, -kBig, -kBig}};
   std::int64_t farthest_on_paper = 0;
@@ -38,7 +38,7 @@ struct Reach {
     for (const double mm : {line.a_paper.x, line.a_paper.y, line.b_paper.x, line.b_paper.y})
       farthest_on_paper = std::max(farthest_on_paper, std::abs(micrometres(mm)));
   }
-  void add(const Reach& other) {
+  void add(const LineExtents& other) {
     model.include(other.model);
     farthest_on_paper = std::max(farthest_on_paper, other.farthest_on_paper);
   }
@@ -58,11 +58,11 @@ struct Reach {
   }
 };
 
-Result<Reach> reach_of(const std::vector<Line>& lines, const parallel::Context& context) {
+Result<LineExtents> reach_of(const std::vector<Line>& lines, const parallel::Context& context) {
   return parallel::reduce(
-      context, {.name = "reach of lines", .n = lines.size(), .grain = 65536}, Reach{},
-      [&](Reach& part, std::size_t i) { part.add(lines[i]); },
-      [](Reach& into, const Reach& part) { into.add(part); });
+      context, {.name = "reach of lines", .n = lines.size(), .grain = 65536}, LineExtents{},
+      [&](LineExtents& part, std::size_t i) { part.add(lines[i]); },
+      [](LineExtents& into, const LineExtents& part) { into.add(part); });
 }
 
 template <class Int>
@@ -192,7 +192,7 @@ template std::string row_fields<std::int64_t>();
 
 Status write_view_rows(const NeutralDrawing& drawing, const model::Model& model, Sink sink,
                        const parallel::Context& context) {
-  const Result<Reach> reach = reach_of(drawing.lines, context);
+  const Result<LineExtents> reach = reach_of(drawing.lines, context);
   if (!reach) return reach.error();
   const Vec3l origin = reach->origin();
   return reach->fits_32_bits() ? write_all<std::int32_t>(drawing, model, origin, sink, context)

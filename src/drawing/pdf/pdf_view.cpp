@@ -149,12 +149,12 @@ std::vector<Stream> streams_of(const std::vector<LayerContents>& layers) {
   return streams;
 }
 
-/// What hides a line: the other objects, or its own.
-struct Cause {
+/// The layer of hidden lines for each way in which a line is hidden: by others, or by its object.
+struct Occlusion {
   LineState state;
   std::string_view label;
 };
-constexpr std::array<Cause, 2> kCauses = {{
+constexpr std::array<Occlusion, 2> kOcclusions = {{
     {LineState::hidden_by_other, "Hidden by other objects"},
     {LineState::hidden_by_self, "Hidden by the object itself"},
 }};
@@ -166,17 +166,18 @@ class LayerMaker {
       : document_(document), parent_(parent), ink_(ink) {}
 
   std::vector<LayerContents> make(const PdfPens& pens) {
-    for (std::size_t c = 0; c < kCauses.size(); ++c)
-      if (std::ranges::any_of(ink_.lines,
-                              [&](const Line& line) { return line.state == kCauses.at(c).state; }))
-        causes_.at(c) = document_.add_layer(kCauses.at(c).label, parent_);
+    for (std::size_t c = 0; c < kOcclusions.size(); ++c)
+      if (std::ranges::any_of(
+              ink_.lines, [&](const Line& line) { return line.state == kOcclusions.at(c).state; }))
+        causes_.at(c) = document_.add_layer(kOcclusions.at(c).label, parent_);
     for (const Layer& layer : kLayers) {
       const std::vector<const Line*> lines = lines_of(layer, ink_);
       if (lines.empty()) continue;
       const PdfLayerId id = document_.add_layer(layer.label, parent_);
       for (const LinesOfStyle& part : by_style(lines, ink_))
         if (layer.hidden)
-          for (std::size_t c = 0; c < kCauses.size(); ++c) add_hidden({layer, id, part}, pens, c);
+          for (std::size_t c = 0; c < kOcclusions.size(); ++c)
+            add_hidden({layer, id, part}, pens, c);
         else
           add_visible({layer, id, part}, pens);
     }
@@ -225,7 +226,7 @@ class LayerMaker {
 
   /// Adds the lines of a layer that are hidden by one cause: they lie in its layer too.
   void add_hidden(const StyledPart& part, const PdfPens& pens, std::size_t cause) {
-    const LineState state = kCauses.at(cause).state;
+    const LineState state = kOcclusions.at(cause).state;
     const LinePen pen = pen_of(part, pens, state);
     const bool dashed_as_one = !ink_.split_hidden && !pen.dash_mm.empty();
     const auto of_state = [&](const Line* line) { return line->state == state; };
@@ -244,7 +245,7 @@ class LayerMaker {
   PdfDocument& document_;
   std::optional<PdfLayerId> parent_;
   const Ink& ink_;
-  std::array<std::optional<PdfLayerId>, kCauses.size()> causes_;
+  std::array<std::optional<PdfLayerId>, kOcclusions.size()> causes_;
   std::vector<LayerContents> layers_;
 };
 

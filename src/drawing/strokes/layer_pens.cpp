@@ -15,9 +15,9 @@ namespace {
 double in_whole_steps(double mm) { return std::round(mm * 1e4) / 1e4; }
 
 template <class L, class NumberOf>
-std::vector<OfStyle<L>> parted_by_style(std::vector<const L*> lines, const Ink& ink,
-                                        const NumberOf& number_of) {
-  std::vector<OfStyle<L>> parts;
+std::vector<StyledLines<L>> parted_by_style(std::vector<const L*> lines, const Ink& ink,
+                                            const NumberOf& number_of) {
+  std::vector<StyledLines<L>> parts;
   if (ink.styles == nullptr) {
     if (!lines.empty()) parts.push_back({ObjectStyles::kPlain, std::move(lines)});
     return parts;

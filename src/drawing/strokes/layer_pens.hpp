@@ -42,12 +42,12 @@ using PenOfLayer = parallel::FunctionRef<LinePen(const Layer&, LineState)>;
 
 /// Lines of one style, in the order of the drawing.
 template <class L>
-struct OfStyle {
+struct StyledLines {
   std::size_t style = ObjectStyles::kPlain;
   std::vector<const L*> lines;
 };
-using LinesOfStyle = OfStyle<Line>;
-using BreakLinesOfStyle = OfStyle<BreakLine>;
+using LinesOfStyle = StyledLines<Line>;
+using BreakLinesOfStyle = StyledLines<BreakLine>;
 
 /// Parts lines by their styles: those without a style first, then style by style.
 [[nodiscard]] std::vector<LinesOfStyle> by_style(std::span<const Line* const> lines,

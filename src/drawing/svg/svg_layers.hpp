@@ -17,7 +17,7 @@ namespace strake::drawing {
 /// a group per object with one path, or for dashed lines one for each pattern that fits them
 /// (dash_runs). Where hidden lines are kept apart, the layer has a layer for each state within it,
 /// and lines of objects with a style lie in a layer of class "style-1" and the like within these.
-/// Of the pens the dashes of hidden lines and of styles count here, the rest is in
+/// Only the dashes of hidden lines and of styles count here, the rest is in
 /// svg_style_rules() and in what the caller writes. `prefix` stands before the ids of the layers.
 /// All workers make the groups of objects. Errors: cancelled, out of memory.
 [[nodiscard]] Status write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,

@@ -40,7 +40,7 @@ struct Facing {
   }
 };
 
-bool alike(const Facing& x, const Facing& y) {
+bool may_be_parallel(const Facing& x, const Facing& y) {
   const Vec3d other = dot(x.normal, y.normal) < 0 ? -y.normal : y.normal;
   return may_be_one_face(x.normal, x.angle, other, y.angle);
 }
@@ -55,9 +55,9 @@ std::vector<Facing> sample_facings(const Part& part) {
   return facings;
 }
 
-std::size_t count_alike(const std::vector<Facing>& facings, const Facing& x) {
+std::size_t count_parallel(const std::vector<Facing>& facings, const Facing& x) {
   return static_cast<std::size_t>(
-      std::ranges::count_if(facings, [&](const Facing& y) { return alike(x, y); }));
+      std::ranges::count_if(facings, [&](const Facing& y) { return may_be_parallel(x, y); }));
 }
 
 /// Returns the facing with the most others like it.
@@ -65,7 +65,7 @@ std::optional<Facing> commonest(const std::vector<Facing>& facings) {
   std::optional<Facing> best;
   std::size_t most = 0;
   for (const Facing& x : facings)
-    if (const std::size_t count = count_alike(facings, x); count > most) {
+    if (const std::size_t count = count_parallel(facings, x); count > most) {
       most = count;
       best = x;
     }
@@ -78,8 +78,8 @@ std::vector<Facing> rough_directions(const Part& a, const Part& b,
   const std::vector<Facing> of_a = sample_facings(a), of_b = sample_facings(b);
   std::vector<Facing> rough;
   const auto offer = [&](const Facing& x) {
-    if (count_alike(of_a, x) >= kAlikeSamples && count_alike(of_b, x) >= kAlikeSamples &&
-        count_alike(rough, x) == 0)
+    if (count_parallel(of_a, x) >= kAlikeSamples && count_parallel(of_b, x) >= kAlikeSamples &&
+        count_parallel(rough, x) == 0)
       rough.push_back(x);
   };
   if (hint && dot(*hint, *hint) > 0) offer(Facing(*hint));
@@ -94,19 +94,19 @@ struct Direction {
   double rounding = 0;  ///< error bound of a difference of heights; 0 along an axis
 };
 
-void add_alike(const Part& part, const Facing& rough, Vec3d& sum) {
+void add_parallel_normals(const Part& part, const Facing& rough, Vec3d& sum) {
   for (const Triangle& triangle : part.triangles) {
     const Corners t = corners_of(part, triangle);
     const Vec3d n = normal_of(t);
-    if (alike(Facing(t, n), rough)) sum = dot(n, rough.normal) > 0 ? sum + n : sum - n;
+    if (may_be_parallel(Facing(t, n), rough)) sum = dot(n, rough.normal) > 0 ? sum + n : sum - n;
   }
 }
 
 std::optional<Direction> mean_direction(const PairLocalPart& a, const PairLocalPart& b,
                                         const Facing& rough) {
   Vec3d sum;
-  add_alike(a.part(), rough, sum);
-  add_alike(b.part(), rough, sum);
+  add_parallel_normals(a.part(), rough, sum);
+  add_parallel_normals(b.part(), rough, sum);
   const double squared = dot(sum, sum);
   if (!(squared > 0)) return std::nullopt;
   for (int k = 0; k < 3; ++k)

@@ -92,15 +92,15 @@ struct Stacks {
 };
 
 /// The intersection lines of a pair, in the coordinates of its first part.
-struct Found {
+struct PairIntersection {
   std::vector<Segment> lines;
   std::uint64_t tests = 0;
 };
 
-class Finder {
+class IntersectionSearch {
  public:
-  Finder(const model::Scene& scene, const SurfaceList& surfaces, const IntersectionRule& rule,
-         const parallel::Context& context)
+  IntersectionSearch(const model::Scene& scene, const SurfaceList& surfaces,
+                     const IntersectionRule& rule, const parallel::Context& context)
       : scene_(scene), surfaces_(surfaces), rule_(rule), context_(context) {}
 
   Result<IntersectionLines> run() {
@@ -117,7 +117,7 @@ class Finder {
     if (!placed) return placed.error();
     IntersectionLines crossings{std::move(*placed), found->size() + stacked_.pairs, stacked_.tests,
                                 pairs_.size() + stacked_.pairs};
-    for (const Found& one : *found) crossings.tests += one.tests;
+    for (const PairIntersection& one : *found) crossings.tests += one.tests;
     return crossings;
   }
 
@@ -340,7 +340,7 @@ class Finder {
   }
 
   /// Finds the lines of some pairs.
-  Result<std::vector<Found>> find_lines(const std::vector<std::uint32_t>& some) const {
+  Result<std::vector<PairIntersection>> find_lines(const std::vector<std::uint32_t>& some) const {
     const auto trees = for_parts(
         "intersections: trees", geometry::needs_bvhs,
         [&](const geometry::Part& part) { return geometry::TriangleBvh(part, context_); });
@@ -356,17 +356,17 @@ class Finder {
     parallel::Allowance allowance(most);
     return parallel::transform(
         context_, {.name = "intersections: lines", .n = some.size(), .order = order},
-        [&](std::size_t k) -> Result<Found> {
+        [&](std::size_t k) -> Result<PairIntersection> {
           const std::size_t i = some[k];
           geometry::QueryContext work;
           auto lines =
               part_intersection_lines_up_to(most, whole(a(i)), whole(b(i)), contact(i), work);
           if (!lines || !allowance.take(lines->size())) return too_many(most);
-          if (!is_joint(i)) return Found{std::move(*lines), work.triangle_pairs};
+          if (!is_joint(i)) return PairIntersection{std::move(*lines), work.triangle_pairs};
           auto edges =
               joint_lines(a(i).placed, b(i).placed, contact(i), rule_.cos_sharp, std::move(*lines));
           if (!edges) return edges.error();
-          return Found{std::move(*edges), work.triangle_pairs};
+          return PairIntersection{std::move(*edges), work.triangle_pairs};
         });
   }
 
@@ -386,7 +386,7 @@ class Finder {
 
   /// Places the lines by pair, and so by object of the first part.
   Result<std::vector<IntersectionLine>> place(const parallel::Distinct& kinds,
-                                              const std::vector<Found>& found) const {
+                                              const std::vector<PairIntersection>& found) const {
     // Equal pairs that stand in many places count each time.
     std::uint64_t lines = 0;
     for (const std::uint32_t kind : kinds.of) lines += found[kind].lines.size();
@@ -425,7 +425,7 @@ Result<IntersectionLines> find_intersection_lines(const model::Scene& scene,
   if (rule.which == Intersections::off) return IntersectionLines{};
   const Result<SurfaceList> surfaces = list_surfaces(scene, drawn, contact, context);
   if (!surfaces) return surfaces.error();
-  return Finder(scene, *surfaces, rule, context).run();
+  return IntersectionSearch(scene, *surfaces, rule, context).run();
 }
 
 }  // namespace strake::hlr

@@ -55,8 +55,8 @@ void keep_in_order(std::span<const std::uint32_t> now, std::span<const geometry:
 
 }  // namespace
 
-void tell_hatches_apart(std::span<const Hatch> earlier, std::span<const Hatch> now,
-                        std::span<const geometry::Box3l> boxes, Comparison& comparison) {
+void mark_changed_hatches(std::span<const Hatch> earlier, std::span<const Hatch> now,
+                          std::span<const geometry::Box3l> boxes, Comparison& comparison) {
   if (earlier.empty() && now.empty()) return;
   const bool comparable = !earlier.empty() && !now.empty();
   for (std::uint32_t o = 0; o < comparison.before.size(); ++o) {

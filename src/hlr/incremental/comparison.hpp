@@ -24,10 +24,10 @@ struct Comparison {
   [[nodiscard]] bool nothing() const { return left.empty() && changed == 0; }
 };
 
-/// Makes others of objects that stayed, as far as they have another hatch. `boxes`: of the earlier
-/// drawing. Where one of the two has no hatches at all, all are others.
-void tell_hatches_apart(std::span<const Hatch> earlier, std::span<const Hatch> now,
-                        std::span<const geometry::Box3l> boxes, Comparison& comparison);
+/// Counts objects that stayed as changed where they have another hatch. `boxes` are those of the
+/// earlier drawing. Where one of the two has no hatches at all, all are changed.
+void mark_changed_hatches(std::span<const Hatch> earlier, std::span<const Hatch> now,
+                          std::span<const geometry::Box3l> boxes, Comparison& comparison);
 
 /// Compares by a mapping and the boxes of earlier objects, see EarlierDrawing. Lines of an object
 /// are numbered in the order of the objects that it meets: of objects that changed places in the

@@ -45,14 +45,14 @@ bool describes_all(const EarlierDrawing& earlier) {
 }
 
 /// What draw_changes() is asked for.
-struct Request {
+struct RedrawRequest {
   const model::Scene& scene;
   const std::vector<bool>& drawn;
   const View& view;
   const Options& options;
 };
 
-Result<Redrawn> draw_all(const Request& request, std::string_view why,
+Result<Redrawn> draw_all(const RedrawRequest& request, std::string_view why,
                          const parallel::Context& context) {
   auto drawing = draw(request.scene, request.drawn, request.view, request.options, context);
   if (!drawing) return drawing.error();
@@ -63,7 +63,7 @@ Result<Redrawn> draw_all(const Request& request, std::string_view why,
 }
 
 /// Solves the lines of the objects that are asked for.
-Result<Drawing> draw_part(const ChangedView& changed, const Reach& reach,
+Result<Drawing> draw_part(const ChangedView& changed, const ChangeReach& reach,
                           const parallel::Context& context) {
   const PartialScene part = scene_of(changed.scene, reach.needed);
   WholeView whole = changed.whole;
@@ -73,7 +73,7 @@ Result<Drawing> draw_part(const ChangedView& changed, const Reach& reach,
 }
 
 /// Fills what names the view and the model in a drawing whose lines are there.
-void fill_head(const Request& request, Drawing& drawing) {
+void fill_head(const RedrawRequest& request, Drawing& drawing) {
   drawing.view = request.view;
   drawing.options = request.options;
   drawing.weld_mm = request.scene.weld_mm;
@@ -103,7 +103,7 @@ bool names_objects(const Drawing& drawing) {
 }
 
 /// All is as it was: but objects may have other names.
-Redrawn draw_nothing(const Request& request, Drawing earlier) {
+Redrawn draw_nothing(const RedrawRequest& request, Drawing earlier) {
   Redrawn redrawn{.drawing = std::move(earlier)};
   Drawing& drawing = redrawn.drawing;
   drawing.counters = {.seams = drawing.counters.seams,
@@ -114,15 +114,16 @@ Redrawn draw_nothing(const Request& request, Drawing earlier) {
 }
 
 /// Puts the part that was solved into the earlier drawing.
-Result<Redrawn> put_together(const ChangedView& changed, const Reach& reach, const Drawing& part,
-                             Drawing earlier, const parallel::Context& context) {
+Result<Redrawn> put_together(const ChangedView& changed, const ChangeReach& reach,
+                             const Drawing& part, Drawing earlier,
+                             const parallel::Context& context) {
   Redrawn redrawn{.drawing = std::move(earlier)};
   Drawing& drawing = redrawn.drawing;
-  const Anew anew{reach.asked, part};
-  if (const Status s = merge_lines(changed.comparison, anew, drawing, context); !s)
+  const ResolvedLines resolved{reach.asked, part};
+  if (const Status s = merge_lines(changed.comparison, resolved, drawing, context); !s)
     return s.error();
-  if (const Status s =
-          merge_account(changed.scene, changed.drawn, changed.comparison, anew, drawing, context);
+  if (const Status s = merge_account(changed.scene, changed.drawn, changed.comparison, resolved,
+                                     drawing, context);
       !s)
     return s.error();
   redrawn.edges_solved = part.counters.feature_edges;
@@ -138,7 +139,7 @@ Result<Redrawn> put_together(const ChangedView& changed, const Reach& reach, con
 }
 
 /// Cuts all that is drawn where the view has sections.
-Result<std::optional<WholeSections>> find_sections(const Request& request,
+Result<std::optional<WholeSections>> find_sections(const RedrawRequest& request,
                                                    const parallel::Context& context) {
   const auto& [scene, drawn, view, options] = request;
   if (view.sections.empty()) return std::optional<WholeSections>();
@@ -149,20 +150,20 @@ Result<std::optional<WholeSections>> find_sections(const Request& request,
 }
 
 /// What became of objects, and the drawing that they are in.
-struct Earlier {
+struct ComparedDrawing {
   Comparison comparison;
   Drawing drawing;
   std::span<const geometry::Box3l> boxes;  ///< as of EarlierDrawing
 };
 
-Result<Redrawn> draw_what_changed(const Request& request, Earlier earlier,
+Result<Redrawn> draw_what_changed(const RedrawRequest& request, ComparedDrawing earlier,
                                   const parallel::Context& context) {
   const auto& [scene, drawn, view, options] = request;
   auto sections = find_sections(request, context);
   if (!sections) return sections.error();
   if (*sections)
-    tell_hatches_apart(earlier.drawing.hatches, (*sections)->hatches, earlier.boxes,
-                       earlier.comparison);
+    mark_changed_hatches(earlier.drawing.hatches, (*sections)->hatches, earlier.boxes,
+                         earlier.comparison);
   const auto whole = whole_extent(scene, drawn, view, options, context);
   if (!whole) return whole.error();
   const std::span<const Hatch> hatches =
@@ -198,7 +199,7 @@ Result<Redrawn> draw_what_changed(const Request& request, Earlier earlier,
 Result<Redrawn> draw_changes(const model::Scene& scene, const std::vector<bool>& drawn,
                              const View& view, const Options& options, EarlierDrawing earlier,
                              const parallel::Context& context) {
-  const Request request{scene, drawn, view, options};
+  const RedrawRequest request{scene, drawn, view, options};
   if (const Status status = check_drawn(scene, drawn); !status) return status.error();
   if (!describes_all(earlier))
     return Error{ErrorCode::usage, "the earlier drawing and what is said of it differ in size",

@@ -7,34 +7,101 @@
 #include <iterator>
 #include <span>
 #include <utility>
+#include <vector>
 
-#include "hlr/incremental/splice.hpp"
 #include "hlr/results/object_fates.hpp"
+#include "strake/core/result.hpp"
 #include "strake/hlr/incremental.hpp"
+#include "strake/parallel/context.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
 namespace {
+
+/// A run of elements of one of two arrays.
+struct ElementRun {
+  std::size_t first = 0, last = 0;
+  bool fresh = false;  ///< of the new array
+  [[nodiscard]] std::size_t size() const { return last - first; }
+};
+
+/// Puts runs together, of `kept` in ascending order and of `fresh` in any. They stay in their
+/// memory where that holds them, as most of a drawing does not change. Errors: cancelled, out of
+/// memory; then `kept` is of no use.
+template <class T>
+[[nodiscard]] Status splice(std::span<const ElementRun> runs, std::span<const T> fresh,
+                            std::vector<T>& kept, const parallel::Context& context) {
+  std::vector<std::size_t> begin(runs.size() + 1);
+  for (std::size_t r = 0; r < runs.size(); ++r) begin[r + 1] = begin[r] + runs[r].size();
+  const std::size_t total = begin.back();
+  if (total <= kept.capacity()) {
+    const auto move = [&](std::size_t r, bool up) {
+      if (runs[r].fresh || (begin[r] > runs[r].first) != up || begin[r] == runs[r].first) return;
+      const auto from = kept.begin() + static_cast<std::ptrdiff_t>(runs[r].first);
+      const auto end = kept.begin() + static_cast<std::ptrdiff_t>(runs[r].last);
+      const auto to = kept.begin() + static_cast<std::ptrdiff_t>(begin[r]);
+      if (up)
+        std::move_backward(from, end, to + static_cast<std::ptrdiff_t>(runs[r].size()));
+      else
+        std::move(from, end, to);
+    };
+    // What goes up makes room from the end on, what goes down from the start on: no run is
+    // overwritten before it is moved.
+    if (total > kept.size()) kept.resize(total);
+    for (std::size_t r = runs.size(); r-- > 0;) move(r, true);
+    for (std::size_t r = 0; r < runs.size(); ++r) move(r, false);
+    for (std::size_t r = 0; r < runs.size(); ++r)
+      if (runs[r].fresh)
+        std::ranges::copy(fresh.subspan(runs[r].first, runs[r].size()),
+                          kept.begin() + static_cast<std::ptrdiff_t>(begin[r]));
+    kept.resize(total);
+    return {};
+  }
+  auto all = parallel::slots<T>(total, context);
+  if (!all) return all.error();
+  /// Only shares the work out: between 16'384 and 262'144 no difference can be seen (decision
+  /// 0073).
+  constexpr std::size_t kBlock = 65536;
+  const Status status = parallel::for_each(
+      context, {.name = "what stays of a drawing", .n = (total + kBlock - 1) / kBlock},
+      [&](std::size_t block) {
+        std::size_t at = block * kBlock;
+        const std::size_t end = std::min(total, at + kBlock);
+        auto r = static_cast<std::size_t>(std::ranges::upper_bound(begin, at) - begin.begin()) - 1;
+        for (; at < end; ++r) {
+          const std::size_t count = std::min(end, begin[r + 1]) - at;
+          const std::span<const T> from = runs[r].fresh ? fresh : std::span<const T>(kept);
+          std::ranges::copy(from.subspan(runs[r].first + (at - begin[r]), count),
+                            all->begin() + static_cast<std::ptrdiff_t>(at));
+          at += count;
+        }
+      });
+  if (!status) return status;
+  kept = std::move(*all);
+  return {};
+}
 
 // Only shares the work out: between 4096 and 65'536 no difference can be seen (decision 0073).
 constexpr std::size_t kLinesAtOnce = 16384;
 constexpr auto kByObject = [](const auto& line) { return model::index(line.object); };
 
 /// Objects that follow each other in both drawings, or now only.
-struct Stretch {
+struct ObjectRun {
   std::uint32_t first = 0, last = 0;  ///< numbers now
   std::uint32_t before = 0;           ///< number of the first in the earlier drawing
   bool fresh = false;                 ///< found anew
 };
 
 /// Returns the objects with lines, in order.
-std::vector<Stretch> stretches_of(const Comparison& comparison, const std::vector<bool>& asked) {
-  std::vector<Stretch> all;
+std::vector<ObjectRun> object_runs_of(const Comparison& comparison,
+                                      const std::vector<bool>& asked) {
+  std::vector<ObjectRun> all;
   const auto& before = comparison.before;
   for (std::uint32_t o = 0; o < before.size(); ++o) {
     const bool fresh = asked[o];
     if (!fresh && before[o] == model::kNoObject) continue;
-    Stretch* const last = all.empty() ? nullptr : &all.back();
+    ObjectRun* const last = all.empty() ? nullptr : &all.back();
     const bool goes_on = last != nullptr && last->fresh == fresh && last->last == o &&
                          (fresh || before[o] == last->before + (o - last->first));
     if (goes_on)
@@ -47,7 +114,7 @@ std::vector<Stretch> stretches_of(const Comparison& comparison, const std::vecto
 
 /// Returns where the lines of a range of objects are, in an array that is sorted by object.
 template <class T>
-Run run_of(std::span<const T> sorted, std::uint32_t first, std::uint32_t last) {
+ElementRun run_of(std::span<const T> sorted, std::uint32_t first, std::uint32_t last) {
   const auto at = [&](std::uint32_t object) {
     return static_cast<std::size_t>(std::ranges::lower_bound(sorted, object, {}, kByObject) -
                                     sorted.begin());
@@ -56,12 +123,12 @@ Run run_of(std::span<const T> sorted, std::uint32_t first, std::uint32_t last) {
 }
 
 template <class T>
-std::vector<Run> runs_of(std::span<const Stretch> stretches, std::span<const T> kept,
-                         std::span<const T> fresh) {
-  std::vector<Run> runs;
-  for (const Stretch& s : stretches) {
-    Run run = s.fresh ? run_of(fresh, s.first, s.last)
-                      : run_of(kept, s.before, s.before + (s.last - s.first));
+std::vector<ElementRun> runs_of(std::span<const ObjectRun> object_runs, std::span<const T> kept,
+                                std::span<const T> fresh) {
+  std::vector<ElementRun> runs;
+  for (const ObjectRun& s : object_runs) {
+    ElementRun run = s.fresh ? run_of(fresh, s.first, s.last)
+                             : run_of(kept, s.before, s.before + (s.last - s.first));
     run.fresh = s.fresh;
     runs.push_back(run);
   }
@@ -84,10 +151,11 @@ Status renumber(std::vector<T>& lines, const parallel::Context& context, Renumbe
                             [&](std::size_t i) { each(lines[i]); });
 }
 
-Status merge_pieces(const Comparison& comparison, const Anew& anew,
-                    std::span<const Stretch> stretches, Drawing& drawing,
+Status merge_pieces(const Comparison& comparison, const ResolvedLines& resolved,
+                    std::span<const ObjectRun> object_runs, Drawing& drawing,
                     const parallel::Context& context) {
-  const std::vector<Run> runs = runs_of<EdgePiece>(stretches, drawing.pieces, anew.drawing.pieces);
+  const std::vector<ElementRun> runs =
+      runs_of<EdgePiece>(object_runs, drawing.pieces, resolved.drawing.pieces);
   if (!comparison.same_numbers) {
     const auto now = numbers_now(comparison, drawing.counted.size());
     const auto number = [&](model::ObjectId& object) {
@@ -99,11 +167,11 @@ Status merge_pieces(const Comparison& comparison, const Anew& anew,
     });
     if (!status) return status;
   }
-  return splice<EdgePiece>(runs, anew.drawing.pieces, drawing.pieces, context);
+  return splice<EdgePiece>(runs, resolved.drawing.pieces, drawing.pieces, context);
 }
 
 /// Returns the curves that the edges of a run lie on: edges of an object begin with its first one.
-Run curves_under(const Curves& curves, const Run& edges) {
+ElementRun curves_under(const Curves& curves, const ElementRun& edges) {
   const auto curve = [&](std::size_t edge) {
     return edge < curves.edges.size() ? curves.edges[edge].curve : curves.all.size();
   };
@@ -111,16 +179,16 @@ Run curves_under(const Curves& curves, const Run& edges) {
           edges.fresh};
 }
 
-Status merge_curves(const Comparison& comparison, const Anew& anew,
-                    std::span<const Stretch> stretches, Curves& curves, std::size_t earlier,
+Status merge_curves(const Comparison& comparison, const ResolvedLines& resolved,
+                    std::span<const ObjectRun> object_runs, Curves& curves, std::size_t earlier,
                     const parallel::Context& context) {
-  const Curves& fresh = anew.drawing.curves;
+  const Curves& fresh = resolved.drawing.curves;
   if (curves.edges.empty() && fresh.edges.empty()) return {};
-  const std::vector<Run> edges = runs_of<CurvedEdge>(stretches, curves.edges, fresh.edges);
-  std::vector<Run> runs;
+  const std::vector<ElementRun> edges = runs_of<CurvedEdge>(object_runs, curves.edges, fresh.edges);
+  std::vector<ElementRun> runs;
   std::vector<std::size_t> first, to;  // by run, of its edges and of its curves
   std::size_t edges_before = 0, curves_before = 0;
-  for (const Run& run : edges) {
+  for (const ElementRun& run : edges) {
     runs.push_back(curves_under(run.fresh ? fresh : curves, run));
     first.push_back(edges_before);
     to.push_back(curves_before);
@@ -169,37 +237,39 @@ std::uint64_t count_in_part(const model::Scene& scene, const std::vector<bool>& 
 
 }  // namespace
 
-Status merge_lines(const Comparison& comparison, const Anew& anew, Drawing& earlier,
+Status merge_lines(const Comparison& comparison, const ResolvedLines& resolved, Drawing& earlier,
                    const parallel::Context& context) {
-  const std::vector<Stretch> stretches = stretches_of(comparison, anew.asked);
+  const std::vector<ObjectRun> object_runs = object_runs_of(comparison, resolved.asked);
   const std::size_t objects = earlier.counted.size();
-  if (Status s = merge_pieces(comparison, anew, stretches, earlier, context); !s) return s;
-  if (Status s = merge_curves(comparison, anew, stretches, earlier.curves, objects, context); !s)
+  if (Status s = merge_pieces(comparison, resolved, object_runs, earlier, context); !s) return s;
+  if (Status s = merge_curves(comparison, resolved, object_runs, earlier.curves, objects, context);
+      !s)
     return s;
-  earlier.counted = merged(comparison, anew.asked, earlier.counted, anew.drawing.counted);
+  earlier.counted = merged(comparison, resolved.asked, earlier.counted, resolved.drawing.counted);
   if (!earlier.options.hidden)
-    earlier.left_out = merged(comparison, anew.asked, earlier.left_out, anew.drawing.left_out);
+    earlier.left_out =
+        merged(comparison, resolved.asked, earlier.left_out, resolved.drawing.left_out);
   return {};
 }
 
 Status merge_account(const model::Scene& scene, const std::vector<bool>& drawn,
-                     const Comparison& comparison, const Anew& anew, Drawing& drawing,
+                     const Comparison& comparison, const ResolvedLines& resolved, Drawing& drawing,
                      const parallel::Context& context) {
-  auto fresh = account_of(scene, anew.asked, anew.drawing, context);
+  auto fresh = account_of(scene, resolved.asked, resolved.drawing, context);
   if (!fresh) return fresh.error();
   Account& account = drawing.account;
   const auto now = numbers_now(comparison, account.fates.size());
   std::vector<Defect> kept, defects;
   for (Defect defect : account.defects) {
     const std::uint32_t object = now[model::index(defect.object)];
-    if (object == model::kNoObject || anew.asked[object]) continue;
+    if (object == model::kNoObject || resolved.asked[object]) continue;
     defect.object = model::ObjectId{object};
     kept.push_back(defect);
   }
   std::ranges::merge(kept, fresh->defects, std::back_inserter(defects), {}, &Defect::object,
                      &Defect::object);
   account.defects = std::move(defects);
-  account.fates = merged(comparison, anew.asked, account.fates, fresh->fates);
+  account.fates = merged(comparison, resolved.asked, account.fates, fresh->fates);
   account.count = {};
   for (const Fate fate : account.fates) ++account.count[static_cast<std::size_t>(fate)];
   account.in_part = count_in_part(scene, drawn);

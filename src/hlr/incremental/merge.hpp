@@ -13,20 +13,20 @@
 namespace strake::hlr {
 
 /// Lines that were found anew, and whose they are.
-struct Anew {
+struct ResolvedLines {
   const std::vector<bool>& asked;  ///< by object
   const Drawing& drawing;          ///< its pieces, curves and counts are those of these objects
 };
 
 /// Makes of an earlier drawing that of the objects now: pieces, curves and counts of lines. Objects
 /// that are neither asked for nor in the earlier drawing have none. Errors: cancelled.
-[[nodiscard]] Status merge_lines(const Comparison& comparison, const Anew& anew, Drawing& earlier,
-                                 const parallel::Context& context);
+[[nodiscard]] Status merge_lines(const Comparison& comparison, const ResolvedLines& resolved,
+                                 Drawing& earlier, const parallel::Context& context);
 
 /// Makes of the account of an earlier drawing that of the objects now; the lines are merged
 /// already. `drawn` is by object; empty: all. Errors: cancelled.
 [[nodiscard]] Status merge_account(const model::Scene& scene, const std::vector<bool>& drawn,
-                                   const Comparison& comparison, const Anew& anew, Drawing& drawing,
-                                   const parallel::Context& context);
+                                   const Comparison& comparison, const ResolvedLines& resolved,
+                                   Drawing& drawing, const parallel::Context& context);
 
 }  // namespace strake::hlr

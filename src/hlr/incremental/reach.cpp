@@ -22,8 +22,8 @@ using geometry::Box3l;
 constexpr std::size_t kObjectsAtOnce = 1024;
 /// Where more than this share of the bodies is needed, all are as quick.
 constexpr double kMostShare = 0.5;
-/// What is known of an object before its lines are.
-enum class Concern : std::uint8_t {
+/// What a change means for an object, as far as it is known before its lines are.
+enum class ChangeImpact : std::uint8_t {
   none,
   maybe,  ///< something that changed lies over its box
   sure,
@@ -52,25 +52,25 @@ class ReachSearch {
         hides_(changed.options.stage == Stage::global),
         boxes_(changed_boxes()),
         changes_(boxes_),
-        over_changes_(boxes_on_paper()) {}
+        over_changes_(projected_boxes()) {}
 
-  Result<Reach> run() {
-    Reach reach;
+  Result<ChangeReach> run() {
+    ChangeReach reach;
     if (!std::ranges::all_of(boxes_, [&](const Box3l& box) { return paper_.reaches(box); })) {
       reach.most = true;
       return reach;
     }
-    const auto concerns = find_concerns();
-    if (!concerns) return concerns.error();
-    std::vector<bool> looked_at(concerns->size());
-    for (std::size_t o = 0; o < looked_at.size(); ++o)
-      looked_at[o] = (*concerns)[o] != Concern::none;
-    if (reach.most = is_most(looked_at); reach.most) return reach;
-    const auto edges = find_edges(looked_at);
+    const auto impacts = find_impacts();
+    if (!impacts) return impacts.error();
+    std::vector<bool> candidates(impacts->size());
+    for (std::size_t o = 0; o < candidates.size(); ++o)
+      candidates[o] = (*impacts)[o] != ChangeImpact::none;
+    if (reach.most = is_most(candidates); reach.most) return reach;
+    const auto edges = find_edges(candidates);
     if (!edges) return edges.error();
-    reach.asked.resize(looked_at.size());
+    reach.asked.resize(candidates.size());
     for (const ObjectEdges& one : *edges)
-      reach.asked[one.object] = one.reached || (*concerns)[one.object] == Concern::sure;
+      reach.asked[one.object] = one.reached || (*impacts)[one.object] == ChangeImpact::sure;
     if (const Status status = find_needed(*edges, reach); !status) return status.error();
     reach.most = is_most(reach.needed);
     return reach;
@@ -90,7 +90,7 @@ class ReachSearch {
     return boxes;
   }
 
-  [[nodiscard]] std::vector<ViewBox> boxes_on_paper() const {
+  [[nodiscard]] std::vector<ViewBox> projected_boxes() const {
     std::vector<ViewBox> on_paper;
     for (const Box3l& box : boxes_)
       on_paper.push_back(paper_.reaches(box) ? paper_.box_of(box) : ViewBox());
@@ -106,21 +106,21 @@ class ReachSearch {
     return any;
   }
 
-  [[nodiscard]] Concern concern_of(std::size_t o) const {
+  [[nodiscard]] ChangeImpact impact_of(std::size_t o) const {
     const Box3l& box = changed_.boxes[o];
-    if (!changed_.draws(o)) return Concern::none;
-    if (is_changed(o) || (crosses_ && changes_.any_meets(box))) return Concern::sure;
-    if (!hides_ || box.empty()) return Concern::none;
+    if (!changed_.draws(o)) return ChangeImpact::none;
+    if (is_changed(o) || (crosses_ && changes_.any_meets(box))) return ChangeImpact::sure;
+    if (!hides_ || box.empty()) return ChangeImpact::none;
     const ViewBox on_paper = paper_.box_of(box.inflated(kRounded));
-    return !on_paper.empty() && is_under_changes(anything_in(on_paper)) ? Concern::maybe
-                                                                        : Concern::none;
+    return !on_paper.empty() && is_under_changes(anything_in(on_paper)) ? ChangeImpact::maybe
+                                                                        : ChangeImpact::none;
   }
 
-  [[nodiscard]] Result<std::vector<Concern>> find_concerns() const {
+  [[nodiscard]] Result<std::vector<ChangeImpact>> find_impacts() const {
     return parallel::transform(
         context_,
         {.name = "what changes concern", .n = changed_.boxes.size(), .grain = kObjectsAtOnce},
-        [&](std::size_t o) { return concern_of(o); });
+        [&](std::size_t o) { return impact_of(o); });
   }
 
   [[nodiscard]] bool is_most(const std::vector<bool>& objects) const {
@@ -176,7 +176,7 @@ class ReachSearch {
   }
 
   /// Finds what crosses the objects that are asked for and is drawn after them.
-  [[nodiscard]] Result<std::vector<Crossing>> find_crossings(const Reach& reach) const {
+  [[nodiscard]] Result<std::vector<Crossing>> find_crossings(const ChangeReach& reach) const {
     if (!crosses_) return std::vector<Crossing>{};
     const std::vector<std::uint32_t> numbers = parallel::keys_of(reach.asked);
     std::vector<Box3l> boxes;
@@ -198,7 +198,7 @@ class ReachSearch {
         });
   }
 
-  [[nodiscard]] bool may_hide(const Hideable& asked, std::size_t object) const {
+  [[nodiscard]] bool may_hide(const OccludeeTree& asked, std::size_t object) const {
     const Box3l& box = changed_.boxes[object];
     if (box.empty()) return false;
     const auto& perspective = changed_.view.perspective;
@@ -207,7 +207,7 @@ class ReachSearch {
     return hides_ && asked.may_be_hidden_by(paper_.box_of(box));
   }
 
-  Status find_needed(const std::vector<ObjectEdges>& edges, Reach& reach) const {
+  Status find_needed(const std::vector<ObjectEdges>& edges, ChangeReach& reach) const {
     reach.needed = reach.asked;
     const auto crossings = find_crossings(reach);
     if (!crossings) return crossings.error();
@@ -219,7 +219,7 @@ class ReachSearch {
     for (const ObjectEdges& one : edges)
       if (reach.asked[one.object])
         queries.insert(queries.end(), one.queries.begin(), one.queries.end());
-    const Hideable asked(std::move(queries));
+    const OccludeeTree asked(std::move(queries));
     const auto hiding = parallel::collect<std::uint32_t>(
         context_,
         {.name = "what hides changes", .n = changed_.boxes.size(), .grain = kObjectsAtOnce},
@@ -233,7 +233,7 @@ class ReachSearch {
 
   const ChangedView& changed_;
   const parallel::Context& context_;
-  Paper paper_;
+  BoundsProjection paper_;
   bool crosses_, hides_;
   std::vector<Box3l> boxes_;  ///< of what changed, as it was and as it is
   SolidBoxes changes_;        ///< the same
@@ -242,7 +242,7 @@ class ReachSearch {
 
 }  // namespace
 
-Result<Reach> find_reach(const ChangedView& changed, const parallel::Context& context) {
+Result<ChangeReach> find_reach(const ChangedView& changed, const parallel::Context& context) {
   return ReachSearch(changed, context).run();
 }
 

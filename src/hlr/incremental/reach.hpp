@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "hlr/incremental/bounds_projection.hpp"
 #include "hlr/incremental/comparison.hpp"
-#include "hlr/incremental/paper.hpp"
 #include "hlr/prepare/view_job.hpp"
 #include "model/scene/view_tessellation.hpp"
 #include "strake/core/result.hpp"
@@ -35,7 +35,7 @@ struct ChangedView {
 };
 
 /// The part of a scene that is solved anew, by object.
-struct Reach {
+struct ChangeReach {
   std::vector<bool> asked;   ///< its lines are found anew
   std::vector<bool> needed;  ///< it is asked, or may hide or cross what is
   bool most = false;         ///< it is most of what there is: the sets are not filled
@@ -44,7 +44,7 @@ struct Reach {
 /// Finds what changes can reach: objects that changed; those that the boxes of these meet, as their
 /// intersections may be others; and those with an edge or line that what changed may have hidden,
 /// or may hide now. Errors: as those of prepare_view().
-[[nodiscard]] Result<Reach> find_reach(const ChangedView& changed,
-                                       const parallel::Context& context);
+[[nodiscard]] Result<ChangeReach> find_reach(const ChangedView& changed,
+                                             const parallel::Context& context);
 
 }  // namespace strake::hlr

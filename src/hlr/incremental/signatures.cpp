@@ -1,25 +1,110 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "hlr/incremental/extents.hpp"
-#include "hlr/incremental/shape_hash.hpp"
 #include "hlr/prepare/drawn_objects.hpp"
 #include "hlr/prepare/view_job.hpp"
 #include "hlr/view/projection.hpp"
+#include "strake/core/hash.hpp"
+#include "strake/core/result.hpp"
+#include "strake/geometry/part.hpp"
+#include "strake/geometry/primitive.hpp"
+#include "strake/geometry/vec.hpp"
 #include "strake/hlr/incremental.hpp"
+#include "strake/model/scene.hpp"
+#include "strake/parallel/context.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
 namespace {
 
 using geometry::Vec3l;
+
+/// A shape as signatures see it.
+struct HashedShape {
+  Hash128 hash;                 ///< of its parts, from the corner
+  geometry::Vec3l corner;       ///< the lowest of its box, in the coordinates of its bodies
+  bool made_for_views = false;  ///< views tessellate it anew
+};
+
+static_assert(std::endian::native == std::endian::little, "numbers are hashed as they lie");
+
+/// Gathers numbers to be hashed at once; keeps its memory from shape to shape.
+class HashedNumbers {
+ public:
+  void add(std::uint64_t word) { words_.push_back(word); }
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value + 0.0)); }
+  template <class Range>
+  void add_all(const Range& values) {
+    const Hash128 hash = hash_bytes(std::as_bytes(std::span(values.data(), values.size())));
+    words_.insert(words_.end(), {values.size(), hash.high, hash.low});
+  }
+  [[nodiscard]] Hash128 take() {
+    const Hash128 hash = hash_bytes(std::as_bytes(std::span(words_)));
+    words_.clear();
+    return hash;
+  }
+
+ private:
+  std::vector<std::uint64_t> words_;
+};
+
+void add(HashedNumbers& words, const geometry::Primitive& primitive) {
+  words.add(std::uint64_t{primitive.index()});
+  std::visit(
+      [&](const auto& kind) {
+        using Numbers = std::array<double, sizeof(kind) / sizeof(double)>;
+        for (const double number : std::bit_cast<Numbers>(kind)) words.add(number);
+      },
+      primitive);
+}
+
+void add(HashedNumbers& words, const geometry::Part& part, const geometry::Vec3i& from) {
+  const std::uint64_t flags = (part.flags.inverted ? 1U : 0U) | (part.flags.open ? 2U : 0U) |
+                              (part.flags.non_manifold ? 4U : 0U) |
+                              (part.flags.unknown_sag ? 8U : 0U);
+  words.add(std::uint64_t{static_cast<std::uint8_t>(part.kind)} << 8U | flags);
+  words.add(part.sag);
+  words.add(part.weld);
+  words.add(std::uint64_t{part.primitive.has_value()});
+  if (part.primitive) add(words, *part.primitive);
+  words.add(std::uint64_t{part.vertices.size()});
+  for (const geometry::Vec3i& vertex : part.vertices)
+    for (int k = 0; k < 3; ++k)
+      words.add(static_cast<std::uint64_t>(std::int64_t{vertex[k]} - std::int64_t{from[k]}));
+  words.add_all(part.triangles);
+  words.add_all(part.faces);
+  words.add_all(part.shells);
+  words.add_all(part.chain_first);
+}
+
+/// Hashes the shapes of a scene. A hash does not show in which of several equal meshes, which lie
+/// in other places, the scene found a shape first. Errors: cancelled.
+Result<std::vector<HashedShape>> hash_shapes(const model::Scene& scene,
+                                             const parallel::Context& context) {
+  return parallel::transform_with(
+      context, {.name = "signatures: shapes", .n = scene.shapes.size(), .grain = 64},
+      [] { return HashedNumbers(); },
+      [&](HashedNumbers& words, std::size_t s) {
+        const model::GridShape& shape = scene.shapes[s];
+        words.add(std::uint64_t{shape.parts.size()});
+        if (shape.single_line) words.add(std::uint64_t{1});
+        for (const geometry::Part& part : shape.parts) add(words, part, shape.box.lo);
+        HashedShape hashed{.hash = words.take(), .corner = {}};
+        if (!shape.box.empty()) hashed.corner = shape.box.lo.as<std::int64_t>();
+        hashed.made_for_views = is_made_for_views(shape);
+        return hashed;
+      });
+}
 
 // Only shares the work out: between 256 and 4096 no difference can be seen (decision 0073).
 constexpr std::size_t kObjectsPerBlock = 1024;
@@ -63,10 +148,10 @@ void add(Hasher& hasher, const Options& options) {
 }
 
 /// What a drawing sees of objects, as words that are hashed.
-class ObjectWords {
+class ObjectHasher {
  public:
-  ObjectWords(const model::Scene& scene, const View& view, const Options& options,
-              std::span<const HashedShape> shapes, const model::ViewTessellation& plan)
+  ObjectHasher(const model::Scene& scene, const View& view, const Options& options,
+               std::span<const HashedShape> shapes, const model::ViewTessellation& plan)
       : scene_(scene),
         options_(options),
         shapes_(shapes),
@@ -160,7 +245,7 @@ Result<Signatures> signatures(const model::Scene& scene, const std::vector<bool>
   result.boxes = std::move(*boxes);
   const auto shapes = hash_shapes(scene, context);
   if (!shapes) return shapes.error();
-  const ObjectWords all(scene, view, options, *shapes, plan);
+  const ObjectHasher all(scene, view, options, *shapes, plan);
   auto objects = parallel::transform_with(
       context,
       {.name = "signatures: objects", .n = scene.model->objects.size(), .grain = kObjectsPerBlock},

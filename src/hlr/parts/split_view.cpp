@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "hlr/incremental/paper.hpp"
+#include "hlr/incremental/bounds_projection.hpp"
 #include "hlr/incremental/solid_boxes.hpp"
 #include "hlr/view/view_bvh.hpp"
 #include "strake/parallel/transform.hpp"
@@ -21,7 +21,7 @@ constexpr std::size_t kObjectsAtOnce = 1024;
 constexpr std::uint64_t kBytesOfLines = 8000;
 
 /// Where an object may be seen.
-struct Place {
+struct PaperReach {
   std::int64_t u = 0, v = 0;  ///< the middle of its box on paper
 };
 
@@ -98,7 +98,7 @@ class ViewSplitter {
       if (hides_ && !on_paper_[o].empty()) queries.push_back(anything_in(on_paper_[o]));
       if (crosses_) boxes.push_back(whole_.boxes[o]);
     }
-    const Hideable hideable(std::move(queries));
+    const OccludeeTree hideable(std::move(queries));
     const SolidBoxes solid(std::move(boxes));
     const auto needed = parallel::transform(
         context_, {.name = "what a part needs", .n = objects.size(), .grain = kObjectsAtOnce},
@@ -127,7 +127,8 @@ class ViewSplitter {
           asked, {}, [&](std::uint32_t o) { return places_[o].*along; });
       return places_[*most].*along - places_[*least].*along;
     };
-    const auto along = spread(&Place::u) >= spread(&Place::v) ? &Place::u : &Place::v;
+    const auto along =
+        spread(&PaperReach::u) >= spread(&PaperReach::v) ? &PaperReach::u : &PaperReach::v;
     const auto half = asked.begin() + static_cast<std::ptrdiff_t>(asked.size() / 2);
     std::nth_element(asked.begin(), half, asked.end(), [&](std::uint32_t x, std::uint32_t y) {
       const std::int64_t of_x = places_[x].*along, of_y = places_[y].*along;
@@ -163,10 +164,10 @@ class ViewSplitter {
   const ViewToSplit& whole_;
   std::uint64_t most_bytes_;
   const parallel::Context& context_;
-  Paper paper_;
+  BoundsProjection paper_;
   bool crosses_, hides_;
   std::vector<ViewBox> on_paper_;  ///< by object
-  std::vector<Place> places_;
+  std::vector<PaperReach> places_;
   std::vector<ViewPart> parts_;
 };
 

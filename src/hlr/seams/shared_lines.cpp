@@ -89,7 +89,7 @@ std::vector<SeamSurface> seam_surfaces(const ViewJob& job) {
 namespace {
 
 /// An edge of a part that may be a seam.
-struct Candidate {
+struct SharedLineCandidate {
   std::uint32_t edge = 0;
   Segment line;
   Box3l box;
@@ -109,11 +109,11 @@ class PairLines {
   void run(std::vector<SharedLine>& out) {
     const Box3l room =
         box_of_part(a_).common(box_of_part(b_).inflated(contact_)).inflated(contact_);
-    const std::vector<Candidate> of_a = candidates(a_, room), of_b = candidates(b_, room);
+    const std::vector<SharedLineCandidate> of_a = candidates(a_, room), of_b = candidates(b_, room);
     std::size_t first = 0;  // of b, sorted by the least x: none before it reaches any later edge
     std::int64_t widest = 0;
-    for (const Candidate& f : of_b) widest = std::max(widest, f.box.hi.x - f.box.lo.x);
-    for (const Candidate& e : of_a) {
+    for (const SharedLineCandidate& f : of_b) widest = std::max(widest, f.box.hi.x - f.box.lo.x);
+    for (const SharedLineCandidate& e : of_a) {
       while (first < of_b.size() && of_b[first].box.lo.x + widest + contact_ < e.box.lo.x) ++first;
       for (std::size_t i = first; i < of_b.size(); ++i) {
         if (of_b[i].box.lo.x > e.box.hi.x + contact_) break;
@@ -129,9 +129,10 @@ class PairLines {
   }
 
   /// Returns the edges that meet a box, by their least x.
-  [[nodiscard]] std::vector<Candidate> candidates(std::uint32_t surface, const Box3l& room) const {
+  [[nodiscard]] std::vector<SharedLineCandidate> candidates(std::uint32_t surface,
+                                                            const Box3l& room) const {
     const geometry::PlacedPart& placed = surfaces_[surface].placed;
-    std::vector<Candidate> found;
+    std::vector<SharedLineCandidate> found;
     for (std::uint32_t e = 0; e + 1 < placed.part->edges.size(); ++e) {
       const Segment line = edge_line(placed, e);
       const Box3l box = box_of(line);
@@ -140,11 +141,13 @@ class PairLines {
         continue;
       found.push_back({e, line, box});
     }
-    std::ranges::sort(found, {}, [](const Candidate& c) { return std::pair(c.box.lo.x, c.edge); });
+    std::ranges::sort(found, {},
+                      [](const SharedLineCandidate& c) { return std::pair(c.box.lo.x, c.edge); });
     return found;
   }
 
-  void compare(const Candidate& e, const Candidate& f, std::vector<SharedLine>& out) const {
+  void compare(const SharedLineCandidate& e, const SharedLineCandidate& f,
+               std::vector<SharedLine>& out) const {
     const LineMeasure on_e(e.line), on_f(f.line);
     const bool e_is_longer = on_e.length >= on_f.length;
     const LineMeasure& longer = e_is_longer ? on_e : on_f;

@@ -12,7 +12,7 @@
 #include "hlr/prepare/view_job.hpp"
 #include "hlr/visibility/edge_piece_builder.hpp"
 #include "hlr/visibility/open_part.hpp"
-#include "hlr/visibility/step_shares.hpp"
+#include "hlr/visibility/solver_work.hpp"
 #include "hlr/visibility/visibility_scene.hpp"
 #include "strake/hlr/steps.hpp"
 #include "strake/parallel/collect.hpp"

@@ -13,42 +13,44 @@ namespace {
 constexpr double kRoundingOfPoint = 1e-12;
 
 /// A closed interval of one coordinate, in whole units.
-struct Reach {
+struct RoundedInterval {
   std::int64_t lo = 0, hi = 0;
 };
 
 /// Returns the interval of a coordinate, rounded outwards, that the open part runs through.
-Reach reach_of(std::int64_t a, std::int64_t b, const OpenRange& open) {
+RoundedInterval reach_of(std::int64_t a, std::int64_t b, const OpenRange& open) {
   if (a == b) return {a, a};
   const std::int64_t step = b - a;
   const double slack =
       kRoundingOfPoint * (std::abs(static_cast<double>(a)) + std::abs(static_cast<double>(step)));
-  const auto at = [&](const RationalParam& t) -> Reach {
+  const auto at = [&](const RationalParam& t) -> RoundedInterval {
     if (t.num == 0) return {a, a};
     if (t.num == t.den) return {b, b};
     const double x = static_cast<double>(a) + static_cast<double>(step) * t.value;
     return {static_cast<std::int64_t>(std::floor(x - slack)),
             static_cast<std::int64_t>(std::ceil(x + slack))};
   };
-  const Reach p = at(open.lo()), q = at(open.hi());
+  const RoundedInterval p = at(open.lo()), q = at(open.hi());
   return {std::min(p.lo, q.lo), std::max(p.hi, q.hi)};
 }
 
 /// Returns what a box must meet in one coordinate. `above`: whether the left of the edge lies above
 /// it in this coordinate, where the edge has no extent in it.
-Reach to_meet(const Reach& reach, bool extends, bool above, const OpenRange& open) {
+RoundedInterval to_meet(const RoundedInterval& reach, bool extends, bool above,
+                        const OpenRange& open) {
   if (extends) return {reach.lo + 1, reach.hi - 1};
   if (open.is_open(kLeft) == open.is_open(kRight)) return reach;
   const bool open_above = open.is_open(kLeft) == above;
-  return open_above ? Reach{reach.lo + 1, reach.hi} : Reach{reach.lo, reach.hi - 1};
+  return open_above ? RoundedInterval{reach.lo + 1, reach.hi}
+                    : RoundedInterval{reach.lo, reach.hi - 1};
 }
 
 }  // namespace
 
 ViewBox open_box(const ViewPoint& a, const ViewPoint& b, const OpenRange& open) {
   const std::int64_t du = b.u - a.u, dv = b.v - a.v;
-  Reach u = reach_of(a.u, b.u, open), v = reach_of(a.v, b.v, open);
-  const Reach w = reach_of(a.w, b.w, open);
+  RoundedInterval u = reach_of(a.u, b.u, open), v = reach_of(a.v, b.v, open);
+  const RoundedInterval w = reach_of(a.w, b.w, open);
   if (du != 0 || dv != 0) {
     u = to_meet(u, du != 0, dv < 0, open);
     v = to_meet(v, dv != 0, du > 0, open);

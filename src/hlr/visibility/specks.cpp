@@ -26,7 +26,7 @@ bool is_hidden(State state) {
 }
 
 /// An interval of an edge, of one of two kinds, of which the first is preferred.
-struct Span {
+struct EdgeSpan {
   Vec3l a, b;
   std::size_t first = 0, last = 0;  ///< pieces
   std::uint8_t kind = 0;
@@ -36,7 +36,7 @@ struct Span {
 /// Gives specks the kind of what is beside them.
 class Absorber {
  public:
-  Absorber(const SpeckRule& rule, std::int64_t longest, std::vector<Span>& spans)
+  Absorber(const SpeckRule& rule, std::int64_t longest, std::vector<EdgeSpan>& spans)
       : rule_(rule), longest_(longest), spans_(spans) {}
 
   /// Returns how many specks there were. A speck with nothing beside it but spans that stay comes
@@ -54,13 +54,13 @@ class Absorber {
   }
 
  private:
-  [[nodiscard]] bool is_speck(const Span& span) const {
+  [[nodiscard]] bool is_speck(const EdgeSpan& span) const {
     return !span.stays && rule_.within(span.a, span.b, longest_);
   }
 
   void settle(std::size_t first, std::size_t last) {
-    const Span* const before = first > 0 ? &spans_[first - 1] : nullptr;
-    const Span* const after = last < spans_.size() ? &spans_[last] : nullptr;
+    const EdgeSpan* const before = first > 0 ? &spans_[first - 1] : nullptr;
+    const EdgeSpan* const after = last < spans_.size() ? &spans_[last] : nullptr;
     const bool is_short = rule_.within(spans_[first].a, spans_[last - 1].b, longest_);
     const bool lonely = (before == nullptr || before->stays) && (after == nullptr || after->stays);
     const bool at_end = before != nullptr || after != nullptr;
@@ -72,7 +72,7 @@ class Absorber {
   }
 
   /// Returns the kind of the longer neighbour.
-  [[nodiscard]] std::uint8_t kind_beside(const Span* before, const Span* after) const {
+  [[nodiscard]] std::uint8_t kind_beside(const EdgeSpan* before, const EdgeSpan* after) const {
     if (before == nullptr || before->stays) return after->kind;
     if (after == nullptr || after->stays) return before->kind;
     const double x = rule_.length(before->a, before->b), y = rule_.length(after->a, after->b);
@@ -89,7 +89,7 @@ class Absorber {
 
   const SpeckRule& rule_;
   std::int64_t longest_;
-  std::vector<Span>& spans_;
+  std::vector<EdgeSpan>& spans_;
 };
 
 /// The specks of one edge: first visible or hidden is settled, whoever hides it; then who hides it.
@@ -107,11 +107,11 @@ class EdgeSpecks {
   std::size_t absorb() {
     const bool any_seen =
         std::ranges::find(pieces_, State::visible, &EdgePiece::state) != pieces_.end();
-    std::vector<Span> seen = spans(0, pieces_.size(), [](const EdgePiece& p) {
+    std::vector<EdgeSpan> seen = spans(0, pieces_.size(), [](const EdgePiece& p) {
       return static_cast<std::uint8_t>(is_hidden(p.state) ? 1 : 0);
     });
     std::size_t specks = Absorber(rule_, longest_, seen).run();
-    for (const Span& span : seen) show(span);
+    for (const EdgeSpan& span : seen) show(span);
     // What hides pieces that are left out depends on the order in which it was found, and whether
     // an edge that is hidden wholly has pieces at all.
     if (!rule_.keeps_hidden()) return any_seen ? specks : 0;
@@ -126,11 +126,11 @@ class EdgeSpecks {
 
  private:
   template <class Kind>
-  std::vector<Span> spans(std::size_t first, std::size_t last, Kind&& kind) const {
-    std::vector<Span> result;
+  std::vector<EdgeSpan> spans(std::size_t first, std::size_t last, Kind&& kind) const {
+    std::vector<EdgeSpan> result;
     for (std::size_t i = first; i < last; ++i) {
       const EdgePiece& piece = pieces_[i];
-      const Span next{piece.a, piece.b, i, i + 1, kind(piece), !has_ink(piece.state)};
+      const EdgeSpan next{piece.a, piece.b, i, i + 1, kind(piece), !has_ink(piece.state)};
       if (!result.empty() && result.back().kind == next.kind && result.back().stays == next.stays) {
         result.back().b = next.b;
         result.back().last = next.last;
@@ -142,7 +142,7 @@ class EdgeSpecks {
   }
 
   /// Pieces that become hidden are so by what hides them, or by what hides the piece beside them.
-  void show(const Span& span) {
+  void show(const EdgeSpan& span) {
     for (std::size_t i = span.first; i < span.last; ++i) {
       EdgePiece& piece = pieces_[i];
       if (!has_ink(piece.state)) continue;
@@ -163,11 +163,11 @@ class EdgeSpecks {
   }
 
   std::size_t absorb_by_occluder(std::size_t first, std::size_t last) {
-    std::vector<Span> by = spans(first, last, [](const EdgePiece& p) {
+    std::vector<EdgeSpan> by = spans(first, last, [](const EdgePiece& p) {
       return static_cast<std::uint8_t>(p.state == State::hidden_by_self ? 0 : 1);
     });
     const std::size_t specks = Absorber(rule_, longest_, by).run();
-    for (const Span& span : by)
+    for (const EdgeSpan& span : by)
       for (std::size_t i = span.first; i < span.last; ++i)
         pieces_[i].state = span.kind == 0 ? State::hidden_by_self : State::hidden_by_other;
     return specks;

@@ -45,11 +45,6 @@ class LineScanner {
   void finish_line() {
     if (at_ > 0 && text_[at_ - 1] != '\n') next_line();
   }
-  /// Returns the next line, trimmed, without consuming it.
-  [[nodiscard]] std::string_view peek_line() const {
-    const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    return trimmed(text_.substr(at_, end - at_), kLineBlanks);
-  }
   [[nodiscard]] std::optional<float> number();
   [[nodiscard]] std::optional<std::uint32_t> count();
 

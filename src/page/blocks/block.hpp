@@ -13,7 +13,7 @@ namespace strake::page {
 
 /// Bytes that are made when they are written, a row at a time: several workers ask for rows at
 /// once.
-struct Section {
+struct RowSource {
   std::size_t rows = 0;
   std::uint64_t bytes = 0;  ///< of all rows
   /// Appends the bytes of rows [begin, end).
@@ -23,11 +23,11 @@ struct Section {
 /// A block of the page: its sections one after another.
 struct Block {
   std::string id;
-  std::vector<Section> sections;
+  std::vector<RowSource> sections;
 
   [[nodiscard]] std::uint64_t bytes() const {
     std::uint64_t all = 0;
-    for (const Section& section : sections) all += section.bytes;
+    for (const RowSource& section : sections) all += section.bytes;
     return all;
   }
 };

@@ -21,12 +21,12 @@ namespace strake::page {
 namespace {
 
 /// Rows of a section.
-struct Piece {
+struct RowRange {
   std::size_t section = 0, begin = 0, end = 0;
 };
 
 /// What one worker makes and compresses at a time.
-using Batch = std::vector<Piece>;
+using Batch = std::vector<RowRange>;
 
 /// A batch, compressed so that the next one may follow it in one stream.
 struct Packed {
@@ -44,7 +44,7 @@ class Batches {
     Batch batch;
     std::uint64_t bytes = 0;
     while (section_ < block_.sections.size() && bytes < kBatchBytes) {
-      const Section& section = block_.sections[section_];
+      const RowSource& section = block_.sections[section_];
       if (row_ >= section.rows) {
         ++section_;
         row_ = 0;
@@ -106,7 +106,7 @@ class Deflater {
 
 Result<Packed> pack(const Block& block, const Batch& batch) {
   std::string text;
-  for (const Piece& piece : batch)
+  for (const RowRange& piece : batch)
     block.sections[piece.section].append(piece.begin, piece.end, text);
   Packed packed;
   packed.bytes = text.size();

@@ -34,7 +34,7 @@ Block text_block(std::string id, std::string text) {
 }
 
 void Columns::add(std::string_view name, std::string_view type, std::uint64_t count,
-                  std::uint64_t text_bytes, std::vector<Section> sections) {
+                  std::uint64_t text_bytes, std::vector<RowSource> sections) {
   directory_ += directory_.empty() ? "{\"columns\": [" : ", ";
   directory_.append("{\"name\": \"").append(name).append("\", \"type\": \"").append(type);
   directory_ += "\", \"count\": " + std::to_string(count);
@@ -59,17 +59,17 @@ void Columns::texts(std::string_view name, std::size_t rows, const TextOf& text)
   std::uint64_t bytes = 0;
   std::string room, mended;
   for (std::size_t row = 0; row < rows; ++row) bytes += shown(row, room, mended).size();
-  Section lengths{rows, rows * sizeof(std::uint32_t),
-                  [shown](std::size_t begin, std::size_t end, std::string& out) {
-                    std::string of_row, valid;
-                    for (std::size_t row = begin; row < end; ++row)
-                      append_number(out,
-                                    static_cast<std::uint32_t>(shown(row, of_row, valid).size()));
-                  }};
-  Section all{rows, bytes, [shown](std::size_t begin, std::size_t end, std::string& out) {
-                std::string of_row, valid;
-                for (std::size_t row = begin; row < end; ++row) out += shown(row, of_row, valid);
-              }};
+  RowSource lengths{rows, rows * sizeof(std::uint32_t),
+                    [shown](std::size_t begin, std::size_t end, std::string& out) {
+                      std::string of_row, valid;
+                      for (std::size_t row = begin; row < end; ++row)
+                        append_number(out,
+                                      static_cast<std::uint32_t>(shown(row, of_row, valid).size()));
+                    }};
+  RowSource all{rows, bytes, [shown](std::size_t begin, std::size_t end, std::string& out) {
+                  std::string of_row, valid;
+                  for (std::size_t row = begin; row < end; ++row) out += shown(row, of_row, valid);
+                }};
   add(name, "text", rows, bytes, {std::move(lengths), std::move(all)});
 }
 
@@ -77,7 +77,7 @@ Block Columns::finish() && {
   directory_ += directory_.empty() ? "{\"columns\": []}" : "]}";
   std::string head = "SCOL";
   append_number(head, static_cast<std::uint32_t>(directory_.size()));
-  Section first = std::move(text_block({}, head + directory_).sections.front());
+  RowSource first = std::move(text_block({}, head + directory_).sections.front());
   block_.sections.insert(block_.sections.begin(), std::move(first));
   return std::move(block_);
 }

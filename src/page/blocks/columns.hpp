@@ -59,7 +59,7 @@ class Columns {
   template <class Value>
   void millionths(std::string_view name, std::size_t rows, const Value& value) {
     static_assert(std::same_as<std::invoke_result_t<const Value&, std::size_t>, std::int64_t>);
-    std::vector<Section> planes;
+    std::vector<RowSource> planes;
     for (unsigned plane = 0; plane < 8; ++plane)
       planes.push_back(
           {rows, rows, [value, plane](std::size_t begin, std::size_t end, std::string& out) {
@@ -99,7 +99,7 @@ class Columns {
   }
   /// `text_bytes` counts for texts alone.
   void add(std::string_view name, std::string_view type, std::uint64_t count,
-           std::uint64_t text_bytes, std::vector<Section> sections);
+           std::uint64_t text_bytes, std::vector<RowSource> sections);
 
   Block block_;
   std::string directory_;

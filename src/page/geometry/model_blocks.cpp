@@ -41,7 +41,7 @@ struct SceneBoxes {
 SceneBoxes boxes_of(const model::Scene& scene, const ShownObjects& shown) {
   SceneBoxes boxes;
   for (std::uint32_t o = 0; o < shown.of.size(); ++o) {
-    if (shown.of[o] == Shown::nothing) continue;
+    if (shown.of[o] == ShownAs::nothing) continue;
     Box3l box = geometry::empty_box<std::int64_t>();
     for (const model::GridBody& body : scene.bodies_of(model::ObjectId{o}))
       box.include(body.box(scene.shapes[body.grid_shape]));
@@ -49,7 +49,7 @@ SceneBoxes boxes_of(const model::Scene& scene, const ShownObjects& shown) {
     if (box.empty()) continue;
     for (int k = 0; k < 3; ++k)
       boxes.corner_sums[static_cast<std::size_t>(k)].push_back(box.lo[k] + box.hi[k]);
-    if (shown.of[o] == Shown::box) boxes.of_objects.push_back({o, box});
+    if (shown.of[o] == ShownAs::box) boxes.of_objects.push_back({o, box});
   }
   return boxes;
 }

@@ -135,7 +135,7 @@ Result<PageShapes> page_shapes(const model::Scene& scene, const ShownObjects& sh
                                const Vec3d& origin_mm, const parallel::Context& context) {
   ShapeBook book(scene, origin_mm);
   for (const model::GridBody& body : scene.bodies)
-    if (shown.of[model::index(body.object)] == Shown::shape) book.add(body);
+    if (shown.of[model::index(body.object)] == ShownAs::shape) book.add(body);
   return std::move(book).finish(context);
 }
 

@@ -13,23 +13,23 @@
 namespace strake::page {
 namespace {
 
-/// What a page may have of shapes without a wish of the user: it is to open in some seconds.
-struct Room {
+/// How many shapes a page may have that nobody asked for: it is to open in some seconds.
+struct ShapeBudget {
   std::uint64_t shape_bytes = 24'000'000;  ///< before they are compressed
   std::uint64_t instances = 250'000;
   std::uint64_t triangles = 3'000'000;  ///< of all instances
 
-  [[nodiscard]] bool holds(const Room& other) const {
+  [[nodiscard]] bool holds(const ShapeBudget& other) const {
     return other.shape_bytes <= shape_bytes && other.instances <= instances &&
            other.triangles <= triangles;
   }
-  void take(const Room& other) {
+  void take(const ShapeBudget& other) {
     shape_bytes -= other.shape_bytes;
     instances -= other.instances;
     triangles -= other.triangles;
   }
 };
-constexpr Room kNothing{0, 0, 0};
+constexpr ShapeBudget kNothing{0, 0, 0};
 
 /// What a shape takes, once and for each of its instances.
 struct ShapeCost {
@@ -54,24 +54,24 @@ ShapeCost cost_of(const model::GridShape& shape, const model::Model& model) {
 }
 
 /// Gives room to objects, first come, first served.
-class Chooser {
+class ShapeChooser {
  public:
-  Chooser(const model::Scene& scene, std::vector<ShapeCost> costs, ShownObjects& chosen)
+  ShapeChooser(const model::Scene& scene, std::vector<ShapeCost> costs, ShownObjects& chosen)
       : scene_(scene), costs_(std::move(costs)), has_(costs_.size(), false), chosen_(chosen) {}
 
   /// Returns what the objects take, each shape once.
-  [[nodiscard]] Room all() const {
+  [[nodiscard]] ShapeBudget all() const {
     std::vector<bool> counted(costs_.size(), false);
-    Room sum = kNothing;
+    ShapeBudget sum = kNothing;
     for (const model::GridBody& body : scene_.bodies)
-      if (chosen_.of[model::index(body.object)] != Shown::nothing)
+      if (chosen_.of[model::index(body.object)] != ShownAs::nothing)
         add(sum, counted, body.grid_shape);
     return sum;
   }
   void show(model::ObjectId object) {
-    Shown& shown = chosen_.of[model::index(object)];
-    if (shown != Shown::box) return;
-    Room needed = kNothing;
+    ShownAs& shown = chosen_.of[model::index(object)];
+    if (shown != ShownAs::box) return;
+    ShapeBudget needed = kNothing;
     std::vector<std::uint32_t> fresh;
     for (const model::GridBody& body : scene_.bodies_of(object)) {
       if (!has_[body.grid_shape]) fresh.push_back(body.grid_shape);
@@ -83,11 +83,11 @@ class Chooser {
       return;
     }
     left_.take(needed);
-    shown = Shown::shape;
+    shown = ShownAs::shape;
   }
 
  private:
-  void add(Room& sum, std::vector<bool>& counted, std::uint32_t shape) const {
+  void add(ShapeBudget& sum, std::vector<bool>& counted, std::uint32_t shape) const {
     const ShapeCost& cost = costs_[shape];
     if (!counted[shape]) sum.shape_bytes += cost.bytes;
     counted[shape] = true;
@@ -98,7 +98,7 @@ class Chooser {
   const model::Scene& scene_;
   std::vector<ShapeCost> costs_;
   std::vector<bool> has_;
-  Room left_;
+  ShapeBudget left_;
   ShownObjects& chosen_;
 };
 
@@ -121,41 +121,41 @@ Result<std::vector<std::uint8_t>> near_objects(const model::Scene& scene,
       });
 }
 
-Status show_wanted(Chooser& chooser, const model::Scene& scene, const ShownWishes& wishes,
-                   const parallel::Context& context) {
-  for (const model::ObjectId object : wishes.first) chooser.show(object);
-  const Result<std::vector<std::uint8_t>> near = near_objects(scene, wishes.places_mm, context);
+Status show_by_priority(ShapeChooser& chooser, const model::Scene& scene,
+                        const ShowPriorities& priorities, const parallel::Context& context) {
+  for (const model::ObjectId object : priorities.first) chooser.show(object);
+  const Result<std::vector<std::uint8_t>> near = near_objects(scene, priorities.places_mm, context);
   if (!near) return near.error();
   for (std::uint32_t o = 0; o < near->size(); ++o)
     if ((*near)[o] != 0) chooser.show(model::ObjectId{o});
-  for (const model::ObjectId object : wishes.last) chooser.show(object);
+  for (const model::ObjectId object : priorities.last) chooser.show(object);
   return {};
 }
 
 }  // namespace
 
-Result<ShownObjects> choose_shown(const model::Scene& scene, const ShownWishes& wishes,
+Result<ShownObjects> choose_shown(const model::Scene& scene, const ShowPriorities& priorities,
                                   const parallel::Context& context) {
   using report::ModelShown;
   ShownObjects chosen;
-  chosen.of.assign(scene.model->objects.size(), Shown::nothing);
-  if (wishes.how == ModelShown::nothing) return chosen;
+  chosen.of.assign(scene.model->objects.size(), ShownAs::nothing);
+  if (priorities.how == ModelShown::nothing) return chosen;
   for (const model::GridBody& body : scene.bodies)
-    if (wishes.drawn.empty() || wishes.drawn[model::index(body.object)])
-      chosen.of[model::index(body.object)] = Shown::box;
-  if (wishes.how == ModelShown::boxes) return chosen;
+    if (priorities.drawn.empty() || priorities.drawn[model::index(body.object)])
+      chosen.of[model::index(body.object)] = ShownAs::box;
+  if (priorities.how == ModelShown::boxes) return chosen;
   std::vector<ShapeCost> costs;
   costs.reserve(scene.shapes.size());
   for (const model::GridShape& shape : scene.shapes) costs.push_back(cost_of(shape, *scene.model));
-  Chooser chooser(scene, std::move(costs), chosen);
-  const bool fits = wishes.how == ModelShown::automatic && Room{}.holds(chooser.all());
-  if (fits || wishes.how == ModelShown::all) {
-    for (Shown& shown : chosen.of)
-      if (shown == Shown::box) shown = Shown::shape;
+  ShapeChooser chooser(scene, std::move(costs), chosen);
+  const bool fits = priorities.how == ModelShown::automatic && ShapeBudget{}.holds(chooser.all());
+  if (fits || priorities.how == ModelShown::all) {
+    for (ShownAs& shown : chosen.of)
+      if (shown == ShownAs::box) shown = ShownAs::shape;
     return chosen;
   }
   chosen.is_near_only = true;
-  if (const Status status = show_wanted(chooser, scene, wishes, context); !status)
+  if (const Status status = show_by_priority(chooser, scene, priorities, context); !status)
     return status.error();
   return chosen;
 }

@@ -13,13 +13,13 @@
 /// Which objects of a model a page shows as they are, and of which a box must do.
 namespace strake::page {
 
-enum class Shown : std::uint8_t { nothing, box, shape };
+enum class ShownAs : std::uint8_t { nothing, box, shape };
 
-/// What within this distance of a clash is shown as it is, where not everything is, mm.
+/// Where not everything is shown as it is, what lies within this distance of a clash is, mm.
 inline constexpr double kReachMm = 2000;
 
-/// What counts when a page cannot have everything.
-struct ShownWishes {
+/// Which objects come first when a page cannot have everything.
+struct ShowPriorities {
   report::ModelShown how = report::ModelShown::automatic;
   /// Objects in the order in which they are wanted as they are; others are wanted after those that
   /// are near.
@@ -31,16 +31,17 @@ struct ShownWishes {
 };
 
 struct ShownObjects {
-  std::vector<Shown> of;      ///< an entry per object
+  std::vector<ShownAs> of;    ///< an entry per object
   bool is_near_only = false;  ///< objects are boxes because there are too many for shapes
   bool is_full = false;       ///< some that were wanted as shapes had no room
 };
 
-/// Chooses. Automatically all objects are shown as they are while shapes and instances stay within
-/// what a browser takes well (decision 0085), else those that are wanted, as far as there is room.
-/// The choice depends on the scene and the wishes alone. Errors: cancelled, out of memory.
+/// Chooses what is shown of each object. Automatically all objects are shown as they are while
+/// shapes and instances stay within what a browser takes well (decision 0085), else those that are
+/// wanted, as far as there is room. The choice depends on the scene and the priorities alone.
+/// Errors: cancelled, out of memory.
 [[nodiscard]] Result<ShownObjects> choose_shown(const model::Scene& scene,
-                                                const ShownWishes& wishes,
+                                                const ShowPriorities& priorities,
                                                 const parallel::Context& context);
 
 }  // namespace strake::page

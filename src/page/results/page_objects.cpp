@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "page/blocks/columns.hpp"
-#include "report/clash/attribute_columns.hpp"
+#include "report/clash/contents.hpp"
 
 namespace strake::page {
 namespace {

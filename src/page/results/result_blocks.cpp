@@ -65,8 +65,8 @@ class ColumnsOf {
         name, rows_, [at = at_, value](std::size_t row) -> std::int64_t { return value(at(row)); });
   }
   /// Adds d with its bracket, and the point; `found(row)` is a result or a region.
-  template <class Found>
-  void measured(Found found) {
+  template <class TestedResult>
+  void measured(TestedResult found) {
     millionths("d", [found](const auto& row) { return report::millionths(found(row).d_mm); });
     millionths("d_low", [found](const auto& row) {
       return report::millionths_floor(found(row).d_lower_mm);
@@ -89,7 +89,7 @@ class ColumnsOf {
 };
 
 /// A result with the test that found it.
-struct Found {
+struct TestedResult {
   PageRow row;
   std::size_t number;
   const Report& test;
@@ -119,7 +119,7 @@ class ResultColumns {
     return [rows = &source_.rows, findings = &findings_](std::size_t number) {
       const PageRow row = rows->at(number);
       const Report& test = findings->tests[row.test];
-      return Found{row, number, test, test.pairs[row.pair]};
+      return TestedResult{row, number, test, test.pairs[row.pair]};
     };
   }
   [[nodiscard]] auto of_results() { return ColumnsOf(columns_, rows_, found()); }
@@ -136,33 +136,36 @@ class ResultColumns {
     columns_.keys(
         "key", rows_,
         [model = &source_.contents.model, at = found()](std::size_t row, std::string& out) {
-          const Found one = at(row);
+          const TestedResult one = at(row);
           out += clash::pair_key(one.test.name, *model, one.pair.a, one.pair.b);
         });
     auto columns = of_results();
     const auto numbers = source_.objects.number_of;
     columns.template numbers<std::uint16_t>(
-        "test", [](const Found& f) { return static_cast<std::uint16_t>(f.row.test); });
+        "test", [](const TestedResult& f) { return static_cast<std::uint16_t>(f.row.test); });
     columns.template numbers<std::uint32_t>(
-        "a", [numbers](const Found& f) { return (*numbers)[model::index(f.pair.a)]; });
+        "a", [numbers](const TestedResult& f) { return (*numbers)[model::index(f.pair.a)]; });
     columns.template numbers<std::uint32_t>(
-        "b", [numbers](const Found& f) { return (*numbers)[model::index(f.pair.b)]; });
+        "b", [numbers](const TestedResult& f) { return (*numbers)[model::index(f.pair.b)]; });
   }
 
   void add_measures() {
     auto columns = of_results();
-    columns.template numbers<std::uint8_t>("class",
-                                           [](const Found& f) { return class_number(f.pair.cls); });
     columns.template numbers<std::uint8_t>(
-        "relation", [](const Found& f) { return static_cast<std::uint8_t>(f.pair.relation); });
-    columns.template numbers<std::uint8_t>(
-        "flags", [](const Found& f) { return flag_bits(f.pair.flags, f.pair.depth_complete); });
-    columns.measured([](const Found& f) -> const Pair& { return f.pair; });
-    columns.template numbers<std::uint8_t>(
-        "witness", [](const Found& f) { return static_cast<std::uint8_t>(witness_of(f.pair)); });
+        "class", [](const TestedResult& f) { return class_number(f.pair.cls); });
+    columns.template numbers<std::uint8_t>("relation", [](const TestedResult& f) {
+      return static_cast<std::uint8_t>(f.pair.relation);
+    });
+    columns.template numbers<std::uint8_t>("flags", [](const TestedResult& f) {
+      return flag_bits(f.pair.flags, f.pair.depth_complete);
+    });
+    columns.measured([](const TestedResult& f) -> const Pair& { return f.pair; });
+    columns.template numbers<std::uint8_t>("witness", [](const TestedResult& f) {
+      return static_cast<std::uint8_t>(witness_of(f.pair));
+    });
     constexpr std::array<std::string_view, 6> kNames{"p_x", "p_y", "p_z", "q_x", "q_y", "q_z"};
     for (std::size_t k = 0; k < kNames.size(); ++k)
-      columns.millionths(kNames[k], [k](const Found& f) {
+      columns.millionths(kNames[k], [k](const TestedResult& f) {
         return report::millionths(witness_vectors(f.pair)[k / 3][static_cast<int>(k % 3)]);
       });
   }
@@ -171,17 +174,19 @@ class ResultColumns {
     auto columns = of_results();
     if (source_.contents.grouping != nullptr)
       columns.template numbers<std::uint32_t>(
-          "group",
-          [numbers = std::make_shared<const report::GroupNumbers>(source_.contents)](
-              const Found& f) { return numbers->of(f.row.test, f.row.pair).value_or(kNone); });
+          "group", [numbers = std::make_shared<const report::GroupNumbers>(source_.contents)](
+                       const TestedResult& f) {
+            return numbers->of(f.row.test, f.row.pair).value_or(kNone);
+          });
     if (!source_.names.rules.empty())
-      columns.template numbers<std::uint16_t>("allowed", [names = &source_.names](const Found& f) {
-        if (f.pair.allowed < 0) return kNoName;
-        return names->rule_of[f.row.test][static_cast<std::size_t>(f.pair.allowed)];
-      });
+      columns.template numbers<std::uint16_t>(
+          "allowed", [names = &source_.names](const TestedResult& f) {
+            if (f.pair.allowed < 0) return kNoName;
+            return names->rule_of[f.row.test][static_cast<std::size_t>(f.pair.allowed)];
+          });
     if (any_pair([](const Pair& p) { return may_be(p) != kNoClass; }))
       columns.template numbers<std::uint8_t>("may_be",
-                                             [](const Found& f) { return may_be(f.pair); });
+                                             [](const TestedResult& f) { return may_be(f.pair); });
     if (any_test([](const Report& test) { return test.levels; })) add_levels();
     if (!source_.names.disciplines.empty()) add_disciplines();
     if (any_test([](const Report& test) {
@@ -189,18 +194,18 @@ class ResultColumns {
             return clash::required_clearance_mm(test, p).has_value();
           });
         }))
-      columns.millionths("clearance", [](const Found& f) {
+      columns.millionths("clearance", [](const TestedResult& f) {
         const std::optional<double> mm = clash::required_clearance_mm(f.test, f.pair);
         return mm ? report::millionths(*mm) : std::int64_t{-1};
       });
     if (any_test([](const Report& test) { return test.options.engine.most_regions > 0; }))
-      columns.template numbers<std::uint32_t>("region_count", [](const Found& f) {
+      columns.template numbers<std::uint32_t>("region_count", [](const TestedResult& f) {
         if (f.test.options.engine.most_regions == 0) return std::uint32_t{0};
         return f.pair.regions == 0 ? kNone : f.pair.regions;
       });
     if (any_pair([](const Pair& p) { return p.allowed_regions > 0; }))
       columns.template numbers<std::uint32_t>(
-          "allowed_region_count", [](const Found& f) { return f.pair.allowed_regions; });
+          "allowed_region_count", [](const TestedResult& f) { return f.pair.allowed_regions; });
     if (any_test(
             [](const Report& test) { return test.options.engine.volumes == clash::Volumes::on; }))
       add_volumes();
@@ -220,25 +225,25 @@ class ResultColumns {
                          : std::uint8_t{0};
     };
     columns.template numbers<std::uint8_t>(
-        "level_a", [number](const Found& f) { return number(f.test, f.pair.level_a); });
+        "level_a", [number](const TestedResult& f) { return number(f.test, f.pair.level_a); });
     columns.template numbers<std::uint8_t>(
-        "level_b", [number](const Found& f) { return number(f.test, f.pair.level_b); });
+        "level_b", [number](const TestedResult& f) { return number(f.test, f.pair.level_b); });
   }
 
   void add_disciplines() {
     auto columns = of_results();
-    const auto number = [names = &source_.names](const Found& f, model::ObjectId object) {
+    const auto number = [names = &source_.names](const TestedResult& f, model::ObjectId object) {
       if (f.test.disciplines.empty()) return kNoName;
       const std::uint32_t label = f.test.discipline[model::index(object)];
       return label == clash::kNoLabel ? kNoName : names->discipline_of[f.row.test][label];
     };
     columns.template numbers<std::uint16_t>(
-        "discipline_a", [number](const Found& f) { return number(f, f.pair.a); });
+        "discipline_a", [number](const TestedResult& f) { return number(f, f.pair.a); });
     columns.template numbers<std::uint16_t>(
-        "discipline_b", [number](const Found& f) { return number(f, f.pair.b); });
+        "discipline_b", [number](const TestedResult& f) { return number(f, f.pair.b); });
   }
 
-  static bool has_volume(const Found& f) {
+  static bool has_volume(const TestedResult& f) {
     return f.pair.cls == clash::Class::hit && f.test.options.engine.volumes == clash::Volumes::on;
   }
 
@@ -246,7 +251,7 @@ class ResultColumns {
     constexpr double kMostMm3 = 9e12;  // beyond it a double has no millionths
     auto columns = of_results();
     if (any_pair([](const Pair& p) { return p.volume_mm3.value_or(0) > kMostMm3; })) {
-      columns.template numbers<double>("volume_mm3", [](const Found& f) {
+      columns.template numbers<double>("volume_mm3", [](const TestedResult& f) {
         if (!has_volume(f)) return std::numeric_limits<double>::quiet_NaN();
         return f.pair.volume_mm3 ? static_cast<double>(report::millionths(*f.pair.volume_mm3)) / 1e6
                                  : -1.0;
@@ -254,7 +259,7 @@ class ResultColumns {
       return;
     }
     constexpr std::int64_t kNotKnown = -1, kNotMeasured = -2;
-    columns.millionths("volume", [](const Found& f) {
+    columns.millionths("volume", [](const TestedResult& f) {
       if (!has_volume(f)) return kNotMeasured;
       return f.pair.volume_mm3 ? report::millionths(*f.pair.volume_mm3) : kNotKnown;
     });
@@ -264,12 +269,12 @@ class ResultColumns {
     auto columns = of_results();
     const auto decided = std::make_shared<const std::vector<const report::DecidedResult*>>(
         decided_rows(source_.contents, source_.rows));
-    columns.template numbers<std::uint8_t>("status", [decided](const Found& f) {
+    columns.template numbers<std::uint8_t>("status", [decided](const TestedResult& f) {
       const report::DecidedResult* const of = (*decided)[f.number];
       if (of != nullptr) return static_cast<std::uint8_t>(of->decision->status);
       return f.pair.allowed >= 0 ? kNoDecision : std::uint8_t{0};
     });
-    columns.template numbers<std::uint8_t>("reopened", [decided](const Found& f) {
+    columns.template numbers<std::uint8_t>("reopened", [decided](const TestedResult& f) {
       const report::DecidedResult* const of = (*decided)[f.number];
       return of == nullptr ? std::uint8_t{0} : static_cast<std::uint8_t>(of->reopened);
     });

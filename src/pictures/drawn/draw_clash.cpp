@@ -21,24 +21,24 @@ using geometry::Vec3d;
 using geometry::Vec3l;
 
 /// How lines look, from what is covered to what covers.
-enum class Stroke : std::uint8_t { other, hidden_a, hidden_b, a, b, crossing };
+enum class LineRole : std::uint8_t { other, hidden_a, hidden_b, a, b, crossing };
 constexpr std::size_t kStrokes = 6;
 
-PictureLine styled(Stroke stroke) {
+PictureLine styled(LineRole stroke) {
   constexpr double kThin = 0.13, kHidden = 0.2, kWide = 0.5, kCrossing = 0.6;
   constexpr Colour kGrey{0x8c, 0x8c, 0x8c};
   switch (stroke) {
-    case Stroke::other:
+    case LineRole::other:
       return {{}, {}, kThin, kGrey, false};
-    case Stroke::hidden_a:
+    case LineRole::hidden_a:
       return {{}, {}, kHidden, kColourOfA, true};
-    case Stroke::hidden_b:
+    case LineRole::hidden_b:
       return {{}, {}, kHidden, kColourOfB, true};
-    case Stroke::a:
+    case LineRole::a:
       return {{}, {}, kWide, kColourOfA, false};
-    case Stroke::b:
+    case LineRole::b:
       return {{}, {}, kWide, kColourOfB, false};
-    case Stroke::crossing:
+    case LineRole::crossing:
       break;
   }
   return {{}, {}, kCrossing, kColourOfMark, false};
@@ -154,8 +154,8 @@ class ClashDrawer {
     return {};
   }
 
-  [[nodiscard]] std::optional<Stroke> stroke_of(const hlr::EdgePiece& piece,
-                                                const SmallScene& small) const {
+  [[nodiscard]] std::optional<LineRole> stroke_of(const hlr::EdgePiece& piece,
+                                                  const SmallScene& small) const {
     const Role role = roles_.of(small.object[index(piece.object)]);
     const Role other = roles_.of(small.object[index(piece.other)]);
     const bool hidden =
@@ -164,16 +164,16 @@ class ClashDrawer {
       // Of a group those of the worst alone: all of them together are a thicket.
       if (role == Role::other || small.object[index(piece.object)] != roles_.first(role))
         return std::nullopt;
-      return role == Role::a ? Stroke::hidden_a : Stroke::hidden_b;
+      return role == Role::a ? LineRole::hidden_a : LineRole::hidden_b;
     }
     if (piece.state != hlr::State::visible) return std::nullopt;
-    if (role != other && role != Role::other && other != Role::other) return Stroke::crossing;
-    if (role == Role::other && other == Role::other) return Stroke::other;
-    return (role == Role::other ? other : role) == Role::a ? Stroke::a : Stroke::b;
+    if (role != other && role != Role::other && other != Role::other) return LineRole::crossing;
+    if (role == Role::other && other == Role::other) return LineRole::other;
+    return (role == Role::other ? other : role) == Role::a ? LineRole::a : LineRole::b;
   }
 
   [[nodiscard]] std::optional<PictureLine> line_of(const hlr::EdgePiece& piece,
-                                                   Stroke stroke) const {
+                                                   LineRole stroke) const {
     const auto cut =
         within(paper(geometry::to_mm(piece.a - target_)), paper(geometry::to_mm(piece.b - target_)),
                picture_.width_mm, picture_.view_mm);

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pictures/folder.hpp"
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "pictures/drawn/caption.hpp"
-#include "pictures/folder/new_folder.hpp"
 #include "pictures/folder/shown_subjects.hpp"
 #include "strake/core/atomic_file.hpp"
+#include "strake/core/result.hpp"
 #include "strake/drawing/write.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -18,6 +20,77 @@ namespace strake::pictures {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// A folder that appears whole or not at all: files are put into one beside it, which takes its
+/// place at the end. Without a commit the destructor removes what was put there.
+class NewFolder {
+ public:
+  /// Errors: output.
+  [[nodiscard]] static Result<NewFolder> beside(const std::filesystem::path& target);
+  ~NewFolder();
+  NewFolder(NewFolder&& other) noexcept;
+  NewFolder& operator=(NewFolder&& other) = delete;
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+
+  /// Where files go for now.
+  [[nodiscard]] const std::filesystem::path& path() const { return temporary_; }
+  /// Puts it in the place of the target, which is removed where it is there. Errors: output.
+  [[nodiscard]] Status commit();
+
+ private:
+  NewFolder() = default;
+
+  std::filesystem::path target_, temporary_;
+};
+
+Error cannot_write(const fs::path& target, const std::error_code& why) {
+  return {ErrorCode::output, "cannot write the folder: " + why.message(), target.string(),
+          "choose a place that can be written to"};
+}
+
+Result<NewFolder> NewFolder::beside(const fs::path& target) {
+  NewFolder folder;
+  std::error_code fault;
+  folder.target_ = fs::absolute(target, fault).lexically_normal();
+  if (fault) return cannot_write(target, fault);
+  if (!folder.target_.has_filename()) folder.target_ = folder.target_.parent_path();
+  // What the mask of the process allows holds for this folder as for any other.
+  constexpr int kTries = 1000;
+  for (int i = 0; i < kTries && !fault; ++i) {
+    const fs::path name = folder.target_.parent_path() /
+                          ("." + folder.target_.filename().string() + ".new" + std::to_string(i));
+    if (!fs::create_directory(name, fault)) continue;
+    folder.temporary_ = name;
+    return folder;
+  }
+  return cannot_write(target, fault ? fault : std::make_error_code(std::errc::file_exists));
+}
+
+NewFolder::NewFolder(NewFolder&& other) noexcept
+    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})) {}
+
+NewFolder::~NewFolder() {
+  std::error_code fault;
+  if (!temporary_.empty()) fs::remove_all(temporary_, fault);
+}
+
+Status NewFolder::commit() {
+  std::error_code fault;
+  const fs::path old = temporary_.string() + ".old";
+  const bool replaces = fs::exists(target_, fault);
+  if (replaces) fs::rename(target_, old, fault);
+  if (fault) return cannot_write(target_, fault);
+  fs::rename(temporary_, target_, fault);
+  if (fault) {
+    std::error_code ignored;
+    if (replaces) fs::rename(old, target_, ignored);
+    return cannot_write(target_, fault);
+  }
+  temporary_.clear();
+  if (replaces) fs::remove_all(old, fault);
+  return {};
+}
 
 constexpr std::string_view kIndex = "index.html";
 constexpr std::string_view kFirstLine = "<!DOCTYPE html><!-- pictures of clashes by Strake -->";

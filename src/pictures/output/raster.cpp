@@ -63,7 +63,7 @@ class Raster {
 
   /// Where a point of the sheet lies between two of the shade; `weight` is that of the second, of
   /// kWeights.
-  struct Between {
+  struct Interpolation {
     std::uint32_t first = 0, second = 0, weight = 0;
     bool inside = false;
   };
@@ -71,9 +71,9 @@ class Raster {
 
   /// Returns where the points of the sheet lie, `begin` to begin + length, over `count` of the
   /// shade.
-  static std::vector<Between> between(std::uint32_t points, double begin, double length,
-                                      std::uint32_t count) {
-    std::vector<Between> all(points);
+  static std::vector<Interpolation> between(std::uint32_t points, double begin, double length,
+                                            std::uint32_t count) {
+    std::vector<Interpolation> all(points);
     for (std::uint32_t i = 0; i < points; ++i) {
       const double share = (i + 0.5 - begin) / length;
       if (share < 0 || share >= 1) continue;
@@ -96,7 +96,7 @@ class Raster {
       const Colour* const below = &shade.points[std::size_t{rows[row].second} * shade.width];
       std::uint8_t* point = &bytes_[std::size_t{row} * width_ * 3];
       for (std::uint32_t column = 0; column < width_; ++column, point += 3) {
-        const Between& at = columns[column];
+        const Interpolation& at = columns[column];
         if (!at.inside) continue;
         const auto mix = [&](std::uint8_t Colour::* channel) {
           const auto across = [&](const Colour* of_row) {

@@ -49,14 +49,14 @@ double visibility(const SeenShares& seen) {
          (kWithoutPoint + (1 - kWithoutPoint) * seen.at_point);
 }
 
-Candidate candidate_of(const Vec3d& viewer, double share) {
-  return {viewer, share, worth(share) * liking(viewer)};
+ViewCandidate candidate_of(const Vec3d& viewer, double share) {
+  return {viewer, share, share_score(share) * direction_preference(viewer)};
 }
 
 /// A direction and what it shows of the two where nothing else stands before them.
-struct Bound {
+struct ScoreBound {
   SightBuffer sight;
-  Candidate alone;
+  ViewCandidate alone;
 };
 
 }  // namespace
@@ -88,7 +88,7 @@ double visible_share(const NearTriangles& triangles, const Vec3d& viewer, const 
   return visibility(buffer.shares());
 }
 
-double liking(const Vec3d& viewer) {
+double direction_preference(const Vec3d& viewer) {
   constexpr double kPlan = 0.95, kLow = 0.15, kBelow = -0.15;
   const Vec3d to = unit(viewer);
   const bool along_axis = std::max({std::fabs(to.x), std::fabs(to.y), std::fabs(to.z)}) > kPlan;
@@ -96,27 +96,28 @@ double liking(const Vec3d& viewer) {
   return upright * (along_axis ? 0.8 : 1);
 }
 
-double worth(double share) {
+double share_score(double share) {
   constexpr double kHalf = 0.1;
   return share / (share + kHalf);
 }
 
-Result<std::vector<Candidate>> judge(const NearTriangles& triangles,
-                                     std::span<const Vec3d> directions, const Sight& sight,
-                                     const parallel::Context& context) {
+Result<std::vector<ViewCandidate>> evaluate_candidates(const NearTriangles& triangles,
+                                                       std::span<const Vec3d> directions,
+                                                       const Sight& sight,
+                                                       const parallel::Context& context) {
   return parallel::transform(
       context, {.name = "viewpoints", .n = directions.size()}, [&](std::size_t i) {
         return candidate_of(directions[i], visible_share(triangles, directions[i], sight));
       });
 }
 
-Result<Found> find_best(const NearTriangles& triangles, std::span<const Vec3d> directions,
-                        const Sight& sight, const parallel::Context& context) {
-  Result<std::vector<Bound>> bounds = parallel::transform(
+Result<BestCandidates> find_best(const NearTriangles& triangles, std::span<const Vec3d> directions,
+                                 const Sight& sight, const parallel::Context& context) {
+  Result<std::vector<ScoreBound>> bounds = parallel::transform(
       context, {.name = "viewpoints", .n = directions.size()}, [&](std::size_t i) {
         SightBuffer alone(window_of(directions[i], sight), triangles);
         const double share = visibility(alone.shares());
-        return Bound{std::move(alone), candidate_of(directions[i], share)};
+        return ScoreBound{std::move(alone), candidate_of(directions[i], share)};
       });
   if (!bounds) return bounds.error();
   const auto before = [&](std::size_t i) { return std::pair(-(*bounds)[i].alone.rank, i); };
@@ -124,22 +125,22 @@ Result<Found> find_best(const NearTriangles& triangles, std::span<const Vec3d> d
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, before);
   // Others only take from what is seen, so that no rank is above its bound.
-  std::optional<std::pair<Candidate, std::size_t>> best;
+  std::optional<std::pair<ViewCandidate, std::size_t>> best;
   for (const std::size_t number : order) {
-    Bound& bound = (*bounds)[number];
+    ScoreBound& bound = (*bounds)[number];
     if (best && bound.alone.rank < best->first.rank) break;
     if (context.stop.stop_requested()) return Error{ErrorCode::cancelled, "cancelled", {}, {}};
     bound.sight.cover(window_of(directions[number], sight), triangles);
-    const Candidate one = candidate_of(directions[number], visibility(bound.sight.shares()));
+    const ViewCandidate one = candidate_of(directions[number], visibility(bound.sight.shares()));
     if (!best || one.rank > best->first.rank ||
         (one.rank == best->first.rank && number < best->second))
       best.emplace(one, number);
   }
-  return Found{best->first, (*bounds)[order.front()].alone};
+  return BestCandidates{best->first, (*bounds)[order.front()].alone};
 }
 
-const Candidate& best_of(std::span<const Candidate> candidates) {
-  return *std::ranges::max_element(candidates, {}, &Candidate::rank);
+const ViewCandidate& best_of(std::span<const ViewCandidate> candidates) {
+  return *std::ranges::max_element(candidates, {}, &ViewCandidate::rank);
 }
 
 }  // namespace strake::pictures

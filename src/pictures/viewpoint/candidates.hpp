@@ -31,38 +31,38 @@ struct Sight {
 [[nodiscard]] double visible_share(const NearTriangles& triangles, const geometry::Vec3d& viewer,
                                    const Sight& sight);
 
-/// Returns how people like to look in a direction, 0 to 1: from above and askew best.
-[[nodiscard]] double liking(const geometry::Vec3d& viewer);
+/// Returns how much people prefer to look in a direction, 0 to 1: from above and askew most.
+[[nodiscard]] double direction_preference(const geometry::Vec3d& viewer);
 
-/// Returns what a share is worth, 0 to 1: of what is well seen more is worth little.
-[[nodiscard]] double worth(double share);
+/// Returns the score of a share, 0 to 1: showing more of what is well seen adds little.
+[[nodiscard]] double share_score(double share);
 
 /// A direction to the viewer, and what it shows.
-struct Candidate {
+struct ViewCandidate {
   geometry::Vec3d viewer;
   double share = 0;
-  double rank = 0;  ///< what the share is worth, times the liking
+  double rank = 0;  ///< share_score() times direction_preference()
 };
 
-/// Returns all candidates in their order. Errors: cancelled.
-[[nodiscard]] Result<std::vector<Candidate>> judge(const NearTriangles& triangles,
-                                                   std::span<const geometry::Vec3d> directions,
-                                                   const Sight& sight,
-                                                   const parallel::Context& context);
+/// Returns what each direction shows, in their order. Errors: cancelled.
+[[nodiscard]] Result<std::vector<ViewCandidate>> evaluate_candidates(
+    const NearTriangles& triangles, std::span<const geometry::Vec3d> directions, const Sight& sight,
+    const parallel::Context& context);
 
 /// The best of some directions.
-struct Found {
-  Candidate best;
-  Candidate alone;  ///< the best where nothing else stood in the way
+struct BestCandidates {
+  ViewCandidate best;
+  ViewCandidate alone;  ///< the best where nothing else stood in the way
 };
 
-/// Returns what best_of(judge()) returns, without a look at directions that cannot be the best even
-/// if nothing else stood in the way. There must be one. Errors: cancelled.
-[[nodiscard]] Result<Found> find_best(const NearTriangles& triangles,
-                                      std::span<const geometry::Vec3d> directions,
-                                      const Sight& sight, const parallel::Context& context);
+/// Returns what best_of(evaluate_candidates()) returns, without evaluating directions that cannot
+/// be the best even if nothing else stood in the way. There must be one. Errors: cancelled.
+[[nodiscard]] Result<BestCandidates> find_best(const NearTriangles& triangles,
+                                               std::span<const geometry::Vec3d> directions,
+                                               const Sight& sight,
+                                               const parallel::Context& context);
 
 /// Returns the candidate of the highest rank, of equals the first; there must be one.
-[[nodiscard]] const Candidate& best_of(std::span<const Candidate> candidates);
+[[nodiscard]] const ViewCandidate& best_of(std::span<const ViewCandidate> candidates);
 
 }  // namespace strake::pictures

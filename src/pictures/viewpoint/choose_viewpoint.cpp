@@ -26,8 +26,8 @@ constexpr std::array kCuts{0.6, 0.25, 0.0};
 /// The side of the window that is judged, a share of what is shown.
 constexpr double kJudged = 0.75;
 
-struct Choice {
-  Candidate candidate;
+struct ChosenDirection {
+  ViewCandidate candidate;
   std::optional<double> cut_mm;
 };
 
@@ -40,15 +40,15 @@ class ViewpointSearch {
         sight_(sight),
         context_(context) {}
 
-  Result<Choice> run(double reach_mm) const {
-    const Result<Found> whole = best(sight_);
+  Result<ChosenDirection> run(double reach_mm) const {
+    const Result<BestCandidates> whole = best(sight_);
     if (!whole) return whole.error();
-    Choice chosen{whole->best, {}};
+    ChosenDirection chosen{whole->best, {}};
     if (is_enough(whole->best, whole->alone.share)) return chosen;
     for (const double cut : kCuts) {
       Sight cut_open = sight_;
       cut_open.cut_mm = cut * reach_mm;
-      const Result<Found> found = best(cut_open);
+      const Result<BestCandidates> found = best(cut_open);
       if (!found) return found.error();
       if (found->best.rank > chosen.candidate.rank) chosen = {found->best, cut_open.cut_mm};
       if (is_enough(found->best, whole->alone.share)) break;
@@ -57,12 +57,12 @@ class ViewpointSearch {
   }
 
  private:
-  static bool is_enough(const Candidate& candidate, double possible) {
+  static bool is_enough(const ViewCandidate& candidate, double possible) {
     return candidate.share >= kLeastShare &&
            candidate.share >= kEnough * std::min(possible, kWellSeen);
   }
 
-  Result<Found> best(const Sight& sight) const {
+  Result<BestCandidates> best(const Sight& sight) const {
     return find_best(triangles_, directions_, sight, context_);
   }
 
@@ -110,7 +110,7 @@ Result<ClashViewpoint> choose_viewpoint(const Scenery& scenery, const Subject& s
   // Half of the box's side, so that its corners lie before the eye.
   constexpr double kBox = 1.5;
   const double half = kBox * reach * std::max(options.aspect, 1.0), eye = 2 * half;
-  const Result<Choice> choice =
+  const Result<ChosenDirection> choice =
       ViewpointSearch(kept_within(triangles_near(scenery, roles, point, eye), eye + reach),
                       pair.away, {kJudged * reach, eye}, context)
           .run(reach);

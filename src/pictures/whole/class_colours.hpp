@@ -23,7 +23,7 @@ namespace strake::pictures {
 }
 
 /// How bad a class is to people: a contact is mostly meant.
-[[nodiscard]] constexpr int badness(clash::Class cls) {
+[[nodiscard]] constexpr int severity(clash::Class cls) {
   switch (cls) {
     case clash::Class::hit:
       return 3;
@@ -45,7 +45,7 @@ namespace strake::pictures {
     for (const clash::Pair& pair : test.pairs) {
       if (pair.allowed >= 0) continue;
       for (const model::ObjectId id : {pair.a, pair.b})
-        if (clash::Class& known = worst[index(id)]; badness(pair.cls) > badness(known))
+        if (clash::Class& known = worst[index(id)]; severity(pair.cls) > severity(known))
           known = pair.cls;
     }
   return worst;

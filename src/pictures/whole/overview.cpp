@@ -29,7 +29,7 @@ constexpr Colour kDark{0x22, 0x22, 0x22}, kWhite{0xff, 0xff, 0xff};
 constexpr std::array kClasses{Class::hit, Class::clearance_violation, Class::contact};
 
 /// A rectangle in the plane of the view, mm of the model.
-struct Extent {
+struct OverviewExtent {
   double left = 1e300, right = -1e300, bottom = 1e300, top = -1e300;
 
   void include(double x, double y) {
@@ -175,7 +175,7 @@ class Overview {
   std::vector<NamedSubject> shown_;
   Axes axes_;
   Vec3l origin_;
-  Extent extent_;
+  OverviewExtent extent_;
   double left_ = 0, top_ = 0;
   ClashPicture picture_;
 };

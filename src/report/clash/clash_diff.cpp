@@ -47,8 +47,8 @@ std::string of_test(const DocumentTest& test) {
 class RunCoverage {
  public:
   /// `side` says which run of the map `run` is.
-  RunCoverage(const ClashDocument& run, const FileMap& files, Run side)
-      : run_(run), files_(files), other_side_(other_run(side)) {
+  RunCoverage(const ClashDocument& run, const FileMap& files, RunSide side)
+      : run_(run), files_(files), other_side_(opposite_run(side)) {
     for (const DocumentTest& test : run.tests) tests_.emplace(test.name, &test);
   }
 
@@ -67,7 +67,7 @@ class RunCoverage {
       if (!s->there) return named(s->object) + " is not in the model";
     if (std::string why = not_tested(a, b, *here); !why.empty()) return why;
     for (const ObjectPresence* s : {&a, &b})
-      if (const std::string* why = lacks(*s, *here))
+      if (const std::string* why = why_incomplete(*s, *here))
         return named(s->object) + " could not be compared whole (" + *why + ")";
     for (const ObjectPresence* s : {&a, &b})
       if (sheets(run_, s->element) >
@@ -104,8 +104,8 @@ class RunCoverage {
   }
 
   /// Returns why an object could not be compared whole; null if it was.
-  [[nodiscard]] const std::string* lacks(const ObjectPresence& side,
-                                         const DocumentTest& here) const {
+  [[nodiscard]] const std::string* why_incomplete(const ObjectPresence& side,
+                                                  const DocumentTest& here) const {
     const auto test = static_cast<std::uint32_t>(&here - run_.tests.data());
     const auto wanted = std::pair(side.element, test);
     const auto key = [](const DocumentLacking& l) { return std::pair(l.element, l.test); };
@@ -183,7 +183,7 @@ class RunCoverage {
 
   const ClashDocument& run_;
   const FileMap& files_;
-  Run other_side_;
+  RunSide other_side_;
   std::map<std::string, const DocumentTest*> tests_;
 };
 
@@ -257,8 +257,8 @@ std::vector<KeyedResult> keyed_for_new_run(const ClashDocument& before, const Fi
     keyed.push_back({r.key, &r});
     if (files.is_identity()) continue;
     const DocumentObject &a = before.a(r), &b = before.b(r);
-    const std::string file_a = files.label_in_other(Run::before, a.file, a.id);
-    const std::string file_b = files.label_in_other(Run::before, b.file, b.id);
+    const std::string file_a = files.label_in_other(RunSide::before, a.file, a.id);
+    const std::string file_b = files.label_in_other(RunSide::before, b.file, b.id);
     keyed.back().key = clash::pair_hash(before.tests[r.test].name, {file_a, a.id}, {file_b, b.id});
   }
   if (!files.is_identity()) std::ranges::sort(keyed, {}, &KeyedResult::key);
@@ -286,12 +286,12 @@ ClashDiff compare(const ClashDocument& before, const ClashDocument& after, FileM
   diff.after = &after;
   diff.files = std::move(matches);
   const FileMap files = map_of(diff.files, before, after);
-  const RunCoverage coverage_before(before, files, Run::before);
-  const RunCoverage coverage_after(after, files, Run::after);
+  const RunCoverage coverage_before(before, files, RunSide::before);
+  const RunCoverage coverage_after(after, files, RunSide::after);
   compare_settings(coverage_before, coverage_after, diff);
   const auto still_there = [&](DiffEntry&& e) { diff.add_still_there(std::move(e)); };
-  const PositionalResults placed_before(before, after, files, Run::before);
-  const PositionalResults placed_after(after, before, files, Run::after);
+  const PositionalResults placed_before(before, after, files, RunSide::before);
+  const PositionalResults placed_after(after, before, files, RunSide::after);
   diff.same.reserve(std::min(before.results.size(), after.results.size()));
   const std::vector<KeyedResult> old_results = keyed_for_new_run(before, files);
   auto x = old_results.begin();

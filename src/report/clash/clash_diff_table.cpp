@@ -40,9 +40,9 @@ std::string_view label(const DocumentObject& o) { return o.name.empty() ? o.id :
 
 /// Tells which of several tests, and of several files, the objects of a result are from: names may
 /// repeat in each.
-class Origin {
+class ResultOrigin {
  public:
-  explicit Origin(const ClashDiff& diff) : diff_(diff) {
+  explicit ResultOrigin(const ClashDiff& diff) : diff_(diff) {
     std::string_view first = any_file();
     for (const ClashDocument* run : {diff.before, diff.after}) {
       tests_ = tests_ || run->tests.size() > 1;
@@ -97,7 +97,7 @@ std::string block(std::string_view title, const ClashDiff& diff, const std::vect
   if (list.empty()) return {};
   std::string out = std::string(title) + " (" + std::to_string(list.size()) + ")\n";
   const std::size_t shown = std::min(options.rows, list.size());
-  const Origin origin(diff);
+  const ResultOrigin origin(diff);
   std::vector<std::string> said;
   std::size_t widest = 0;
   for (std::size_t i = 0; i < shown; ++i) {

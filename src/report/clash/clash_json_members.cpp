@@ -17,7 +17,7 @@
 #include "clash/results/required_clearance.hpp"
 #include "clash/rules/tolerance_lengths.hpp"
 #include "core/text_encoding.hpp"
-#include "report/clash/attribute_columns.hpp"
+#include "report/clash/contents.hpp"
 #include "report/json/json_writer.hpp"
 #include "report/text/formatting.hpp"
 #include "strake/parallel/for_each.hpp"

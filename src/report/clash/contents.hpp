@@ -2,8 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include "strake/clash/group.hpp"
+#include "strake/model/model.hpp"
 #include "strake/report/clash.hpp"
 #include "strake/report/decisions.hpp"
 
@@ -16,13 +20,19 @@ namespace strake::report {
 }
 
 /// Returns the decision about a result; null where there is none.
-[[nodiscard]] inline const DecidedResult* decided_of(const ClashContents& contents,
-                                                     std::size_t test, const clash::Pair& pair) {
+[[nodiscard]] inline const DecidedResult* decision_about(const ClashContents& contents,
+                                                         std::size_t test,
+                                                         const clash::Pair& pair) {
   return contents.decided == nullptr ? nullptr : contents.decided->of(test, pair);
 }
-[[nodiscard]] inline const DecidedResult* decided_of(const ClashContents& contents,
-                                                     const clash::ResultRef& result) {
-  return decided_of(contents, result.test, pair_of(contents, result));
+[[nodiscard]] inline const DecidedResult* decision_about(const ClashContents& contents,
+                                                         const clash::ResultRef& result) {
+  return decision_about(contents, result.test, pair_of(contents, result));
 }
+
+/// Returns what an object states under a name, itself or by the nearest group above that does;
+/// several values of the name with "; " between. Nothing where none states it.
+[[nodiscard]] std::optional<std::string> stated_text(const model::Model& model, model::ObjectId id,
+                                                     std::string_view attribute);
 
 }  // namespace strake::report

@@ -72,7 +72,7 @@ std::string why(const PositionalResults& results, const DocumentResult& r, bool 
 }  // namespace
 
 PositionalResults::PositionalResults(const ClashDocument& run, const ClashDocument& other,
-                                     const FileMap& files, Run side)
+                                     const FileMap& files, RunSide side)
     : run_(run), files_(files), side_(side) {
   if (run.positional_ids.empty() && other.positional_ids.empty()) return;
   positional_.reserve(run.objects.size());

@@ -18,7 +18,7 @@ class PositionalResults {
  public:
   /// `side` says which run of the map `run` is.
   PositionalResults(const ClashDocument& run, const ClashDocument& other, const FileMap& files,
-                    Run side);
+                    RunSide side);
 
   [[nodiscard]] const ClashDocument& run() const { return run_; }
   /// Returns the file of an object as it is called for both runs.
@@ -34,7 +34,7 @@ class PositionalResults {
  private:
   const ClashDocument& run_;
   const FileMap& files_;
-  Run side_;
+  RunSide side_;
   std::vector<bool> positional_;  ///< one per object of the run; empty: none is
 };
 

@@ -102,8 +102,8 @@ void for_each_reading(const std::string& text, Visit&& visit) {
 
 /// Adds the former names that are asked for and that a file without the columns of files cannot
 /// know.
-void add_asked(FileContentsByLabel& former, const FileContentsByLabel& today,
-               std::span<const std::string> asked) {
+void add_given_names(FileContentsByLabel& former, const FileContentsByLabel& today,
+                     std::span<const std::string> asked) {
   for (const std::string& text : asked)
     for_each_reading(text, [&](const std::string& was, const std::string& is) {
       if (today.contains(is)) former.try_emplace(was);
@@ -148,7 +148,7 @@ Result<DecidedFiles> match_decided_files(const clash::Findings& findings, const 
                                          const DecisionFile& decided,
                                          std::span<const std::string> asked) {
   FileContentsByLabel former = contents_of(decided), today = contents_of(findings, model);
-  if (former.empty() || !names_all_files(decided)) add_asked(former, today, asked);
+  if (former.empty() || !names_all_files(decided)) add_given_names(former, today, asked);
   DecidedFiles files;
   std::vector<std::string> open;
   for (const std::string& text : asked)
@@ -187,8 +187,8 @@ Hash128 DecidedKeys::key(std::string_view test, const clash::Pair& pair) const {
 
 Hash128 DecidedKeys::former_key(std::string_view test, const clash::Pair& pair) const {
   const auto [a, b] = names_of(model_, pair);
-  const std::string was_a = map_.label_in_other(Run::after, a.file_label, a.id),
-                    was_b = map_.label_in_other(Run::after, b.file_label, b.id);
+  const std::string was_a = map_.label_in_other(RunSide::after, a.file_label, a.id),
+                    was_b = map_.label_in_other(RunSide::after, b.file_label, b.id);
   return clash::pair_hash(test, {was_a, a.id}, {was_b, b.id});
 }
 
@@ -207,7 +207,7 @@ std::optional<Decision> DecidedKeys::renamed(const Decision& row) const {
   if (is_identity() || key_of(row.a, row.b) != row.key) return std::nullopt;
   Decision today = row;
   for (DecisionObject* const side : {&today.a, &today.b}) {
-    side->file = map_.label_in_other(Run::before, side->file, side->id);
+    side->file = map_.label_in_other(RunSide::before, side->file, side->id);
     if (side->file.starts_with('\0')) return std::nullopt;
   }
   today.key = key_of(today.a, today.b);

@@ -23,7 +23,8 @@ struct DecidedFiles {
   std::vector<std::string> in_force;  ///< as DecidedResults::renamed_before
 };
 
-/// Tells it. Errors: usage, as of match_files() and parse_file_pairs().
+/// Finds the names that files of decisions have today. Errors: usage, as of match_files() and
+/// parse_file_pairs().
 [[nodiscard]] Result<DecidedFiles> match_decided_files(const clash::Findings& findings,
                                                        const model::Model& model,
                                                        const DecisionFile& decided,
@@ -32,8 +33,8 @@ struct DecidedFiles {
 /// Ids of objects by the labels of their files.
 using IdsByFile = std::map<std::string_view, std::set<std::string_view>>;
 
-/// Tells the key that a clash had when decisions were made, and that a row has today. The matches,
-/// the model and the decisions must outlive it.
+/// Maps keys of clashes to those that they had when decisions were made, and keys of rows to those
+/// of today. The matches, the model and the decisions must outlive it.
 class DecidedKeys {
  public:
   DecidedKeys(const FileMatches& files, const model::Model& model, const DecisionFile& decided);
@@ -51,14 +52,14 @@ class DecidedKeys {
   /// has no counterpart.
   [[nodiscard]] std::string label_today(const DecisionObject& object) const {
     return has_new_name(object.file) ? object.file
-                                     : map_.label_in_other(Run::before, object.file, object.id);
+                                     : map_.label_in_other(RunSide::before, object.file, object.id);
   }
   /// Return one text for a file then, and for the files that it is today.
   [[nodiscard]] std::string group_then(std::string_view label) const {
-    return has_new_name(label) ? group_now(label) : map_.group_of(Run::before, label);
+    return has_new_name(label) ? group_now(label) : map_.group_of(RunSide::before, label);
   }
   [[nodiscard]] std::string group_now(std::string_view label) const {
-    return map_.group_of(Run::after, label);
+    return map_.group_of(RunSide::after, label);
   }
   /// Returns a row with the key and the labels of today, if they are others than it states, and if
   /// it names what its key is made of.
@@ -67,7 +68,7 @@ class DecidedKeys {
  private:
   /// Whether rows have the name that a file has today, beside those that have its former one.
   [[nodiscard]] bool has_new_name(std::string_view label) const {
-    return ids_now_.contains(label) && map_.group_of(Run::before, label).starts_with('\0');
+    return ids_now_.contains(label) && map_.group_of(RunSide::before, label).starts_with('\0');
   }
 
   const model::Model& model_;

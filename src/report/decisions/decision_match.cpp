@@ -74,7 +74,7 @@ class RowMatcher {
         for (const bool with_d : {true, false}) match_places(bare, with_d);
       match_positional_keys();
     }
-    tell_replaced();
+    report_replaced();
     return std::move(matched_);
   }
 
@@ -120,7 +120,7 @@ class RowMatcher {
   }
 
   /// Finds the rows that a run added before it was known which decision is about their results.
-  void tell_replaced() {
+  void report_replaced() {
     if (keys_.is_identity() && !has_positional_) return;
     for_each([&](const clash::Report& test, const clash::Pair& pair, const Decision*& row) {
       if (row == nullptr) return;

@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "clash/results/clash_key.hpp"
-#include "report/clash/attribute_columns.hpp"
 #include "report/clash/contents.hpp"
 #include "report/text/formatting.hpp"
 #include "strake/report/clash.hpp"
@@ -73,7 +72,7 @@ void append_attributes(Row& row, const ClashContents& contents, model::ObjectId 
 template <class Row>
 void append_decision(Row& row, const ClashContents& contents, std::size_t test,
                      const clash::Pair& p) {
-  const DecidedResult* const decided = decided_of(contents, test, p);
+  const DecidedResult* const decided = decision_about(contents, test, p);
   if (decided == nullptr) {
     row.word(p.allowed < 0 ? name(DecisionStatus::undecided) : "")
         .blank(kDecidedColumns.size() - 1);

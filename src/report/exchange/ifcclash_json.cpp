@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/number.hpp"
-#include "report/clash/attribute_columns.hpp"
+#include "report/clash/contents.hpp"
 #include "report/json/json_writer.hpp"
 #include "report/text/formatting.hpp"
 #include "report/text/ordered_lines.hpp"

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
-#include "report/clash/attribute_columns.hpp"
 #include "report/clash/contents.hpp"
 #include "report/text/formatting.hpp"
 #include "report/text/ordered_lines.hpp"
@@ -166,7 +165,7 @@ void begin_element(std::string& out, std::string_view tag, std::string_view name
 void clash_result(std::string& out, const ClashContents& contents, std::size_t t, std::uint32_t p) {
   const Report& test = contents.findings.tests[t];
   const Pair& pair = test.pairs[p];
-  const DecidedResult* const decided = decided_of(contents, t, pair);
+  const DecidedResult* const decided = decision_about(contents, t, pair);
   const DecisionStatus status = current_status(decided);
   begin_element(
       out, "clashresult", "Clash" + std::to_string(p + 1),
@@ -187,7 +186,7 @@ DecisionStatus group_status(const ClashContents& contents, std::size_t t,
                             const clash::Group& group) {
   DecisionStatus least = DecisionStatus::resolved;
   for (const clash::ResultRef& r : group.results)
-    if (r.test == t) least = std::min(least, current_status(decided_of(contents, r)));
+    if (r.test == t) least = std::min(least, current_status(decision_about(contents, r)));
   return least;
 }
 
@@ -213,7 +212,8 @@ ReviewTest review_test(const ClashContents& contents, std::size_t t) {
   const auto add = [&](std::uint32_t p) {
     written[p] = true;
     review.lines.push_back({ReviewLine::Kind::result, p});
-    ++review.counts[static_cast<std::size_t>(current_status(decided_of(contents, t, pairs[p])))];
+    ++review
+          .counts[static_cast<std::size_t>(current_status(decision_about(contents, t, pairs[p])))];
   };
   const std::size_t groups = contents.grouping == nullptr ? 0 : contents.grouping->groups.size();
   for (std::uint32_t g = 0; g < groups; ++g) {

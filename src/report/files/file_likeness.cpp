@@ -34,8 +34,8 @@ std::uint64_t count_common(const std::vector<T>& x, const std::vector<T>& y) {
 }
 
 /// Counts the ids of either file that the run of the other has.
-void look_up_ids(FileLikeness& l, const RunFiles& before, const FileContents& old_file,
-                 const RunFiles& after, const FileContents& new_file) {
+void count_common_ids(FileLikeness& l, const RunFiles& before, const FileContents& old_file,
+                      const RunFiles& after, const FileContents& new_file) {
   for (const std::string& id : old_file.ids)
     if (has_object(after, new_file, id)) ++l.found_after;
   std::uint64_t named_by_both = 0, found_of_new_only = 0;
@@ -67,14 +67,14 @@ bool FileLikeness::is_one_file() const {
   return most_of_both && (no_chance || places_agree(*this));
 }
 
-FileLikeness likeness(const RunFiles& before, const FileContents& old_file, const RunFiles& after,
-                      const FileContents& new_file) {
+FileLikeness compare_contents(const RunFiles& before, const FileContents& old_file,
+                              const RunFiles& after, const FileContents& new_file) {
   FileLikeness l;
   l.is_excerpt = before.is_excerpt;
   l.ids_before = old_file.ids.size();
   l.ids_after = new_file.ids.size();
   if (before.has || after.has) {
-    look_up_ids(l, before, old_file, after, new_file);
+    count_common_ids(l, before, old_file, after, new_file);
   } else {
     // The ids are all that there are: one walk along both lists finds those of both.
     l.common = l.found_after = l.found_before = count_common(old_file.ids, new_file.ids);
@@ -100,7 +100,7 @@ bool may_have_most(const RunFiles& run, const FileContents& file,
   return false;
 }
 
-bool is_no_chance(std::uint64_t ids, const FileContents& file, const FileContents& other) {
+bool exceeds_chance(std::uint64_t ids, const FileContents& file, const FileContents& other) {
   return ids >= fewest_ids(file.places.size(), other.places.size(),
                            count_common(file.places, other.places));
 }

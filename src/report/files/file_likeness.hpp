@@ -33,8 +33,8 @@ struct FileLikeness {
   }
 };
 
-[[nodiscard]] FileLikeness likeness(const RunFiles& before, const FileContents& old_file,
-                                    const RunFiles& after, const FileContents& new_file);
+[[nodiscard]] FileLikeness compare_contents(const RunFiles& before, const FileContents& old_file,
+                                            const RunFiles& after, const FileContents& new_file);
 
 /// Whether a file of a run has an object of this id.
 [[nodiscard]] bool has_object(const RunFiles& run, const FileContents& file, std::string_view id);
@@ -50,8 +50,8 @@ struct FileLikeness {
 }
 
 /// Whether so many ids in common are too many for chance.
-[[nodiscard]] bool is_no_chance(std::uint64_t ids, const FileContents& file,
-                                const FileContents& other);
+[[nodiscard]] bool exceeds_chance(std::uint64_t ids, const FileContents& file,
+                                  const FileContents& other);
 
 /// Whether a count is so much larger than that of a rival that it is no chance.
 [[nodiscard]] constexpr bool is_clearly_more(std::uint64_t count, std::uint64_t rival) {

@@ -20,7 +20,7 @@ FileMap::FileMap(const FileMatches& files, Has has_before, Has has_after)
 
 void FileMap::link(const FileMatches& files) {
   for (const FileMatch& match : files.matches) {
-    Links &before = links_[0][match.before], &after = links_[1][match.after];
+    LinkedFiles &before = links_[0][match.before], &after = links_[1][match.after];
     const bool part =
         match.relation == FileRelation::split || match.relation == FileRelation::merged;
     if (part) {
@@ -51,10 +51,10 @@ void FileMap::group(const FileMatches& files) {
 
 /// Returns the one file of the other run that has an object, as far as that can be told; empty:
 /// none or several.
-std::string_view FileMap::holder(Run run, std::string_view label, std::string_view id) const {
+std::string_view FileMap::holder(RunSide run, std::string_view label, std::string_view id) const {
   const auto at = links(run).find(label);
   if (at == links(run).end()) return {};
-  const Run other = other_run(run);
+  const RunSide other = opposite_run(run);
   if (!at->second.whole.empty() && has(other, at->second.whole, id)) return at->second.whole;
   std::string_view found;
   for (const std::string_view part : at->second.parts) {
@@ -65,22 +65,23 @@ std::string_view FileMap::holder(Run run, std::string_view label, std::string_vi
   return found;
 }
 
-std::string FileMap::label_in_other(Run run, std::string_view label, std::string_view id) const {
+std::string FileMap::label_in_other(RunSide run, std::string_view label,
+                                    std::string_view id) const {
   if (identity_) return std::string(label);
   const auto at = links(run).find(label);
   if (at == links(run).end()) return nowhere(label);
   // Most files are whole, and stay so.
-  const Links& own = at->second;
+  const LinkedFiles& own = at->second;
   if (own.parts.empty()) {
-    const auto back = links(other_run(run)).find(own.whole);
+    const auto back = links(opposite_run(run)).find(own.whole);
     if (back->second.parts.empty()) return std::string(own.whole);
   }
   const std::string_view there = holder(run, label, id);
-  const bool is_mutual = !there.empty() && holder(other_run(run), there, id) == label;
+  const bool is_mutual = !there.empty() && holder(opposite_run(run), there, id) == label;
   return is_mutual ? std::string(there) : nowhere(label);
 }
 
-std::string FileMap::group_of(Run run, std::string_view label) const {
+std::string FileMap::group_of(RunSide run, std::string_view label) const {
   if (identity_) return std::string(label);
   const auto at = links(run).find(label);
   return at == links(run).end() ? nowhere(label) : std::string(at->second.group);

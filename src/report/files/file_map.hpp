@@ -13,10 +13,10 @@
 
 namespace strake::report {
 
-enum class Run : std::uint8_t { before, after };
+enum class RunSide : std::uint8_t { before, after };
 
-[[nodiscard]] constexpr Run other_run(Run run) {
-  return run == Run::before ? Run::after : Run::before;
+[[nodiscard]] constexpr RunSide opposite_run(RunSide run) {
+  return run == RunSide::before ? RunSide::after : RunSide::before;
 }
 
 /// Tells what an object of one run is called in the other, by the files that were matched. It maps
@@ -34,29 +34,30 @@ class FileMap {
 
   /// Returns the label under which the other run would have an object of `run`; where its file has
   /// no counterpart, one that no file has.
-  [[nodiscard]] std::string label_in_other(Run run, std::string_view label,
+  [[nodiscard]] std::string label_in_other(RunSide run, std::string_view label,
                                            std::string_view id) const;
 
   /// Returns one text for all files of both runs that are matched with each other, directly or by
   /// others.
-  [[nodiscard]] std::string group_of(Run run, std::string_view label) const;
+  [[nodiscard]] std::string group_of(RunSide run, std::string_view label) const;
 
  private:
   /// The files of the other run in which objects of a file may be.
-  struct Links {
+  struct LinkedFiles {
     std::string_view whole;  ///< the file that it is; empty: none
     std::vector<std::string_view> parts;
     std::string_view group;
   };
-  using ByLabel = std::map<std::string_view, Links>;
+  using ByLabel = std::map<std::string_view, LinkedFiles>;
 
-  [[nodiscard]] const ByLabel& links(Run run) const {
+  [[nodiscard]] const ByLabel& links(RunSide run) const {
     return links_[static_cast<std::size_t>(run)];
   }
-  [[nodiscard]] bool has(Run run, std::string_view label, std::string_view id) const {
+  [[nodiscard]] bool has(RunSide run, std::string_view label, std::string_view id) const {
     return has_[static_cast<std::size_t>(run)](label, id);
   }
-  [[nodiscard]] std::string_view holder(Run run, std::string_view label, std::string_view id) const;
+  [[nodiscard]] std::string_view holder(RunSide run, std::string_view label,
+                                        std::string_view id) const;
   void link(const FileMatches& files);
   void group(const FileMatches& files);
 

@@ -35,9 +35,9 @@ struct SoughtFile {
 };
 
 /// Two files that may be one.
-struct Candidate {
+struct MatchCandidate {
   std::size_t before = 0, after = 0;
-  FileLikeness likeness;
+  FileLikeness compare_contents;
 };
 
 class FileMatcher {
@@ -48,11 +48,11 @@ class FileMatcher {
         sought_before_(before.files.size()),
         sought_after_(after.files.size()) {}
 
-  Status take_asked(std::span<const FilePair> asked) {
+  Status take_given_pairs(std::span<const FilePair> asked) {
     for (const FilePair& pair : asked) {
-      const Result<std::size_t> x = asked_file(before_, sought_before_, pair.before, "old");
+      const Result<std::size_t> x = find_given_file(before_, sought_before_, pair.before, "old");
       if (!x) return x.error();
-      const Result<std::size_t> y = asked_file(after_, sought_after_, pair.after, "new");
+      const Result<std::size_t> y = find_given_file(after_, sought_after_, pair.after, "new");
       if (!y) return y.error();
       take(*x, *y, FileRelation::asked);
     }
@@ -68,19 +68,19 @@ class FileMatcher {
   }
 
   void take_renamed() {
-    std::vector<Candidate> open = candidates();
-    const auto decided = [this](const Candidate& c) {
+    std::vector<MatchCandidate> open = candidates();
+    const auto decided = [this](const MatchCandidate& c) {
       return !sought_before_[c.before].is_free() || !sought_after_[c.after].is_free();
     };
     for (bool found = true; found;) {
-      std::vector<Candidate> best;
-      for (const Candidate& c : open)
+      std::vector<MatchCandidate> best;
+      for (const MatchCandidate& c : open)
         if (beats_all_rivals(c, open)) best.push_back(c);
-      for (const Candidate& c : best) take(c.before, c.after, FileRelation::renamed);
+      for (const MatchCandidate& c : best) take(c.before, c.after, FileRelation::renamed);
       found = !best.empty();
       std::erase_if(open, decided);
     }
-    for (const Candidate& c : open) {
+    for (const MatchCandidate& c : open) {
       sought_before_[c.before].rivals.push_back(c.after);
       sought_after_[c.after].rivals.push_back(c.before);
     }
@@ -114,8 +114,9 @@ class FileMatcher {
     std::vector<std::size_t> rivals;
   };
 
-  static Result<std::size_t> asked_file(const RunFiles& run, const std::vector<SoughtFile>& sought,
-                                        const std::string& label, const std::string& which) {
+  static Result<std::size_t> find_given_file(const RunFiles& run,
+                                             const std::vector<SoughtFile>& sought,
+                                             const std::string& label, const std::string& which) {
     const std::size_t file = find_file(run, label);
     if (file == kNoFile)
       return Error{ErrorCode::usage, "the " + which + " run has no file '" + label + "'",
@@ -132,7 +133,7 @@ class FileMatcher {
     sought_after_[y].partner = x;
     FileMatch match{before_.files[x].label, after_.files[y].label, relation};
     if (relation != FileRelation::same_label) {
-      const FileLikeness l = likeness(before_, before_.files[x], after_, after_.files[y]);
+      const FileLikeness l = compare_contents(before_, before_.files[x], after_, after_.files[y]);
       match.by_places = l.by_places();
       if (l.is_known()) {
         match.common = l.by_places() ? l.common_places : l.common;
@@ -149,20 +150,20 @@ class FileMatcher {
            may_have_most(before_, old_file, new_file.ids);
   }
 
-  [[nodiscard]] std::vector<Candidate> candidates() const {
-    std::vector<Candidate> found;
+  [[nodiscard]] std::vector<MatchCandidate> candidates() const {
+    std::vector<MatchCandidate> found;
     for (std::size_t x = 0; x < sought_before_.size(); ++x)
       for (std::size_t y = 0; sought_before_[x].is_free() && y < sought_after_.size(); ++y) {
         if (!sought_after_[y].is_free() || !may_be_one(before_.files[x], after_.files[y])) continue;
-        const FileLikeness l = likeness(before_, before_.files[x], after_, after_.files[y]);
+        const FileLikeness l = compare_contents(before_, before_.files[x], after_, after_.files[y]);
         if (l.is_one_file()) found.push_back({x, y, l});
       }
     return found;
   }
 
-  [[nodiscard]] static bool beats_all_rivals(const Candidate& c,
-                                             const std::vector<Candidate>& all) {
-    return std::ranges::all_of(all, [&](const Candidate& other) {
+  [[nodiscard]] static bool beats_all_rivals(const MatchCandidate& c,
+                                             const std::vector<MatchCandidate>& all) {
+    return std::ranges::all_of(all, [&](const MatchCandidate& other) {
       const bool shares_old = other.before == c.before, shares_new = other.after == c.after;
       return shares_old == shares_new || is_clearly_more_alike(c.likeness, other.likeness);
     });
@@ -185,7 +186,7 @@ class FileMatcher {
       const auto count =
           static_cast<std::uint64_t>(std::ranges::count_if(own.files[part].ids, moved));
       if (is_most(count, own.files[part].ids.size()) &&
-          is_no_chance(count, own.files[part], other.files[w]))
+          exceeds_chance(count, own.files[part], other.files[w]))
         wholes.emplace_back(count, w);
     }
     std::ranges::sort(wholes, std::greater<>());
@@ -242,7 +243,7 @@ bool FileMatches::by_label_alone() const {
 Result<FileMatches> match_files(const RunFiles& before, const RunFiles& after,
                                 std::span<const FilePair> asked) {
   FileMatcher matcher(before, after);
-  if (const Status status = matcher.take_asked(asked); !status) return status.error();
+  if (const Status status = matcher.take_given_pairs(asked); !status) return status.error();
   matcher.take_equal_labels();
   matcher.take_renamed();
   matcher.take_parts();

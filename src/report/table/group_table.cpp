@@ -101,13 +101,13 @@ bool fit_names(std::vector<GroupRow>& rows, std::vector<std::string>& names,
   const std::size_t room = width - std::min(width, taken);
   const std::size_t wanted = std::max(widest_of(names), columns_in(heading));
   if (room >= std::min(wanted, kLeastBeside)) {
-    names = cut_apart(names, room_behind(taken, width));
+    names = shorten_distinctly(names, room_behind(taken, width));
     return true;
   }
   if (place && taken > width) move_places(rows);
   std::size_t before = kGroupIndent;
   for (const GroupRow& row : rows) before = std::max(before, kGroupIndent + row.place.size());
-  names = cut_apart(names, room_behind(before, width));
+  names = shorten_distinctly(names, room_behind(before, width));
   return false;
 }
 

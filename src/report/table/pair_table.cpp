@@ -17,7 +17,7 @@ constexpr std::size_t kLeastName = 8, kMostSource = 24, kIndent = 4;
 constexpr std::string_view kGap = "  ", kBothNames = "a, and b below it";
 
 /// Where the two names of a row stand.
-enum class NamesStand : std::uint8_t {
+enum class NameLayout : std::uint8_t {
   beside,   ///< both behind the numbers
   stacked,  ///< a behind the numbers, b below it
   below,    ///< each on a line of its own, below the numbers
@@ -28,7 +28,7 @@ struct SideText {
 };
 
 /// A row, or the head over all rows, whose sides are as they are shown.
-struct Line {
+struct TableLine {
   std::vector<std::string> numbers;  ///< class, status, d, range, volume, relation and place
   SideText a, b;
 };
@@ -62,7 +62,7 @@ class PairTable {
   }
 
  private:
-  /// Numbers of the columns in Line::numbers.
+  /// Numbers of the columns in TableLine::numbers.
   enum Column : std::size_t {
     kClass,
     kStatus,
@@ -91,11 +91,11 @@ class PairTable {
           sources.push_back(printable(side.source));
         }
     lead_ = common_lead(names);
-    sources = cut_apart(sources, kMostSource);
+    sources = shorten_distinctly(sources, kMostSource);
     std::size_t side = 0;
     for (const PairBlock& block : blocks_)
       for (const PairRow& row : block.rows) {
-        Line& line = lines_.emplace_back();
+        TableLine& line = lines_.emplace_back();
         line.numbers = numbers_of(row);
         for (SideText* const of : {&line.a, &line.b}) {
           *of = {sources[side], without_lead(names[side], lead_)};
@@ -104,9 +104,9 @@ class PairTable {
       }
   }
 
-  [[nodiscard]] Line title() const {
+  [[nodiscard]] TableLine title() const {
     const std::string source(head_.source);
-    const bool beside = stand_ == NamesStand::beside;
+    const bool beside = stand_ == NameLayout::beside;
     return {
         {"class", "status", "d mm", "d range mm", "volume mm3", "relation", "x mm", "y mm", "z mm"},
         {source, beside ? "a" : std::string(kBothNames)},
@@ -116,7 +116,7 @@ class PairTable {
   void find_widths() {
     widths_.assign(kColumns, 0);
     const std::vector<std::string> titles = title().numbers;
-    for (const Line& line : lines_)
+    for (const TableLine& line : lines_)
       for (std::size_t c = 0; c < widths_.size(); ++c)
         widths_[c] = std::max(widths_[c], columns_in(line.numbers[c]));
     if (!head_.volume) widths_[kVolume] = 0;
@@ -126,7 +126,7 @@ class PairTable {
       numbers_ += widths_[c] > 0 ? widths_[c] + gap_behind(c).size() : 0;
     if (head_.source.empty()) return;
     source_ = head_.source.size();
-    for (const Line& line : lines_)
+    for (const TableLine& line : lines_)
       source_ = std::max({source_, columns_in(line.a.source), columns_in(line.b.source)});
     source_ += kGap.size();
   }
@@ -134,26 +134,26 @@ class PairTable {
   /// Chooses where the names stand, and cuts those that fit nowhere.
   void choose_place() {
     std::size_t a = 1, b = 1;
-    for (const Line& line : lines_) {
+    for (const TableLine& line : lines_) {
       a = std::max(a, columns_in(line.a.name));
       b = std::max(b, columns_in(line.b.name));
     }
     name_a_ = a;
     if (numbers_ + 2 * source_ + a + kGap.size() + b <= head_.width) return;
-    stand_ = NamesStand::stacked;
+    stand_ = NameLayout::stacked;
     if (numbers_ + source_ + std::max({a, b, kBothNames.size()}) <= head_.width) return;
-    stand_ = NamesStand::below;
+    stand_ = NameLayout::below;
     const std::size_t taken = kIndent + source_;
     cut_names(head_.width > taken + kLeastName ? head_.width - taken : kLeastName);
   }
 
   void cut_names(std::size_t room) {
     std::vector<std::string> names;
-    for (const Line& line : lines_) {
+    for (const TableLine& line : lines_) {
       names.push_back(line.a.name);
       names.push_back(line.b.name);
     }
-    names = cut_apart(names, room);
+    names = shorten_distinctly(names, room);
     for (std::size_t l = 0; l < lines_.size(); ++l) {
       lines_[l].a.name = std::move(names[2 * l]);
       lines_[l].b.name = std::move(names[2 * l + 1]);
@@ -164,7 +164,7 @@ class PairTable {
     return source_ == 0 ? side.name : left_aligned(side.source, source_) + side.name;
   }
 
-  [[nodiscard]] std::string numbers_text(const Line& line) const {
+  [[nodiscard]] std::string numbers_text(const TableLine& line) const {
     std::string text;
     for (std::size_t c = 0; c < widths_.size(); ++c) {
       if (widths_[c] == 0) continue;
@@ -176,13 +176,13 @@ class PairTable {
     return text;
   }
 
-  [[nodiscard]] std::string text_of(const Line& line) const {
+  [[nodiscard]] std::string text_of(const TableLine& line) const {
     std::string first = numbers_text(line), second, third;
-    const std::string indent(stand_ == NamesStand::below ? kIndent : numbers_, ' ');
-    if (stand_ == NamesStand::beside) {
+    const std::string indent(stand_ == NameLayout::below ? kIndent : numbers_, ' ');
+    if (stand_ == NameLayout::beside) {
       first += text_of({line.a.source, left_aligned(line.a.name, name_a_)});
       first += std::string(kGap) + text_of(line.b);
-    } else if (stand_ == NamesStand::stacked) {
+    } else if (stand_ == NameLayout::stacked) {
       first += text_of(line.a);
       second = indent + text_of(line.b);
     } else {
@@ -198,11 +198,11 @@ class PairTable {
   std::span<const PairBlock> blocks_;
   PairTableHead head_;
   std::string lead_;
-  std::vector<Line> lines_;
-  std::vector<std::size_t> widths_;       ///< of the columns of Line::numbers; 0: left out
+  std::vector<TableLine> lines_;
+  std::vector<std::size_t> widths_;       ///< of the columns of TableLine::numbers; 0: left out
   std::size_t numbers_ = 0, source_ = 0;  ///< columns that they take, with gaps
   std::size_t name_a_ = 0;
-  NamesStand stand_ = NamesStand::beside;
+  NameLayout stand_ = NameLayout::beside;
 };
 
 }  // namespace

@@ -58,7 +58,8 @@ std::string without_lead(std::string_view name, std::string_view lead) {
   return printable(name.substr(0, begin)) + std::string(kLeadMark) + rest;
 }
 
-std::vector<std::string> cut_apart(const std::vector<std::string>& texts, std::size_t columns) {
+std::vector<std::string> shorten_distinctly(const std::vector<std::string>& texts,
+                                            std::size_t columns) {
   const auto cut = [&](const std::string& text) {
     return columns_in(text) > columns ? fit_to_columns(text, columns) : text;
   };

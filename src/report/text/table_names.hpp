@@ -27,7 +27,7 @@ inline constexpr std::string_view kLeadMark = "~";
 
 /// Returns the texts, each that is wider than `columns` with its middle left out; where two that
 /// differ would then look alike, both stay whole.
-[[nodiscard]] std::vector<std::string> cut_apart(const std::vector<std::string>& texts,
-                                                 std::size_t columns);
+[[nodiscard]] std::vector<std::string> shorten_distinctly(const std::vector<std::string>& texts,
+                                                          std::size_t columns);
 
 }  // namespace strake::report

@@ -22,7 +22,7 @@ constexpr double kMmPerUm = 1e-3;
 Vec3d mm(const Vec3l& um) { return um.as<double>() * kMmPerUm; }
 
 /// The classes of the lines at one place, each once, in order.
-struct ClassesHere {
+struct ClassesAtPoint {
   std::vector<DiffLineClass> before, after;
 };
 
@@ -66,7 +66,8 @@ struct IntervalChange {
   friend bool operator==(const IntervalChange&, const IntervalChange&) = default;
 };
 
-IntervalChange classify_interval(const ClassesHere& place, const DiffLineClass& cls, bool after) {
+IntervalChange classify_interval(const ClassesAtPoint& place, const DiffLineClass& cls,
+                                 bool after) {
   const auto& theirs = after ? place.before : place.after;
   if (std::ranges::binary_search(theirs, cls)) return {};
   for (const auto& [was, is] :
@@ -138,7 +139,7 @@ void append_diff_intervals(std::vector<DiffInterval>& out, std::uint32_t piece, 
   IntervalChange last;
   for (std::size_t i = 0; i + 1 < kept.size(); ++i) {
     const double middle = kept[i] + (kept[i + 1] - kept[i]) / 2;
-    ClassesHere place;
+    ClassesAtPoint place;
     add_once(after ? place.after : place.before, cls);
     for (const CoveredInterval& cover : covers)
       if (cover.from_mm <= middle + tolerance_mm / 2 && middle <= cover.to_mm + tolerance_mm / 2)

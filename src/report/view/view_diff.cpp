@@ -61,7 +61,7 @@ void number_objects(ViewDiff& diff) {
     return at->second;
   };
   const auto number_before = [&](const ViewObject& o) {
-    return number(o, files.label_in_other(Run::before, o.file, o.id));
+    return number(o, files.label_in_other(RunSide::before, o.file, o.id));
   };
   for (const ViewObject& o : diff.before->objects) diff.of_before.push_back(number_before(o));
   for (const ViewObject& o : diff.before->far_objects) diff.far_before.insert(number_before(o));
@@ -86,7 +86,7 @@ std::string far_objects_text(const ViewDiff& diff, const std::set<std::uint32_t>
 
 /// Tells where the drawings left different objects out as far from all others, which no setting of
 /// theirs says.
-void tell_far_objects(ViewDiff& diff) {
+void report_far_objects(ViewDiff& diff) {
   if (diff.far_before == diff.far_after) return;
   diff.settings.insert(diff.settings.begin(),
                        {"far_objects", far_objects_text(diff, diff.far_before, diff.far_after),
@@ -206,7 +206,7 @@ Result<ViewDiff> compare(const ViewDocument& before, const ViewDocument& after,
                        (change.after.empty() ? "absent" : change.after),
                    after.name, "compare drawings of one view"};
   number_objects(diff);
-  tell_far_objects(diff);
+  report_far_objects(diff);
   const std::vector<ClassedPiece> pieces = classed(diff);
   if (pieces.size() >= 0xffffffffU)
     return Error{ErrorCode::input, "the drawings have too many lines to compare", after.name,

@@ -20,7 +20,7 @@ namespace {
 using drawing::LineState;
 using drawing::xml_escaped;
 
-struct Point {
+struct SvgPoint {
   double x = 0, y = 0;
 };
 
@@ -58,7 +58,7 @@ bool dashed(const ViewDiff& diff, const DiffInterval& s) {
   return is_hidden(has_ink(is) ? is : s.was.state);
 }
 
-Point at(const ViewPiece& piece, float t) {
+SvgPoint at(const ViewPiece& piece, float t) {
   const auto mix = [&](std::size_t k) {
     return static_cast<double>(piece.a_paper.at(k)) +
            (static_cast<double>(piece.b_paper.at(k)) - static_cast<double>(piece.a_paper.at(k))) *
@@ -71,9 +71,9 @@ Point at(const ViewPiece& piece, float t) {
 /// both show. If there is none, they lie as they are.
 struct Shift {
   double scale = 1;
-  Point from, to;
+  SvgPoint from, to;
 
-  [[nodiscard]] Point operator()(const Point& p) const {
+  [[nodiscard]] SvgPoint operator()(const SvgPoint& p) const {
     return {to.x + (p.x - from.x) * scale, to.y + (p.y - from.y) * scale};
   }
 };
@@ -113,8 +113,8 @@ class DiffPicture {
  private:
   static constexpr double kLegend = 12;
 
-  [[nodiscard]] Point paper(const DiffInterval& s, float t) const {
-    const Point p = at(diff_.piece(s), t);
+  [[nodiscard]] SvgPoint paper(const DiffInterval& s, float t) const {
+    const SvgPoint p = at(diff_.piece(s), t);
     return s.change == LineChange::gone ? shift_(p) : p;
   }
 
@@ -124,7 +124,7 @@ class DiffPicture {
     for (const DiffInterval& s : diff_.intervals) {
       if (!seen_as(diff_, s)) continue;
       for (const float t : {s.from, s.to}) {
-        const Point p = paper(s, t);
+        const SvgPoint p = paper(s, t);
         lo_ = {std::min(lo_.x, p.x), std::min(lo_.y, p.y)};
         hi_ = {std::max(hi_.x, p.x), std::max(hi_.y, p.y)};
       }
@@ -179,7 +179,7 @@ class DiffPicture {
         object = of;
       }
       ++painted_[static_cast<std::size_t>(style.change)];
-      const Point a = paper(s, s.from), b = paper(s, s.to);
+      const SvgPoint a = paper(s, s.from), b = paper(s, s.to);
       out += fmt::format("M{} {}L{} {}", rounded(a.x), rounded(a.y), rounded(b.x), rounded(b.y));
       buffer_.done();
     }
@@ -209,7 +209,7 @@ class DiffPicture {
   const ViewDiff& diff_;
   BufferedWriter buffer_;
   Shift shift_;
-  Point lo_, hi_;
+  SvgPoint lo_, hi_;
   std::array<std::size_t, kLineChanges> painted_{};
 };
 

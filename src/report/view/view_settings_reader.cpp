@@ -31,9 +31,9 @@ std::int64_t micrometres(double mm) {
 }
 
 /// One value of a section of a document.
-class Setting {
+class ViewSetting {
  public:
-  Setting(const std::map<std::string, std::string>& settings, std::string name)
+  ViewSetting(const std::map<std::string, std::string>& settings, std::string name)
       : name_(std::move(name)) {
     const auto found = settings.find(name_);
     if (found != settings.end()) text_ = found->second;
@@ -63,7 +63,6 @@ class Setting {
     must_be_there();
     return read([this](JsonReader&, DocumentFields fields) { return whole_vector(fields, name_); });
   }
-  [[nodiscard]] bool is_true() const { return text_ == "true"; }
   [[nodiscard]] bool is_false() const { return text_ == "false"; }
   [[nodiscard]] bool is_list() const { return text_.starts_with('['); }
   [[nodiscard]] const std::string& name() const { return name_; }
@@ -97,7 +96,7 @@ class Setting {
 
 /// Takes a value by its name; `other` where the document, an older one, does not say.
 template <class Enum, class Name>
-Enum value_of(const Setting& setting, Name&& name, Enum other) {
+Enum value_of(const ViewSetting& setting, Name&& name, Enum other) {
   if (!setting.is_there()) return other;
   const auto value = enum_by_name<Enum>(setting.text(), name);
   if (!value) throw wrong_type("the document", setting.name(), "value that this version knows");
@@ -112,9 +111,9 @@ std::vector<hlr::Section> read_sections(JsonReader& json, DocumentFields fields)
     hlr::Section section;
     json.members([&](std::string_view key) {
       if (key == "normal")
-        section.normal = Setting::whole_vector(fields, "normal");
+        section.normal = ViewSetting::whole_vector(fields, "normal");
       else if (key == "point_mm")
-        section.point = Setting::point(fields, "point_mm");
+        section.point = ViewSetting::point(fields, "point_mm");
       else
         json.skip();
     });
@@ -131,9 +130,9 @@ hlr::Perspective read_perspective(JsonReader& json, DocumentFields fields) {
   json.members([&](std::string_view key) {
     const std::string name(key);
     if (name == "eye_mm")
-      perspective.eye = Setting::point(fields, name);
+      perspective.eye = ViewSetting::point(fields, name);
     else if (name == "target_mm")
-      perspective.target = Setting::point(fields, name);
+      perspective.target = ViewSetting::point(fields, name);
     else if (name == "near_mm")
       perspective.near_mm = fields.number("the view", name);
     else if (name == "field_of_view_deg")
@@ -144,7 +143,7 @@ hlr::Perspective read_perspective(JsonReader& json, DocumentFields fields) {
   return perspective;
 }
 
-void read_uncut(const Setting& setting, drawing::NeutralDrawing& drawing) {
+void read_uncut(const ViewSetting& setting, drawing::NeutralDrawing& drawing) {
   drawing.uncut = setting.is_there();
   if (!setting.is_list()) return;
   setting.read([&](JsonReader& json, DocumentFields fields) {
@@ -152,7 +151,7 @@ void read_uncut(const Setting& setting, drawing::NeutralDrawing& drawing) {
   });
 }
 
-void read_limits(const Setting& setting, hlr::View& view) {
+void read_limits(const ViewSetting& setting, hlr::View& view) {
   if (!setting.is_there()) return;
   setting.read([&](JsonReader&, DocumentFields fields) {
     const auto mm = fields.numbers<6>(setting.where(), "limits_mm", DocumentFields::kFarthestMm);
@@ -165,15 +164,15 @@ void read_limits(const Setting& setting, hlr::View& view) {
 
 void read_view_settings(const std::map<std::string, std::string>& settings,
                         drawing::NeutralDrawing& drawing) {
-  const auto of = [&](const char* name) { return Setting(settings, name); };
+  const auto of = [&](const char* name) { return ViewSetting(settings, name); };
   drawing.view_name = of("view.name").text();
   hlr::View& view = drawing.view;
   view.direction = of("view.direction").direction();
   view.up = of("view.up").direction();
   read_limits(of("view.limits_mm"), view);
-  if (const Setting sections = of("view.sections"); sections.is_there())
+  if (const ViewSetting sections = of("view.sections"); sections.is_there())
     view.sections = sections.read(read_sections);
-  if (const Setting perspective = of("view.perspective"); perspective.is_there())
+  if (const ViewSetting perspective = of("view.perspective"); perspective.is_there())
     view.perspective = perspective.read(read_perspective);
   drawing.stage = value_of(of("settings.stage"), drawing::stage_name, hlr::Stage::global);
   drawing.hidden_lines = !of("settings.hidden_lines").is_false();
@@ -185,11 +184,12 @@ void read_view_settings(const std::map<std::string, std::string>& settings,
                                    hlr::OwnPolylines::visible);
   drawing.flush_seams = !of("settings.flush_seams").is_there();
   read_uncut(of("settings.uncut"), drawing);
-  if (const Setting diameter = of("settings.single_line_mm"); diameter.is_there())
+  if (const ViewSetting diameter = of("settings.single_line_mm"); diameter.is_there())
     drawing.single_line_mm = diameter.number();
   drawing.contact_distance_mm = of("settings.contact_distance_mm").number();
-  if (const Setting sag = of("settings.sag_mm"); sag.is_there()) drawing.sag_mm = sag.number();
-  if (const Setting weld = of("settings.weld_mm"); weld.is_there()) drawing.weld_mm = weld.number();
+  if (const ViewSetting sag = of("settings.sag_mm"); sag.is_there()) drawing.sag_mm = sag.number();
+  if (const ViewSetting weld = of("settings.weld_mm"); weld.is_there())
+    drawing.weld_mm = weld.number();
 }
 
 }  // namespace strake::report

@@ -15,7 +15,7 @@ inline constexpr std::string_view kTokenHeader = "Strake-Token";
 /// The path of the page. Its cookie opens nothing else.
 inline constexpr std::string_view kPagePath = "/";
 
-/// Tells whom the server answers.
+/// Decides whom the server answers.
 ///
 /// The token, which stands in the address that is printed, opens everything. The page that this
 /// address leads to sets a cookie, which opens the page again and nothing else: cookies go to

@@ -56,22 +56,22 @@ struct Answer {
 /// Returns an answer of plain text.
 [[nodiscard]] Answer text_answer(HttpStatus status, std::string text);
 
-/// What answers requests, one at a time.
-class Service {
+/// Answers requests, one at a time.
+class RequestHandler {
  public:
-  Service() = default;
-  virtual ~Service() = default;
-  Service(const Service&) = delete;
-  Service& operator=(const Service&) = delete;
-  Service(Service&&) = delete;
-  Service& operator=(Service&&) = delete;
+  RequestHandler() = default;
+  virtual ~RequestHandler() = default;
+  RequestHandler(const RequestHandler&) = delete;
+  RequestHandler& operator=(const RequestHandler&) = delete;
+  RequestHandler(RequestHandler&&) = delete;
+  RequestHandler& operator=(RequestHandler&&) = delete;
 
-  /// Looks at a request whose body is still to come. Returns the answer that refuses it.
+  /// Checks a request whose body is still to come. Returns the answer that refuses it, if any.
   [[nodiscard]] virtual std::optional<Answer> refuse(const Request& request) = 0;
   /// Answers a request that was not refused, whole. Whoever asks waits as long as it takes.
   [[nodiscard]] virtual Answer answer(const Request& request) = 0;
-  /// The same, but for what has to wait for something: nothing, and it is asked again soon, with
-  /// how long it has waited by then. Others are answered meanwhile.
+  /// Answers as answer() does; where it has to wait for something, nothing: it is asked again soon,
+  /// with how long it has waited by then. Others are answered meanwhile.
   [[nodiscard]] virtual std::optional<Answer> answer_or_wait(const Request& request,
                                                              std::chrono::milliseconds /*waited*/) {
     return answer(request);

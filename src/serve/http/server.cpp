@@ -29,7 +29,7 @@ constexpr std::chrono::milliseconds kLongestWait{1000};
 constexpr std::chrono::milliseconds kUntilAskedAgain{50};
 
 /// A request that comes in.
-struct Exchange {
+struct HttpExchange {
   Request request;
   bool is_answered = false;
   std::optional<Clock::time_point> waits_since = std::nullopt;  ///< whole, and not answered yet
@@ -97,7 +97,7 @@ struct Server::State {
     try {
       State& state = *static_cast<State*>(self);
       if (*exchange == nullptr) return state.begin(connection, url, method, exchange);
-      return state.go_on(connection, {data, *size}, *size, *static_cast<Exchange*>(*exchange));
+      return state.go_on(connection, {data, *size}, *size, *static_cast<HttpExchange*>(*exchange));
     } catch (const std::exception&) {  // no memory: the connection is closed
       return MHD_NO;
     }
@@ -105,7 +105,7 @@ struct Server::State {
 
   static void on_end(void* self, MHD_Connection* connection, void** exchange,
                      MHD_RequestTerminationCode why) {
-    delete static_cast<Exchange*>(*exchange);
+    delete static_cast<HttpExchange*>(*exchange);
     *exchange = nullptr;
     // Another request may follow on the same connection.
     State& state = *static_cast<State*>(self);
@@ -138,7 +138,7 @@ struct Server::State {
       at->second.until = Clock::now() + time;
   }
 
-  MHD_Result answer(MHD_Connection* connection, const Answer& text, Exchange& exchange) {
+  MHD_Result answer(MHD_Connection* connection, const Answer& text, HttpExchange& exchange) {
     exchange.is_answered = true;
     // An answer that took long to make is not the client's silence.
     allow(connection, limits.receiving, limits.receiving);
@@ -146,7 +146,7 @@ struct Server::State {
   }
 
   /// Answers a request that is whole, or lets its connection rest until it is asked again.
-  MHD_Result answer_or_wait(MHD_Connection* connection, Exchange& exchange) {
+  MHD_Result answer_or_wait(MHD_Connection* connection, HttpExchange& exchange) {
     const Clock::time_point now = Clock::now();
     if (!exchange.waits_since) exchange.waits_since = now;
     const auto waited =
@@ -169,13 +169,13 @@ struct Server::State {
   /// The headers are there.
   MHD_Result begin(MHD_Connection* connection, const char* url, const char* method,
                    void** exchange) {
-    auto made = std::make_unique<Exchange>();
+    auto made = std::make_unique<HttpExchange>();
     made->request.method = method;
     made->request.path = url;
     MHD_get_connection_values(connection, MHD_HEADER_KIND, add_field, &made->request.headers);
     MHD_get_connection_values(connection, MHD_GET_ARGUMENT_KIND, add_field,
                               &made->request.arguments);
-    Exchange& begun = *made;
+    HttpExchange& begun = *made;
     *exchange = made.release();
     if (const auto refusal = service->refuse(begun.request))
       return answer(connection, *refusal, begun);
@@ -200,7 +200,7 @@ struct Server::State {
 
   /// A piece of the body is there, or all of it was.
   MHD_Result go_on(MHD_Connection* connection, std::string_view piece, std::size_t& size,
-                   Exchange& exchange) {
+                   HttpExchange& exchange) {
     if (size == 0 && !exchange.is_answered) return answer_or_wait(connection, exchange);
     // What a client sends to its end although it was refused is not kept.
     if (!exchange.is_answered) {
@@ -233,7 +233,7 @@ struct Server::State {
   ServerLimits limits;
   std::uint16_t port = 0;
   MHD_Daemon* daemon = nullptr;
-  Service* service = nullptr;  ///< while it serves
+  RequestHandler* service = nullptr;  ///< while it serves
   std::map<MHD_Connection*, Connection> connections;
   std::set<MHD_Connection*> waiting;  ///< suspended
   Clock::time_point asked_again;      ///< when what waits was resumed last
@@ -270,7 +270,7 @@ Result<Server> Server::listen(std::uint16_t port, const ServerLimits& limits) {
   return Server(std::move(state));
 }
 
-Status Server::serve(Service& service, const std::stop_token& stop) {
+Status Server::serve(RequestHandler& service, const std::stop_token& stop) {
   state_->service = &service;
   const Wake wake(stop);
   const MHD_DaemonInfo* const info = MHD_get_daemon_info(state_->daemon, MHD_DAEMON_INFO_EPOLL_FD);

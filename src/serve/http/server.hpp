@@ -37,7 +37,7 @@ class Server {
 
   [[nodiscard]] std::uint16_t port() const;
   /// Answers requests until a stop is requested, which is no error. Errors: internal.
-  [[nodiscard]] Status serve(Service& service, const std::stop_token& stop);
+  [[nodiscard]] Status serve(RequestHandler& service, const std::stop_token& stop);
 
  private:
   struct State;

@@ -38,14 +38,14 @@ void append_clash(std::string& out, const project::ListedClash& clash) {
 }
 
 /// Which clashes are told, by the ids of their rows.
-struct ToldChanges {
+struct ReportedChanges {
   std::vector<std::int64_t> clashes;
   bool too_many = false;  ///< more changed than is told
 };
 
 /// What the page itself has just decided is told however much it is.
-Result<ToldChanges> told_changes(project::Database& database, std::int64_t event,
-                                 const project::DecisionsAsSeen* done) {
+Result<ReportedChanges> changes_for_page(project::Database& database, std::int64_t event,
+                                         const project::DecisionsAsSeen* done) {
   std::vector<std::int64_t> own;
   if (done != nullptr) own = done->decided;
   std::ranges::sort(own);
@@ -55,10 +55,10 @@ Result<ToldChanges> told_changes(project::Database& database, std::int64_t event
   if (!changed) return changed.error();
   std::vector<std::int64_t> others;
   std::ranges::set_difference(*changed, own, std::back_inserter(others));
-  if (others.size() > kMostChanges) return ToldChanges{std::move(own), true};
+  if (others.size() > kMostChanges) return ReportedChanges{std::move(own), true};
   std::vector<std::int64_t> all;
   std::ranges::merge(own, others, std::back_inserter(all));
-  return ToldChanges{std::move(all), false};
+  return ReportedChanges{std::move(all), false};
 }
 
 HttpStatus status_of(ErrorCode code) {
@@ -74,7 +74,7 @@ Result<std::string> project_answer(project::Database& database, std::int64_t eve
                                    const project::DecisionsAsSeen* done) {
   const Result<project::SeenState> now = project::state_now(database);
   if (!now) return now.error();
-  const Result<ToldChanges> told = told_changes(database, event, done);
+  const Result<ReportedChanges> told = changes_for_page(database, event, done);
   if (!told) return told.error();
   const Result<std::vector<project::ListedClash>> clashes =
       project::read_clashes(database, told->clashes);

@@ -45,7 +45,7 @@ bool is_json(std::string_view type) {
 }
 
 /// An error as people read it, where no page can be shown.
-Answer told_answer(const Error& error) {
+Answer plain_error_answer(const Error& error) {
   return text_answer(error_answer(error).status, error.text());
 }
 
@@ -88,7 +88,7 @@ std::optional<Answer> Site::answer_or_wait(const Request& request,
                                            std::chrono::milliseconds waited) {
   const bool is_page = request.path == kPagePath;
   if (const Status there = contents_.database.check_in_place(); !there)
-    return guarded(is_page ? told_answer(there.error()) : error_answer(there.error()));
+    return guarded(is_page ? plain_error_answer(there.error()) : error_answer(there.error()));
   if (is_page) return guarded(page());
   if (request.path == kStatePath) return guarded(state(request));
   Result<DecisionRequest> asked = read_decision_request(request.body);
@@ -115,7 +115,7 @@ Status Site::prepare() {
 }
 
 Answer Site::page() {
-  if (const Status status = prepare(); !status) return told_answer(status.error());
+  if (const Status status = prepare(); !status) return plain_error_answer(status.error());
   return {HttpStatus::ok,
           "text/html; charset=utf-8",
           page_.html,

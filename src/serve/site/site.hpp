@@ -37,7 +37,7 @@ struct SiteContents {
 /// GET / is the page, made anew once the project has another run; GET /api/state?event=N tells what
 /// changed after an event; POST /api/decide decides, as 'strake clash set' does. Nothing else is
 /// there.
-class Site final : public Service {
+class Site final : public RequestHandler {
  public:
   Site(Gate gate, SiteContents contents);
 

@@ -128,22 +128,22 @@ class Zones {
 };
 
 /// A cell of the title block: millimetres from its upper left corner, at its full size.
-struct Field {
+struct TitleField {
   std::string_view name, label;
   double left, top, width, height, letters;
 };
-constexpr std::array<Field, 12> kFields{{{"drawn", "DRAWN", 0, 0, 58, 9, 3},
-                                         {"checked", "CHECKED", 0, 9, 58, 9, 3},
-                                         {"approved", "APPROVED", 0, 18, 58, 9, 3},
-                                         {"date", "DATE", 0, 27, 58, 9, 3},
-                                         {"owner", "OWNER", 58, 0, 122, 11, 4},
-                                         {"title", "TITLE", 58, 11, 122, 14, 5},
-                                         {"subtitle", "", 58, 25, 122, 11, 3.5},
-                                         {"scale", "SCALE", 0, 36, 34, 12, 3.5},
-                                         {"size", "SIZE", 34, 36, 24, 12, 3.5},
-                                         {"number", "DRAWING NUMBER", 82, 36, 62, 12, 5},
-                                         {"revision", "REV", 144, 36, 16, 12, 5},
-                                         {"sheet", "SHEET", 160, 36, 20, 12, 3.5}}};
+constexpr std::array<TitleField, 12> kFields{{{"drawn", "DRAWN", 0, 0, 58, 9, 3},
+                                              {"checked", "CHECKED", 0, 9, 58, 9, 3},
+                                              {"approved", "APPROVED", 0, 18, 58, 9, 3},
+                                              {"date", "DATE", 0, 27, 58, 9, 3},
+                                              {"owner", "OWNER", 58, 0, 122, 11, 4},
+                                              {"title", "TITLE", 58, 11, 122, 14, 5},
+                                              {"subtitle", "", 58, 25, 122, 11, 3.5},
+                                              {"scale", "SCALE", 0, 36, 34, 12, 3.5},
+                                              {"size", "SIZE", 34, 36, 24, 12, 3.5},
+                                              {"number", "DRAWING NUMBER", 82, 36, 62, 12, 5},
+                                              {"revision", "REV", 144, 36, 16, 12, 5},
+                                              {"sheet", "SHEET", 160, 36, 20, 12, 3.5}}};
 constexpr PaperBox kSymbol{58, 36, 82, 48};
 
 class TitleBlock {
@@ -152,7 +152,7 @@ class TitleBlock {
       : block_(block), scale_(block.width() / kBlockWidth), marks_(marks) {}
 
   void draw(Lookup field, std::vector<std::string>* narrow) {
-    for (const Field& cell : kFields) {
+    for (const TitleField& cell : kFields) {
       // A field without a label shares the box of the one above.
       if (!cell.label.empty()) box_of_cell(cell);
       if (!cell.label.empty()) text(cell.label, cell.left + 1, cell.top + 2.6, 1.8, Align::start);
@@ -211,7 +211,7 @@ class TitleBlock {
     for (const PaperPoint& p : points) path.points.push_back(point(p.x, p.y));
     marks_.paths.push_back(std::move(path));
   }
-  void box_of_cell(const Field& cell) {
+  void box_of_cell(const TitleField& cell) {
     const double height = cell.name == "title" ? cell.height + 11 : cell.height;
     const PaperPoint a = point(cell.left, cell.top);
     const PaperPoint b = point(cell.left + cell.width, cell.top + height);
@@ -227,7 +227,7 @@ class TitleBlock {
 
 std::vector<std::string> title_block_fields() {
   std::vector<std::string> names;
-  for (const Field& field : kFields) names.emplace_back(field.name);
+  for (const TitleField& field : kFields) names.emplace_back(field.name);
   return names;
 }
 

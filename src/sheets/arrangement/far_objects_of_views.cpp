@@ -42,7 +42,7 @@ class FarObjectsOfViews {
       }
       left_out[v] = view.slot == ViewSlot::none ? far_[v].objects : drawn_of(shared, v);
       if (left_out[v].empty()) continue;
-      tell(v, left_out[v].size());
+      report(v, left_out[v].size());
       FarObjects out;
       out.objects = left_out[v];
       drawing::leave_out(out, *scene_.model, *drawn_[v]);
@@ -85,7 +85,7 @@ class FarObjectsOfViews {
         what_.views[v].where);
   }
 
-  void tell(std::size_t v, std::size_t count) {
+  void report(std::size_t v, std::size_t count) {
     const FarObjects& far = far_[v];
     const std::string left_out =
         fmt::format("the view '{}' leaves {} {} out (limits = \"auto\")", what_.views[v].name,
@@ -106,7 +106,7 @@ class FarObjectsOfViews {
 
 }  // namespace
 
-Result<std::vector<std::vector<model::ObjectId>>> mind_far_objects(
+Result<std::vector<std::vector<model::ObjectId>>> resolve_far_objects(
     const SheetSpec& what, const model::Scene& scene, std::span<std::vector<bool>* const> drawn,
     Diagnostics& diagnostics, const parallel::Context& context) {
   FarObjectsOfViews views(what, scene, drawn, diagnostics);

@@ -18,7 +18,7 @@ namespace strake::sheets {
 /// are taken out and told of in a note; elsewhere a warning tells of them. Arranged views leave out
 /// what is far in any of them, since the view along the far way does not show how far it is.
 /// Returns the objects that each view leaves out. Errors: cancelled.
-[[nodiscard]] Result<std::vector<std::vector<model::ObjectId>>> mind_far_objects(
+[[nodiscard]] Result<std::vector<std::vector<model::ObjectId>>> resolve_far_objects(
     const SheetSpec& what, const model::Scene& scene, std::span<std::vector<bool>* const> drawn,
     Diagnostics& diagnostics, const parallel::Context& context);
 

@@ -8,7 +8,7 @@ namespace strake::sheets {
 namespace {
 
 /// The room that a box has along one direction of paper.
-struct Span {
+struct FreeSpan {
   double from, to;
   [[nodiscard]] double size() const { return to - from; }
   [[nodiscard]] double middle() const { return from / 2 + to / 2; }
@@ -53,16 +53,16 @@ class FreePlace {
   /// Moves a free box to the middle of the room that it has across, then up and down; returns the
   /// lesser of the two rooms that are left.
   [[nodiscard]] double centre(PaperBox& box) const {
-    const Span across = room_across(box);
+    const FreeSpan across = room_across(box);
     const double width = box.width(), height = box.height();
     box = box.moved(across.middle() - (box.left / 2 + box.right / 2), 0);
-    const Span upright = room_upright(box);
+    const FreeSpan upright = room_upright(box);
     box = box.moved(0, upright.middle() - (box.top / 2 + box.bottom / 2));
     return std::min(across.size() - width, upright.size() - height);
   }
 
-  [[nodiscard]] Span room_across(const PaperBox& box) const {
-    Span span{area_.left, area_.right};
+  [[nodiscard]] FreeSpan room_across(const PaperBox& box) const {
+    FreeSpan span{area_.left, area_.right};
     for (const PaperBox& t : taken_) {
       if (t.bottom <= box.top || box.bottom <= t.top) continue;
       if (t.right <= box.left)
@@ -73,8 +73,8 @@ class FreePlace {
     return span;
   }
 
-  [[nodiscard]] Span room_upright(const PaperBox& box) const {
-    Span span{area_.top, area_.bottom};
+  [[nodiscard]] FreeSpan room_upright(const PaperBox& box) const {
+    FreeSpan span{area_.top, area_.bottom};
     for (const PaperBox& t : taken_) {
       if (t.right <= box.left || box.right <= t.left) continue;
       if (t.bottom <= box.top)

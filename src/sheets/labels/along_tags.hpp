@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tags that lie along what they name, as the numbers of pipes do.
+// Tags that lie along what they name, as the numbers of pipes do: where an object runs straight on,
+// and where its tag has room there.
 #pragma once
 
 #include <optional>

@@ -60,7 +60,7 @@ std::vector<LabelCandidates::Offset> LabelCandidates::lattice(double least_mm, b
   return all;
 }
 
-bool LabelCandidates::look_farther(Label label, bool leader, double wanted) {
+bool LabelCandidates::extend_search(Label label, bool leader, double wanted) {
   const LabelRequest& request = requests_[label];
   if (!leader && !request.on_object) return false;
   Found& found = (leader ? by_leader_ : on_object_)[label];

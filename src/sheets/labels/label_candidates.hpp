@@ -78,7 +78,7 @@ class LabelCandidates {
   template <class Search>
   void each(Label label, bool leader, double& wanted, Search& search) {
     Found& found = (leader ? by_leader_ : on_object_)[label];
-    for (std::size_t i = 0; i < found.all.size() || look_farther(label, leader, wanted); ++i) {
+    for (std::size_t i = 0; i < found.all.size() || extend_search(label, leader, wanted); ++i) {
       Candidate& candidate = found.all[i];
       const double length = offset_of(label, leader, candidate.number).length;
       if (length >= wanted || work_.used_up()) return;
@@ -100,7 +100,7 @@ class LabelCandidates {
                   : object_offsets_[number];
   }
   /// Looks for the next candidate; returns whether there is one that is short enough to be wanted.
-  bool look_farther(Label label, bool leader, double wanted);
+  bool extend_search(Label label, bool leader, double wanted);
   [[nodiscard]] LabelPlace place_of(Label label, bool leader, std::size_t number) const;
   [[nodiscard]] LabelPlace on_object(const LabelRequest& request, const Offset& offset) const;
   [[nodiscard]] LabelPlace by_leader(const LabelRequest& request, const PaperPoint& tip,

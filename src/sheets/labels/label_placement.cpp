@@ -84,13 +84,14 @@ class LabelPlacer {
     if (place) placed_.add(label, *places_[label]);
   }
 
-  void find_conflicts(const LabelPlace& place, const PlacedLabels::Most& most, Conflicts& found) {
+  void find_conflicts(const LabelPlace& place, const PlacedLabels::QueryLimit& most,
+                      Conflicts& found) {
     placed_.find_conflicts(place, most, found);
     work_.spend(kCompareWork * found.looked_at);
   }
 
   /// A search for the cheapest place beside the labels that have one.
-  struct Cheapest {
+  struct CheapestSearch {
     LabelPlacer& of;
     double least;
     std::optional<LabelPlace> best = {};
@@ -116,7 +117,7 @@ class LabelPlacer {
 
   /// Returns the cheapest place of a label, if it costs less than `limit`.
   [[nodiscard]] std::optional<LabelPlace> cheapest(Label label, double limit = kNoLimit) {
-    Cheapest search{*this, limit};
+    CheapestSearch search{*this, limit};
     candidates_.each(label, limit, search);
     return search.best;
   }

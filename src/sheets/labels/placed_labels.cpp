@@ -104,7 +104,8 @@ void PlacedLabels::remove(Label label) {
   places_[label].number = 0;
 }
 
-void PlacedLabels::find_conflicts(const LabelPlace& place, const Most& most, Conflicts& found) {
+void PlacedLabels::find_conflicts(const LabelPlace& place, const QueryLimit& most,
+                                  Conflicts& found) {
   found.blockers.clear();
   found.crossed.clear();
   found.looked_at = 0;

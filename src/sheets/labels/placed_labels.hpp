@@ -55,12 +55,12 @@ class PlacedLabels {
   [[nodiscard]] Blocker blocker(Label label) const { return {label, places_[label].number}; }
 
   /// How many of them a query wants to know.
-  struct Most {
+  struct QueryLimit {
     std::size_t blockers, crossed;
   };
   /// Sets `found` to the conflicts of a place, both lists in ascending order. Looks no further once
   /// there are more than `most` of either; the lists are then not all.
-  void find_conflicts(const LabelPlace& place, const Most& most, Conflicts& found);
+  void find_conflicts(const LabelPlace& place, const QueryLimit& most, Conflicts& found);
 
  private:
   template <class Visit>

@@ -186,8 +186,8 @@ void add_dxf_marks(PaperSpace& paper, const Marks& marks) {
 
 /// Gives layers of a sheet that look otherwise than those of their names before it the number of
 /// the sheet behind their names.
-void tell_apart(std::vector<drawing::dxf::LayerStyle>& layers, std::size_t sheet,
-                std::map<std::string, drawing::dxf::LayerStyle>& known) {
+void make_names_unique(std::vector<drawing::dxf::LayerStyle>& layers, std::size_t sheet,
+                       std::map<std::string, drawing::dxf::LayerStyle>& known) {
   for (drawing::dxf::LayerStyle& layer : layers) {
     const auto& first = known.emplace(layer.name, layer).first->second;
     if (first.width_mm == layer.width_mm && first.dash_mm == layer.dash_mm &&
@@ -248,7 +248,7 @@ Result<Diagnostics> write_dxf(std::span<const Sheet> sheets, const model::Model&
     std::vector<const drawing::Ink*> inks;
     for (const PlacedView& view : sheet.views) inks.push_back(&view.ink);
     layout.style_layers = drawing::dxf::add_style_layers(inks, layout.layers);
-    tell_apart(layout.layers, file.sheets.size(), known);
+    make_names_unique(layout.layers, file.sheets.size(), known);
     for (const PlacedView& view : sheet.views) layout.views.push_back({view.drawing, view.ink});
     file.sheets.push_back(std::move(layout));
   }

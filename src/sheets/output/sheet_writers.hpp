@@ -31,7 +31,7 @@ struct SheetWriter {
                                const parallel::Context& context);
 };
 
-/// All of them, in the order of errors.
+/// Returns the writers of all formats, in the order of errors.
 [[nodiscard]] std::span<const SheetWriter> sheet_writers();
 
 }  // namespace strake::sheets

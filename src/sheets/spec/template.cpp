@@ -252,9 +252,9 @@ bool is_inside_reference(std::string_view element, std::string_view value) {
 }
 
 /// Writes the elements of a drawing anew: content that is not understood cannot pass.
-class Cleaner {
+class SvgSanitizer {
  public:
-  explicit Cleaner(std::string_view svg) : reader_(svg) {}
+  explicit SvgSanitizer(std::string_view svg) : reader_(svg) {}
 
   Result<Template> run() {
     for (;;) {
@@ -450,6 +450,6 @@ std::vector<std::string> Template::fields() const {
   return names;
 }
 
-Result<Template> parse_template(std::string_view svg) { return Cleaner(svg).run(); }
+Result<Template> parse_template(std::string_view svg) { return SvgSanitizer(svg).run(); }
 
 }  // namespace strake::sheets

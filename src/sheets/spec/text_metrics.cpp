@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/text_encoding.hpp"
-#include "drawing/lettering/letter_widths.hpp"
+#include "drawing/lettering/lettering.hpp"
 #include "geometry/numeric/trig.hpp"
 
 namespace strake::sheets {

@@ -97,30 +97,31 @@ void append_box_cells(SheetRow& row, const geometry::Box3d& box) {
 
 }  // namespace
 
-Sheet clash_sheet(const ClashContents& contents, const report::GroupNumbers& numbers) {
+Worksheet clash_sheet(const ClashContents& contents, const report::GroupNumbers& numbers) {
   const auto rows = std::make_shared<const ResultRows>(contents, numbers);
-  Sheet sheet{.name = "Clashes",
-              .columns = columns_of(contents, {report::kResultColumns, report::kDecidedColumns}),
-              .rows = rows->size(),
-              .cells = {}};
+  Worksheet sheet{
+      .name = "Clashes",
+      .columns = columns_of(contents, {report::kResultColumns, report::kDecidedColumns}),
+      .rows = rows->size(),
+      .cells = {}};
   sheet.class_column = number_of(sheet.columns, "class");
   sheet.status_column = number_of(sheet.columns, "status");
   sheet.cells = [rows](std::size_t i, SheetRow& row) { rows->append(i, row); };
   return sheet;
 }
 
-Sheet group_sheet(const ClashContents& contents) {
-  Sheet sheet{.name = "Groups",
-              .columns = {{"group", 29},
-                          {"name", 50},
-                          {"results", 10},
-                          {"class", 22},
-                          {"d_mm", 13},
-                          {"HIT", 10},
-                          {"CONTACT", 10},
-                          {"CLEARANCE_VIOLATION", 22},
-                          {"volume_mm3", 16}},
-              .cells = {}};
+Worksheet group_sheet(const ClashContents& contents) {
+  Worksheet sheet{.name = "Groups",
+                  .columns = {{"group", 29},
+                              {"name", 50},
+                              {"results", 10},
+                              {"class", 22},
+                              {"d_mm", 13},
+                              {"HIT", 10},
+                              {"CONTACT", 10},
+                              {"CLEARANCE_VIOLATION", 22},
+                              {"volume_mm3", 16}},
+                  .cells = {}};
   for (const char* const corner : {"", "lo_", "hi_"})
     for (const char axis : std::string_view("xyz"))
       sheet.columns.push_back({std::string(corner) + axis + "_mm", 13});
@@ -142,7 +143,7 @@ Sheet group_sheet(const ClashContents& contents) {
   return sheet;
 }
 
-Sheet joint_sheet(const ClashContents& contents, const std::vector<report::PipeJoint>& joints) {
+Worksheet joint_sheet(const ClashContents& contents, const std::vector<report::PipeJoint>& joints) {
   return {.name = "Joints",
           .columns = columns_of(contents, {report::kJointColumns}),
           .rows = joints.size(),
@@ -151,17 +152,17 @@ Sheet joint_sheet(const ClashContents& contents, const std::vector<report::PipeJ
           }};
 }
 
-Sheet not_compared_sheet(const ClashContents& contents) {
-  Sheet sheet{.name = "Not compared",
-              .columns = {{"test", 18},
-                          {"why", 26},
-                          {"a_id", 22},
-                          {"a_name", 34},
-                          {"a_file", 22},
-                          {"b_id", 22},
-                          {"b_name", 34},
-                          {"b_file", 22}},
-              .cells = {}};
+Worksheet not_compared_sheet(const ClashContents& contents) {
+  Worksheet sheet{.name = "Not compared",
+                  .columns = {{"test", 18},
+                              {"why", 26},
+                              {"a_id", 22},
+                              {"a_name", 34},
+                              {"a_file", 22},
+                              {"b_id", 22},
+                              {"b_name", 34},
+                              {"b_file", 22}},
+                  .cells = {}};
   std::vector<std::pair<std::size_t, std::size_t>> all;
   for (std::size_t t = 0; t < contents.findings.tests.size(); ++t)
     for (std::size_t i = 0; i < contents.findings.tests[t].not_compared.size(); ++i)

@@ -14,11 +14,11 @@ namespace strake::workbook {
 // to what they are given, and may have more rows than a sheet can.
 
 /// All results, as CSV has them, with room for decisions.
-[[nodiscard]] Sheet clash_sheet(const report::ClashContents& contents,
-                                const report::GroupNumbers& numbers);
-[[nodiscard]] Sheet group_sheet(const report::ClashContents& contents);
-[[nodiscard]] Sheet joint_sheet(const report::ClashContents& contents,
-                                const std::vector<report::PipeJoint>& joints);
-[[nodiscard]] Sheet not_compared_sheet(const report::ClashContents& contents);
+[[nodiscard]] Worksheet clash_sheet(const report::ClashContents& contents,
+                                    const report::GroupNumbers& numbers);
+[[nodiscard]] Worksheet group_sheet(const report::ClashContents& contents);
+[[nodiscard]] Worksheet joint_sheet(const report::ClashContents& contents,
+                                    const std::vector<report::PipeJoint>& joints);
+[[nodiscard]] Worksheet not_compared_sheet(const report::ClashContents& contents);
 
 }  // namespace strake::workbook

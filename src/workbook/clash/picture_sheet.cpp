@@ -40,21 +40,21 @@ std::vector<ResultRef> worst_results(const ClashContents& contents) {
 
 }  // namespace
 
-Result<Sheet> picture_sheet(const ClashContents& contents, const parallel::Context& context) {
+Result<Worksheet> picture_sheet(const ClashContents& contents, const parallel::Context& context) {
   constexpr double kPictureWidth = 46, kPictureHeight = 190;
-  Sheet sheet{.name = "Pictures",
-              .columns = {{"picture", kPictureWidth},
-                          {"class", 22},
-                          {"d_mm", 13},
-                          {"a_name", 34},
-                          {"b_name", 34},
-                          {"x_mm", 13},
-                          {"y_mm", 13},
-                          {"z_mm", 13},
-                          {"test", 18},
-                          {"key", 29}},
-              .cells = {},
-              .row_height = kPictureHeight};
+  Worksheet sheet{.name = "Pictures",
+                  .columns = {{"picture", kPictureWidth},
+                              {"class", 22},
+                              {"d_mm", 13},
+                              {"a_name", 34},
+                              {"b_name", 34},
+                              {"x_mm", 13},
+                              {"y_mm", 13},
+                              {"z_mm", 13},
+                              {"test", 18},
+                              {"key", 29}},
+                  .cells = {},
+                  .row_height = kPictureHeight};
   sheet.class_column = 1;
   if (!contents.picture_of) return sheet;
   std::vector<ResultRef> worst = worst_results(contents);

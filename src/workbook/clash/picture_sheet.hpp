@@ -17,7 +17,7 @@ inline constexpr std::size_t kMostPictures = 10;
 /// not settled, each with its picture: by class, then by d, then as in the findings. It has no rows
 /// where nobody makes pictures (ClashContents::picture_of). Errors: those of who makes them;
 /// cancelled.
-[[nodiscard]] Result<Sheet> picture_sheet(const report::ClashContents& contents,
-                                          const parallel::Context& context);
+[[nodiscard]] Result<Worksheet> picture_sheet(const report::ClashContents& contents,
+                                              const parallel::Context& context);
 
 }  // namespace strake::workbook

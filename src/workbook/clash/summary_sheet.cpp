@@ -142,10 +142,10 @@ void add_diagnostics(SummaryRows& rows, const ClashContents& contents) {
     });
 }
 
-void add_sheets(SummaryRows& rows, std::span<const Sheet> others) {
+void add_sheets(SummaryRows& rows, std::span<const Worksheet> others) {
   rows.heads({"Sheet", "Rows"});
-  for (const Sheet& sheet : others) rows.count(sheet.name, sheet.rows);
-  for (const Sheet& sheet : others)
+  for (const Worksheet& sheet : others) rows.count(sheet.name, sheet.rows);
+  for (const Worksheet& sheet : others)
     if (sheet.rows == kMostRows - 1) {
       rows.text("Note",
                 "A sheet has at most 1,048,576 rows: what is more stands on further sheets "
@@ -156,7 +156,7 @@ void add_sheets(SummaryRows& rows, std::span<const Sheet> others) {
 
 }  // namespace
 
-Sheet summary_sheet(const ClashContents& contents, std::span<const Sheet> others) {
+Worksheet summary_sheet(const ClashContents& contents, std::span<const Worksheet> others) {
   SummaryRows rows;
   add_origin(rows, contents);
   add_counts(rows, contents);
@@ -165,7 +165,7 @@ Sheet summary_sheet(const ClashContents& contents, std::span<const Sheet> others
   add_diagnostics(rows, contents);
   add_sheets(rows, others);
   constexpr std::size_t kColumns = 14;
-  Sheet sheet{
+  Worksheet sheet{
       .name = "Summary", .columns = std::vector<SheetColumn>(kColumns, {"", 19}), .cells = {}};
   sheet.columns.front().width = 32;
   std::vector<Cells> cells = rows.take();

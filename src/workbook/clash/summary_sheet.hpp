@@ -10,7 +10,7 @@ namespace strake::workbook {
 
 /// Returns the sheet that tells what was tested, by which rules and tolerances, what was found and
 /// decided, what was not compared, and where the rows of the `others` are.
-[[nodiscard]] Sheet summary_sheet(const report::ClashContents& contents,
-                                  std::span<const Sheet> others);
+[[nodiscard]] Worksheet summary_sheet(const report::ClashContents& contents,
+                                      std::span<const Worksheet> others);
 
 }  // namespace strake::workbook

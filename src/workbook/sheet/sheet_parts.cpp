@@ -78,7 +78,7 @@ std::string styles() {
   return out + "</dxfs></styleSheet>";
 }
 
-std::string content_types(std::span<const Sheet> sheets) {
+std::string content_types(std::span<const Worksheet> sheets) {
   std::string out(kXml);
   out +=
       "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">"
@@ -115,14 +115,14 @@ std::string relations(std::span<const Relation> all) {
 }
 
 /// Returns the cells of a sheet that have heads, as filters name them: "A1:F20".
-std::string table_range(const Sheet& sheet, std::string_view dollar) {
+std::string table_range(const Worksheet& sheet, std::string_view dollar) {
   return fmt::format("{0}A{0}1:{0}{1}{0}{2}", dollar, column_name(sheet.columns.size() - 1),
                      sheet.rows + 1);
 }
 
-bool has_filter(const Sheet& sheet) { return sheet.has_heads() && sheet.rows > 0; }
+bool has_filter(const Worksheet& sheet) { return sheet.has_heads() && sheet.rows > 0; }
 
-std::string workbook_part(std::span<const Sheet> sheets) {
+std::string workbook_part(std::span<const Worksheet> sheets) {
   std::string out(kXml);
   out += fmt::format("<workbook xmlns=\"{}\" xmlns:r=\"{}\"><sheets>", kMain, kOffice);
   std::string filters;
@@ -141,7 +141,7 @@ std::string workbook_part(std::span<const Sheet> sheets) {
 }
 
 /// Returns the part that says where the pictures of a sheet stand, each in the width of 320 px.
-std::string pictures_part(const Sheet& sheet) {
+std::string pictures_part(const Worksheet& sheet) {
   constexpr std::uint64_t kUnitsOfPixel = 9525, kWidth = 320;
   std::string out(kXml);
   out += fmt::format("<xdr:wsDr xmlns:xdr=\"{}\" xmlns:a=\"{}\" xmlns:r=\"{}\">", kOnSheet,
@@ -166,7 +166,7 @@ std::string pictures_part(const Sheet& sheet) {
 }
 
 /// Adds the parts of the pictures of sheet number `s`; `images` counts those of all sheets.
-void add_pictures(std::vector<Part>& parts, const Sheet& sheet, std::size_t s,
+void add_pictures(std::vector<PackagePart>& parts, const Worksheet& sheet, std::size_t s,
                   std::size_t& images) {
   const std::string drawing = fmt::format("drawing{}.xml", s + 1);
   const std::array to_drawing{Relation{"drawing", "../drawings/" + drawing}};
@@ -183,8 +183,8 @@ void add_pictures(std::vector<Part>& parts, const Sheet& sheet, std::size_t s,
 }
 
 /// Returns the rules that colour the words of a column; `first` is the number of its first format.
-std::string colour_rules(const Sheet& sheet, std::size_t column, std::span<const WordColours> words,
-                         std::size_t first) {
+std::string colour_rules(const Worksheet& sheet, std::size_t column,
+                         std::span<const WordColours> words, std::size_t first) {
   std::string out = fmt::format("<conditionalFormatting sqref=\"{0}2:{0}{1}\">",
                                 column_name(column), sheet.rows + 1);
   for (std::size_t i = 0; i < words.size(); ++i)
@@ -201,24 +201,24 @@ std::string sheet_part(std::size_t sheet) {
   return fmt::format("xl/worksheets/sheet{}.xml", sheet + 1);
 }
 
-std::vector<Part> workbook_parts(std::span<const Sheet> sheets) {
+std::vector<PackagePart> workbook_parts(std::span<const Worksheet> sheets) {
   const std::array to_workbook{Relation{"officeDocument", "xl/workbook.xml"}};
   std::vector<Relation> of_workbook;
   for (std::size_t s = 0; s < sheets.size(); ++s)
     of_workbook.emplace_back("worksheet", fmt::format("worksheets/sheet{}.xml", s + 1));
   of_workbook.emplace_back("styles", "styles.xml");
-  std::vector<Part> parts{{"[Content_Types].xml", content_types(sheets)},
-                          {"_rels/.rels", relations(to_workbook)},
-                          {"xl/workbook.xml", workbook_part(sheets)},
-                          {"xl/_rels/workbook.xml.rels", relations(of_workbook)},
-                          {"xl/styles.xml", styles()}};
+  std::vector<PackagePart> parts{{"[Content_Types].xml", content_types(sheets)},
+                                 {"_rels/.rels", relations(to_workbook)},
+                                 {"xl/workbook.xml", workbook_part(sheets)},
+                                 {"xl/_rels/workbook.xml.rels", relations(of_workbook)},
+                                 {"xl/styles.xml", styles()}};
   std::size_t images = 0;
   for (std::size_t s = 0; s < sheets.size(); ++s)
     if (!sheets[s].pictures.empty()) add_pictures(parts, sheets[s], s, images);
   return parts;
 }
 
-std::string sheet_head(const Sheet& sheet, bool is_first) {
+std::string sheet_head(const Worksheet& sheet, bool is_first) {
   std::string out(kXml);
   out += fmt::format(
       "<worksheet xmlns=\"{}\" xmlns:r=\"{}\"><sheetViews><sheetView{} "
@@ -248,7 +248,7 @@ std::string sheet_head(const Sheet& sheet, bool is_first) {
   return out;
 }
 
-std::string sheet_tail(const Sheet& sheet) {
+std::string sheet_tail(const Worksheet& sheet) {
   std::string out = "</sheetData>";
   if (has_filter(sheet)) out += fmt::format("<autoFilter ref=\"{}\"/>", table_range(sheet, ""));
   if (sheet.class_column && sheet.rows > 0)

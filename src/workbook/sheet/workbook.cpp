@@ -15,7 +15,7 @@ namespace {
 
 /// Appends the rows of a sheet to the file that is begun. A piece has a fixed number of rows, so
 /// that its bytes are the same for any team.
-Status add_rows(report::ZipWriter& zip, const Sheet& sheet, const parallel::Context& context) {
+Status add_rows(report::ZipWriter& zip, const Worksheet& sheet, const parallel::Context& context) {
   const std::size_t heads = sheet.has_heads() ? 1 : 0;
   bool packed = true;
   const Status status = drawing::write_in_batches(
@@ -39,7 +39,7 @@ Status add_rows(report::ZipWriter& zip, const Sheet& sheet, const parallel::Cont
   return Error{ErrorCode::memory, "no memory to pack a workbook with", {}, {}};
 }
 
-Status add_sheet(report::ZipWriter& zip, const Sheet& sheet, std::size_t number,
+Status add_sheet(report::ZipWriter& zip, const Worksheet& sheet, std::size_t number,
                  const parallel::Context& context) {
   const Result<report::DeflatedPiece> head = report::deflate_piece(sheet_head(sheet, number == 0));
   if (!head) return head.error();
@@ -68,10 +68,10 @@ std::optional<PictureSize> size_of_png(std::string_view png) {
   return size;
 }
 
-void append_split(std::vector<Sheet>& sheets, const Sheet& whole, std::size_t most_rows) {
+void append_split(std::vector<Worksheet>& sheets, const Worksheet& whole, std::size_t most_rows) {
   std::size_t first = 0, number = 1;
   do {
-    Sheet sheet = whole;
+    Worksheet sheet = whole;
     sheet.rows = std::min(whole.rows - first, most_rows);
     if (first > 0) {
       sheet.name += " " + std::to_string(++number);
@@ -84,10 +84,10 @@ void append_split(std::vector<Sheet>& sheets, const Sheet& whole, std::size_t mo
   } while (first < whole.rows);
 }
 
-Status write_workbook(std::span<const Sheet> sheets, report::Sink sink,
+Status write_workbook(std::span<const Worksheet> sheets, report::Sink sink,
                       const parallel::Context& context) {
   report::ZipWriter zip(sink, "write .csv, or leave results out with --class");
-  for (const Part& part : workbook_parts(sheets))
+  for (const PackagePart& part : workbook_parts(sheets))
     if (const Status added = zip.add_file(part.name, part.text); !added) return added;
   for (std::size_t s = 0; s < sheets.size(); ++s)
     if (const Status added = add_sheet(zip, sheets[s], s, context); !added) return added;

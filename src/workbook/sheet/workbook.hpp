@@ -28,7 +28,7 @@ struct SheetPicture {
   std::string png;
 };
 
-struct Sheet {
+struct Worksheet {
   std::string name;  ///< at most 31 characters, none of []:*?/\, no other sheet has it
   std::vector<SheetColumn> columns;
   std::size_t rows = 0;  ///< below the heads
@@ -50,12 +50,12 @@ struct PictureSize {
 
 /// Appends a sheet to others, and where it has more rows than `most_rows` below its heads the rest
 /// as further ones, "Clashes 2" and so on.
-void append_split(std::vector<Sheet>& sheets, const Sheet& whole,
+void append_split(std::vector<Worksheet>& sheets, const Worksheet& whole,
                   std::size_t most_rows = kMostRows - 1);
 
 /// Writes a workbook. The bytes depend on the sheets alone: not on the team, the time or the
 /// locale. Errors: output where a sheet or all of it has 4 GiB; memory, cancelled.
-[[nodiscard]] Status write_workbook(std::span<const Sheet> sheets, report::Sink sink,
+[[nodiscard]] Status write_workbook(std::span<const Worksheet> sheets, report::Sink sink,
                                     const parallel::Context& context);
 
 }  // namespace strake::workbook

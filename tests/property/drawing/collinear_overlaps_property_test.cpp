@@ -85,7 +85,7 @@ TEST(LineOverlaps, AreThoseOfAllPairsWithOneLineFarAway) {
     std::vector<PlaneSegment> lines =
         test::make_lines(set, {.set = static_cast<test::LineSet>(set), .reach = 0.01});
     lines.front() = {
-        .ax = 1e9, .ay = -1e9, .bx = 1e9 + 1, .by = -1e9, .rank = drawing::Rank::hidden};
+        .ax = 1e9, .ay = -1e9, .bx = 1e9 + 1, .by = -1e9, .rank = drawing::OverlapRank::hidden};
     for (const OverlapRule& rule : rules(0.01))
       EXPECT_EQ(found(lines, rule), rows(test::cut_by_all_pairs(lines, rule)));
   }
@@ -108,14 +108,14 @@ TEST(LineOverlaps, AreTheSameForAnyTeam) {
 TEST(LineOverlaps, NeedLinesThatAreParallelForTheirLengths) {
   // A second line begins 0.02 before the first ends, at an angle: side by side there, and not one.
   const PlaneSegment first{
-      .ax = 0, .ay = 0, .bx = 10, .by = 0, .reach = 0.005, .rank = drawing::Rank::visible};
+      .ax = 0, .ay = 0, .bx = 10, .by = 0, .reach = 0.005, .rank = drawing::OverlapRank::visible};
   PlaneSegment second{.ax = 9.98,
                       .ay = 0,
                       .bx = 19.98,
                       .by = 3,
                       .depth = -1,
                       .reach = 0.005,
-                      .rank = drawing::Rank::visible};
+                      .rank = drawing::OverlapRank::visible};
   const OverlapRule rule{.least = 0.01};
   EXPECT_TRUE(found({first, second}, rule).empty());
   second.by = 0.015;  // both ends of a line of its length would be within the distance
@@ -126,14 +126,18 @@ TEST(LineOverlaps, OfLinesWithTheSameEndsOneStays) {
   // Twins lie on each other whatever rounding makes of them, whichever way they run; the one with
   // the greater reach covers a neighbour that the others do not.
   const PlaneSegment twin{
-      .ax = 0.1, .ay = 0.2, .bx = 7.3, .by = 3.7, .rank = drawing::Rank::hidden};
+      .ax = 0.1, .ay = 0.2, .bx = 7.3, .by = 3.7, .rank = drawing::OverlapRank::hidden};
   const PlaneSegment back{
-      .ax = 7.3, .ay = 3.7, .bx = 0.1, .by = 0.2, .depth = 1, .rank = drawing::Rank::hidden};
+      .ax = 7.3, .ay = 3.7, .bx = 0.1, .by = 0.2, .depth = 1, .rank = drawing::OverlapRank::hidden};
   PlaneSegment wide = twin;
   wide.depth = -1;
   wide.reach = 0.5;
-  const PlaneSegment beside{
-      .ax = 1.1, .ay = 0.9, .bx = 6.3, .by = 3.4, .depth = -2, .rank = drawing::Rank::hidden};
+  const PlaneSegment beside{.ax = 1.1,
+                            .ay = 0.9,
+                            .bx = 6.3,
+                            .by = 3.4,
+                            .depth = -2,
+                            .rank = drawing::OverlapRank::hidden};
   const std::vector<PlaneSegment> lines{twin, back, wide, beside, twin};
   const std::vector<Row> all = found(lines, {});
   EXPECT_EQ(all, rows(test::cut_by_all_pairs(lines, {})));

@@ -10,20 +10,20 @@ using report::DecisionStatus;
 
 TEST(TopicWords, StatusesComeBackAsTheyWere) {
   for (const DecisionStatus status : report::kDecisionStatuses) {
-    const std::optional<SaidStatus> said = said_status(topic_status(status));
+    const std::optional<ParsedStatus> said = parse_topic_status(topic_status(status));
     ASSERT_TRUE(said) << name(status);
-    EXPECT_EQ(*said == SaidStatus::open, status == DecisionStatus::undecided) << name(status);
-    if (*said != SaidStatus::open) {
+    EXPECT_EQ(*said == ParsedStatus::open, status == DecisionStatus::undecided) << name(status);
+    if (*said != ParsedStatus::open) {
       EXPECT_EQ(decided_status(*said), status) << name(status);
     }
   }
 }
 
 TEST(TopicWords, OtherProgramsHaveOtherWords) {
-  EXPECT_EQ(said_status(" CLOSED "), SaidStatus::resolved);
-  EXPECT_EQ(said_status("In Progress"), SaidStatus::active);
-  EXPECT_FALSE(said_status(""));
-  EXPECT_FALSE(said_status("perhaps"));
+  EXPECT_EQ(parse_topic_status(" CLOSED "), ParsedStatus::resolved);
+  EXPECT_EQ(parse_topic_status("In Progress"), ParsedStatus::active);
+  EXPECT_FALSE(parse_topic_status(""));
+  EXPECT_FALSE(parse_topic_status("perhaps"));
 }
 
 }  // namespace

@@ -193,7 +193,7 @@ TEST(Evaluate, SpreadIsThatOfASample) {
 TEST(Evaluate, NoiseIsHowFarTheSameContenderIsApart) {
   StageRecord stage;
   stage.contenders = {contender(kSequential, 1, {1.0}), contender(kAgain, 1, {1.1})};
-  EXPECT_NEAR(noise_of(stage), 0.1, 1e-12);
+  EXPECT_NEAR(timing_noise(stage), 0.1, 1e-12);
 }
 
 TEST(Evaluate, ARecordComesBackFromItsJson) {
@@ -305,7 +305,7 @@ TEST(Evaluate, RegionsOfATeamAddUpByWorker) {
   nested.nested_runs = 5;
   nested.nested_cpu_s = 100;
   regions.push_back(nested);
-  const parallel::RegionReport whole = whole_of(regions);
+  const parallel::RegionReport whole = merged_report(regions);
   EXPECT_EQ(whole.busy_s, (std::vector<double>{3, 4}));
   EXPECT_EQ(whole.items, 20U);
   EXPECT_DOUBLE_EQ(whole.load_balance(), 3.5 / 4);
@@ -315,11 +315,11 @@ TEST(Evaluate, RegionsOfATeamAddUpByWorker) {
   EXPECT_EQ(region_named(regions, "b").busy_s, (std::vector<double>{2, 1}));
   EXPECT_TRUE(region_named(regions, "c").name.empty());
   const std::vector<std::string_view> names{"b", "c"};
-  EXPECT_EQ(whole_of(regions, names).busy_s, (std::vector<double>{2, 1}));
+  EXPECT_EQ(merged_report(regions, names).busy_s, (std::vector<double>{2, 1}));
   EXPECT_EQ(cells_of(regions[0]).front(), "1.000");
   EXPECT_EQ(cells_of(regions[0]).size(), region_columns().size());
   EXPECT_EQ(cells_of(regions[2]).front(), "-");
-  EXPECT_TRUE(whole_of({}).busy_s.empty());
+  EXPECT_TRUE(merged_report({}).busy_s.empty());
   EXPECT_TRUE(longest_of({}).name.empty());
 }
 

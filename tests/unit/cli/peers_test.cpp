@@ -96,7 +96,7 @@ TEST_F(FakePeers, RowsComeBackAsTheyWereWritten) {
   ASSERT_TRUE(record.has_value());
   EXPECT_EQ(record->name, peer_cases().front().name);
   EXPECT_EQ(peer_rows_json(record->rows), peer_rows_json({measured_row(), measured_row()}));
-  EXPECT_FALSE(may_be_asked_again(*record));
+  EXPECT_FALSE(may_be_retried(*record));
   EXPECT_NE(outcome_line(*record).find("6.0 times our CPU time"), std::string::npos);
 }
 
@@ -112,7 +112,7 @@ TEST_F(FakePeers, AProgramThatIsMissingIsARow) {
   const PeerRow row = only_row();
   EXPECT_EQ(row.outcome, kNotThere);
   EXPECT_NE(row.result.find("bench_clash_peers cannot be run"), std::string::npos) << row.result;
-  EXPECT_TRUE(may_be_asked_again({"x", {row}}));
+  EXPECT_TRUE(may_be_retried({"x", {row}}));
 }
 
 TEST_F(FakePeers, AProgramThatFailsIsARowWithWhatItSaidLast) {
@@ -186,7 +186,7 @@ TEST_F(FakePeers, ADisagreementIsADifferenceWithoutATime) {
   record.peers = {{"pairs-strake", {only_row()}}};
   ASSERT_EQ(differences_of(record).size(), 1U);
   EXPECT_NE(differences_of(record).front().find("3 of 4 crossing pairs"), std::string::npos);
-  const Section section = peer_section(record);
+  const TableSection section = peer_section(record);
   ASSERT_EQ(section.table.rows.size(), 1U);
   EXPECT_EQ(section.table.rows[0][7], "-") << "no time";
   EXPECT_EQ(section.table.rows[0][11], "NO: 3 of 4 crossing pairs");

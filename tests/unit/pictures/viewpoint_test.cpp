@@ -157,19 +157,20 @@ TEST(Viewpoint, TheBestOfAllCandidatesIsChosen) {
     const NearTriangles triangles(
         triangles_near(scenery, Roles(*clash.contents, subject), grid_point(pair.point_mm), 2000));
     const Sight sight{150, 1000};
-    const auto all = judge(triangles, candidate_directions(pair.away), sight, {}).value();
-    const Candidate& best = best_of(all);
+    const auto all =
+        evaluate_candidates(triangles, candidate_directions(pair.away), sight, {}).value();
+    const ViewCandidate& best = best_of(all);
     for (const double cut : {1e300, 60.0, 0.0}) {
       const Sight cut_open{150, 1000, cut};
       const auto directions = candidate_directions(pair.away);
       const Candidate found = find_best(triangles, directions, cut_open, {}).value().best;
-      const auto judged = judge(triangles, directions, cut_open, {}).value();
+      const auto judged = evaluate_candidates(triangles, directions, cut_open, {}).value();
       EXPECT_EQ(found.viewer, best_of(judged).viewer) << cut;
       EXPECT_EQ(found.rank, best_of(judged).rank) << cut;
     }
     for (const Candidate& one : all) {
       EXPECT_GE(best.rank, one.rank);
-      EXPECT_NEAR(one.rank, worth(one.share) * liking(one.viewer), 1e-12);
+      EXPECT_NEAR(one.rank, share_score(one.share) * direction_preference(one.viewer), 1e-12);
       const RayShares rays =
           test::shares_by_rays(triangles.all(), one.viewer, sight.half_mm, sight.eye_mm);
       const double sum = rays.a + rays.b;

@@ -13,12 +13,14 @@
 #include "strake/report/clash.hpp"
 #include "strake/report/clash_document.hpp"
 #include "support/clash_model.hpp"
+#include "support/row_of_boxes.hpp"
 
 namespace strake::report {
 namespace {
 
 using nlohmann::json;
 using test::ClashModel;
+using test::findings_up_to_25_mm;
 
 template <class Write>
 std::string written(Write&& write, const ClashContents& contents) {
@@ -27,20 +29,14 @@ std::string written(Write&& write, const ClashContents& contents) {
   return text;
 }
 
-/// Boxes that hit, touch and stand too near; the first inherits a tag, the second has one itself.
-ClashModel row_of_boxes() {
-  ClashModel m;
-  m.box("a", {0, 0, 0}, {100, 100, 100}).box("b", {79.5, 0, 0}, {200, 100, 100});
-  m.box("c", {200, 0, 0}, {300, 100, 100}).box("d", {310, 0, 0}, {400, 100, 100});
+/// The first of the boxes inherits a tag, the second has one itself.
+ClashModel tagged_boxes() {
+  ClashModel m = test::row_of_boxes();
   m.model.groups.push_back({"plant", model::GroupId::none});
   m.model.set_attributes(model::GroupId{0}, {{"Tag", "of all"}, {"Area", "A;1"}});
   for (model::Object& object : m.model.objects) object.parent = model::GroupId{0};
   m.model.objects[1].attributes = {{"Tag", "=1+1"}, {"Tag", "second"}};
   return m;
-}
-
-clash::Findings findings_of(const ClashModel& m) {
-  return {{m.detect({.tolerances = {.clearance_mm = 25}})}, {}};
 }
 
 std::vector<std::string> lines_of(const std::string& csv) {
@@ -51,8 +47,8 @@ std::vector<std::string> lines_of(const std::string& csv) {
 }
 
 TEST(ClashColumns, AreTheLastOfCsvInTheirOrder) {
-  const ClashModel m = row_of_boxes();
-  const clash::Findings findings = findings_of(m);
+  const ClashModel m = tagged_boxes();
+  const clash::Findings findings = findings_up_to_25_mm(m);
   ClashContents contents{findings, m.model};
   const std::vector<std::string> plain = lines_of(written(write_clash_csv, contents));
   contents.columns = {"Area", "Tag", "None"};
@@ -67,8 +63,8 @@ TEST(ClashColumns, AreTheLastOfCsvInTheirOrder) {
 }
 
 TEST(ClashColumns, AreAttributesOfBothInJson) {
-  const ClashModel m = row_of_boxes();
-  const clash::Findings findings = findings_of(m);
+  const ClashModel m = tagged_boxes();
+  const clash::Findings findings = findings_up_to_25_mm(m);
   ClashContents contents{findings, m.model};
   EXPECT_EQ(written(write_clash_json, contents).find("attributes"), std::string::npos);
   contents.columns = {"Tag", "None"};
@@ -78,8 +74,8 @@ TEST(ClashColumns, AreAttributesOfBothInJson) {
 }
 
 TEST(ClashCsv, HasTheFormThatASpreadsheetOpens) {
-  const ClashModel m = row_of_boxes();
-  const clash::Findings findings = findings_of(m);
+  const ClashModel m = tagged_boxes();
+  const clash::Findings findings = findings_up_to_25_mm(m);
   ClashContents contents{findings, m.model};
   const std::string plain = written(write_clash_csv, contents);
   contents.csv = {.mark = true};
@@ -96,7 +92,7 @@ TEST(ClashCsv, HasTheFormThatASpreadsheetOpens) {
 }
 
 TEST(ClashCsv, TheLogOfPairsHasTheSameForm) {
-  const ClashModel m = row_of_boxes();
+  const ClashModel m = tagged_boxes();
   const clash::Findings findings{{m.detect({.engine = {.log_pairs = true}})}, {}};
   const std::string log =
       written(write_pair_log,
@@ -105,8 +101,8 @@ TEST(ClashCsv, TheLogOfPairsHasTheSameForm) {
 }
 
 TEST(ClashClasses, LeaveOthersOutAndSaySo) {
-  const ClashModel m = row_of_boxes();
-  clash::Findings findings = findings_of(m);
+  const ClashModel m = tagged_boxes();
+  clash::Findings findings = findings_up_to_25_mm(m);
   const WrittenClasses classes{.contact = false, .clearance_violation = false};
   leave_out_others(findings, classes);
   ASSERT_EQ(findings.tests[0].pairs.size(), 1U);
@@ -125,8 +121,8 @@ TEST(ClashClasses, LeaveOthersOutAndSaySo) {
 }
 
 TEST(ClashClasses, KeepWhatMayBeOfOneOfThem) {
-  const ClashModel m = row_of_boxes();
-  clash::Findings findings = findings_of(m);
+  const ClashModel m = tagged_boxes();
+  clash::Findings findings = findings_up_to_25_mm(m);
   findings.tests[0].pairs[1].severest = clash::Class::hit;
   leave_out_others(findings, {.contact = false, .clearance_violation = false});
   ASSERT_EQ(findings.tests[0].pairs.size(), 2U);
@@ -134,8 +130,8 @@ TEST(ClashClasses, KeepWhatMayBeOfOneOfThem) {
 }
 
 TEST(ClashClasses, AreNoDocumentToCompareWith) {
-  const ClashModel m = row_of_boxes();
-  clash::Findings findings = findings_of(m);
+  const ClashModel m = tagged_boxes();
+  clash::Findings findings = findings_up_to_25_mm(m);
   const WrittenClasses classes{.contact = false};
   leave_out_others(findings, classes);
   std::istringstream in(

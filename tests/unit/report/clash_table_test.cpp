@@ -51,10 +51,11 @@ TEST(TableNames, LeaveTheLeadOutWhereverThePathBegins) {
 TEST(TableNames, AreCutOnlySoThatTheyStayApart) {
   const std::string left = "BOX 1 of SUBSTRUCTURE 1 of EQUIPMENT",
                     right = "BOX 1 of SUBSTRUCTURE 2 of EQUIPMENT";
-  EXPECT_EQ(cut_apart({left, "short", right}, 12), (Texts{left, "short", right}));
-  EXPECT_EQ(cut_apart({left, "short", left}, 12), (Texts{"BOX 1…IPMENT", "short", "BOX 1…IPMENT"}));
-  EXPECT_EQ(cut_apart({"BOX 1…IPMENT", left}, 12), (Texts{"BOX 1…IPMENT", left}));
-  EXPECT_EQ(cut_apart({"Büro"}, 4), (Texts{"Büro"}));
+  EXPECT_EQ(shorten_distinctly({left, "short", right}, 12), (Texts{left, "short", right}));
+  EXPECT_EQ(shorten_distinctly({left, "short", left}, 12),
+            (Texts{"BOX 1…IPMENT", "short", "BOX 1…IPMENT"}));
+  EXPECT_EQ(shorten_distinctly({"BOX 1…IPMENT", left}, 12), (Texts{"BOX 1…IPMENT", left}));
+  EXPECT_EQ(shorten_distinctly({"Büro"}, 4), (Texts{"Büro"}));
 }
 
 ClashModel two_boxes(const std::string& a, const std::string& b) {

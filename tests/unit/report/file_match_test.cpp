@@ -270,15 +270,15 @@ TEST(FileMap, ObjectsGoByTheFileThatHasThem) {
   const FileMatches files = matched(before, after);
   const FileMap map = map_of(files, before, after);
   EXPECT_FALSE(map.is_identity());
-  EXPECT_EQ(map.label_in_other(Run::before, "ship", "p0"), "fore");
-  EXPECT_EQ(map.label_in_other(Run::before, "ship", "p9"), "aft");
-  EXPECT_EQ(map.label_in_other(Run::after, "aft", "p9"), "ship");
-  EXPECT_EQ(map.label_in_other(Run::before, "dock", "p20"), "dock");
+  EXPECT_EQ(map.label_in_other(RunSide::before, "ship", "p0"), "fore");
+  EXPECT_EQ(map.label_in_other(RunSide::before, "ship", "p9"), "aft");
+  EXPECT_EQ(map.label_in_other(RunSide::after, "aft", "p9"), "ship");
+  EXPECT_EQ(map.label_in_other(RunSide::before, "dock", "p20"), "dock");
   for (const char* const label : {"fore", "aft", "dock", "ship"})
-    EXPECT_NE(map.label_in_other(Run::before, "ship", "p99"), label);
-  EXPECT_EQ(map.group_of(Run::before, "ship"), map.group_of(Run::after, "aft"));
-  EXPECT_EQ(map.group_of(Run::before, "ship"), map.group_of(Run::after, "fore"));
-  EXPECT_NE(map.group_of(Run::before, "ship"), map.group_of(Run::after, "dock"));
+    EXPECT_NE(map.label_in_other(RunSide::before, "ship", "p99"), label);
+  EXPECT_EQ(map.group_of(RunSide::before, "ship"), map.group_of(RunSide::after, "aft"));
+  EXPECT_EQ(map.group_of(RunSide::before, "ship"), map.group_of(RunSide::after, "fore"));
+  EXPECT_NE(map.group_of(RunSide::before, "ship"), map.group_of(RunSide::after, "dock"));
 }
 
 TEST(FileMap, NoTwoObjectsBecomeOne) {
@@ -287,9 +287,9 @@ TEST(FileMap, NoTwoObjectsBecomeOne) {
   const FileMatches files = matched(before, after);
   ASSERT_EQ(files.matches.size(), 2U);
   const FileMap map = map_of(files, before, after);
-  EXPECT_EQ(map.label_in_other(Run::before, "one", "p7"), "all");
-  EXPECT_NE(map.label_in_other(Run::before, "two", "p7"), "all") << "that is the one of 'one'";
-  EXPECT_EQ(map.label_in_other(Run::before, "two", "p8"), "all");
+  EXPECT_EQ(map.label_in_other(RunSide::before, "one", "p7"), "all");
+  EXPECT_NE(map.label_in_other(RunSide::before, "two", "p7"), "all") << "that is the one of 'one'";
+  EXPECT_EQ(map.label_in_other(RunSide::before, "two", "p8"), "all");
 }
 
 TEST(FileMap, AFileWithoutCounterpartIsNowhere) {
@@ -297,16 +297,16 @@ TEST(FileMap, AFileWithoutCounterpartIsNowhere) {
   const std::vector<FileContents> after{file("b", ids(0, 9)), file("c", ids(30, 39))};
   const FileMatches files = matched(before, after, {{"a", "b"}});
   const FileMap map = map_of(files, before, after);
-  EXPECT_EQ(map.label_in_other(Run::before, "a", "p0"), "b");
-  EXPECT_NE(map.label_in_other(Run::before, "b", "p10"), "b") << "that is what a became";
-  EXPECT_EQ(map.label_in_other(Run::after, "b", "p0"), "a");
+  EXPECT_EQ(map.label_in_other(RunSide::before, "a", "p0"), "b");
+  EXPECT_NE(map.label_in_other(RunSide::before, "b", "p10"), "b") << "that is what a became";
+  EXPECT_EQ(map.label_in_other(RunSide::after, "b", "p0"), "a");
 }
 
 TEST(FileMap, LabelsAloneChangeNothing) {
   const FileMap map({}, {}, {});
   EXPECT_TRUE(map.is_identity());
-  EXPECT_EQ(map.label_in_other(Run::before, "any", "p0"), "any");
-  EXPECT_EQ(map.group_of(Run::after, "any"), "any");
+  EXPECT_EQ(map.label_in_other(RunSide::before, "any", "p0"), "any");
+  EXPECT_EQ(map.group_of(RunSide::after, "any"), "any");
 }
 
 TEST(FileMatch, AnExcerptIsAFileThatHasMostOfIt) {

@@ -91,7 +91,7 @@ inline std::string body_of(const std::string& answer) {
 /// A server that runs while this lives.
 class Served {
  public:
-  Served(Server server, Service& service)
+  Served(Server server, RequestHandler& service)
       : server_(std::move(server)), thread_([this, &service](const std::stop_token& stop) {
           ended_well_ = server_.serve(service, stop).has_value();
         }) {}

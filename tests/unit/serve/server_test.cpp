@@ -27,7 +27,7 @@ using test::code_of;
 using test::Served;
 
 /// Says what it was asked; the path /no is refused before its body comes, /large is 8 MB.
-class Echo final : public Service {
+class Echo final : public RequestHandler {
  public:
   std::optional<Answer> refuse(const Request& request) override {
     if (request.path == "/no") return text_answer(HttpStatus::forbidden, "no");
@@ -43,7 +43,7 @@ class Echo final : public Service {
 };
 
 /// Lets /wait wait for as long as it is told to; all else it answers at once.
-class Patient final : public Service {
+class Patient final : public RequestHandler {
  public:
   std::optional<Answer> refuse(const Request& /*request*/) override { return std::nullopt; }
   Answer answer(const Request& request) override {

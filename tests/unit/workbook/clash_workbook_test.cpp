@@ -114,7 +114,7 @@ TEST(ClashWorkbook, RowsThatASheetCannotHaveStandOnFurtherOnes) {
   const clash::Findings findings = findings_up_to_25_mm(m);
   const ClashContents contents{findings, m.model};
   const report::GroupNumbers numbers(contents);
-  std::vector<Sheet> sheets;
+  std::vector<Worksheet> sheets;
   append_split(sheets, clash_sheet(contents, numbers), 2);
   ASSERT_EQ(sheets.size(), 2U);
   EXPECT_EQ(sheets[0].name, "Clashes");

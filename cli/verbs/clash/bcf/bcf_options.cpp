@@ -101,8 +101,8 @@ project::RunComments comments_of_run(const BcfInput& input, bool is_written) {
 
 bool is_bcf(const std::string& file) { return suffix_of(file).starts_with(".bcf"); }
 
-void tell_left_out(Console& console, const std::string& file,
-                   const report::ClashContents& contents) {
+void report_left_out(Console& console, const std::string& file,
+                     const report::ClashContents& contents) {
   if (!is_bcf(file)) return;
   if (!bcf::is_dated(contents))
     console.note(
@@ -118,7 +118,7 @@ void tell_left_out(Console& console, const std::string& file,
         fmt::format("{}: without {} (--bcf-most, --bcf-contacts, --group-by)", file, text));
 }
 
-report::BcfForm form_of_run(report::BcfForm form, const ProjectClashes* project) {
+report::BcfForm with_run_date(report::BcfForm form, const ProjectClashes* project) {
   if (form.date.empty() && project != nullptr) form.date = project->started();
   return form;
 }

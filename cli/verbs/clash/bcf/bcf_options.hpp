@@ -34,12 +34,12 @@ void add_bcf_options(CLI::App& command, BcfInput& options);
 /// Whether the name of a file asks for BCF.
 [[nodiscard]] bool is_bcf(const std::string& file);
 
-/// Says what a file does not have, if it is BCF, its date included.
-void tell_left_out(Console& console, const std::string& file,
-                   const report::ClashContents& contents);
+/// Prints what a file does not have, if it is BCF, its date included.
+void report_left_out(Console& console, const std::string& file,
+                     const report::ClashContents& contents);
 
 /// Returns the form with the date of the run of a project, unless one is given; `project` is null
 /// where files are tested.
-[[nodiscard]] report::BcfForm form_of_run(report::BcfForm form, const ProjectClashes* project);
+[[nodiscard]] report::BcfForm with_run_date(report::BcfForm form, const ProjectClashes* project);
 
 }  // namespace strake::cli

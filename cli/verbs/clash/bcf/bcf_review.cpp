@@ -16,9 +16,8 @@
 #include "bcf/input/read_bcf.hpp"
 #include "bcf/topics/words.hpp"
 #include "bcf/xml/xml_text.hpp"
+#include "cli/run/authorship.hpp"
 #include "cli/run/load.hpp"
-#include "cli/run/person.hpp"
-#include "cli/run/utc_time.hpp"
 #include "core/text/counted.hpp"
 #include "core/text_encoding.hpp"
 #include "project/results/clash_queries.hpp"
@@ -92,9 +91,9 @@ class TopicMatcher {
 
   void set_status(project::ReviewedTopic& reviewed, const bcf::ReadTopic& topic) {
     if (topic.status.empty()) return;
-    const std::optional<bcf::SaidStatus> said = bcf::said_status(topic.status);
+    const std::optional<bcf::ParsedStatus> said = bcf::parse_topic_status(topic.status);
     if (said)
-      reviewed.status = {bcf::decided_status(*said), *said == bcf::SaidStatus::open};
+      reviewed.status = {bcf::decided_status(*said), *said == bcf::ParsedStatus::open};
     else
       ++matched_.strange_words[bcf::short_name(topic.status, kLongTopicName)];
   }
@@ -112,8 +111,8 @@ void list(Console& console, const std::vector<std::string>& texts) {
   if (shown < texts.size()) console.note(fmt::format("  and {} more", texts.size() - shown));
 }
 
-void tell(Console& console, const MatchedTopics& matched, const project::TakenReview& taken,
-          const std::string& file, std::size_t topics) {
+void print_review(Console& console, const MatchedTopics& matched, const project::TakenReview& taken,
+                  const std::string& file, std::size_t topics) {
   console.note(fmt::format("{}: {}, {} and {} changed, {} added, {} there", file,
                            counted(topics, "topic"), counted(taken.statuses, "status", "statuses"),
                            counted(taken.assignees, "assignee"), counted(taken.comments, "comment"),
@@ -147,11 +146,11 @@ Status take_bcf(Session& session, OpenedProject& opened, const BcfReview& review
   for (const bcf::ReadTopic& topic : read->topics) matcher.take(topic);
   const MatchedTopics matched = matcher.finish();
   const Result<project::TakenReview> taken = project::take_review(
-      database, matched.topics, {review.prefers_review, bcf::compared_text, bcf::mark_of});
+      database, matched.topics, {review.prefers_review, bcf::compared_text, bcf::assignee_digest});
   if (!taken) return taken.error();
   if (const Status status = transaction->commit(); !status) return status;
   print_diagnostics(session.console(), read->diagnostics, {"bcf-topic-damaged"});
-  tell(session.console(), matched, *taken, review.file, read->topics.size());
+  print_review(session.console(), matched, *taken, review.file, read->topics.size());
   return {};
 }
 

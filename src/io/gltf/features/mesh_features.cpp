@@ -19,7 +19,7 @@ struct SetRow {
   bool several = false;
 };
 
-void look_at(const FeatureIds& set, std::uint64_t& left, SetRow& found) {
+void find_common_row(const FeatureIds& set, std::uint64_t& left, SetRow& found) {
   // Without ids each vertex is a feature of its own.
   if (!set.ids || set.ids->count > left) found.several = true;
   if (!found.several) left -= set.ids->count;
@@ -42,7 +42,7 @@ MeshFeatures features_of(const JsonValue& mesh, const Accessors& accessors, std:
     const JsonValue extension = extensions["EXT_mesh_features"];
     if (!extension.exists()) return;
     for (const FeatureIds& set : read_feature_ids(extension, attributes, accessors))
-      look_at(set, left, sets[{set.place, set.table}]);
+      find_common_row(set, left, sets[{set.place, set.table}]);
   });
   MeshFeatures found;
   for (const auto& [set, one] : sets) {

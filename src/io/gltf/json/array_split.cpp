@@ -57,7 +57,7 @@ class BlockScan {
       : text_(text), key_(key), depth_(depth) {}
 
   /// `offset` is that of 64 bytes in the text.
-  void look(std::size_t offset, const StructureMasks& masks) {
+  void scan_masks(std::size_t offset, const StructureMasks& masks) {
     // Most bytes lie deeper than anything that matters.
     if (depth_ - std::popcount(masks.closes) > kElementDepth) {
       depth_ += masks.depth_change();
@@ -129,7 +129,7 @@ Result<std::vector<BlockView>> view_blocks(const Blocks& blocks, std::string_vie
                                BlockScan scan(blocks.text, key, (*depths)[k]);
                                scan_structure(blocks[k], (*states)[k],
                                               [&](std::size_t offset, const StructureMasks& masks) {
-                                                scan.look(k * blocks.bytes + offset, masks);
+                                                scan.scan_masks(k * blocks.bytes + offset, masks);
                                               });
                                return scan.view();
                              });

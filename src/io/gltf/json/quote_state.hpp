@@ -8,7 +8,7 @@
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
 
-/// Tells strings of a JSON text from what is outside of them, without parsing it.
+/// Distinguishes strings of a JSON text from what is outside of them, without parsing it.
 namespace strake::io::gltf {
 
 /// The state of a text between two of its bytes.

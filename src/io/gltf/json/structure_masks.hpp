@@ -31,7 +31,7 @@ struct ByteMasks {
   StructureMasks structure;
 };
 
-/// Looks at 64 bytes wherever they are, in strings or not.
+/// Classifies 64 bytes wherever they are, in strings or not.
 inline ByteMasks byte_masks(const char* bytes) {
   ByteMasks masks;
 #if defined(__SSE2__)

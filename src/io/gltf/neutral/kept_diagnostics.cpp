@@ -21,7 +21,7 @@ namespace {
 constexpr std::array<std::string_view, 3> kNoticedAgain{"object-id-positional",
                                                         "coarse-coordinates", "file-given-twice"};
 
-bool is_noticed_again(std::string_view code) {
+bool is_found_again(std::string_view code) {
   return std::ranges::find(kNoticedAgain, code) != kNoticedAgain.end();
 }
 
@@ -36,7 +36,7 @@ std::optional<Severity> severity_of(const JsonValue& word) {
 void append_diagnostics(std::string& out, const Diagnostics& diagnostics) {
   std::string kept, more;
   for (const Diagnostic& one : diagnostics.kept()) {
-    if (is_noticed_again(one.code)) continue;
+    if (is_found_again(one.code)) continue;
     kept += kept.empty() ? "[\"" : ",[\"";
     kept += severity_name(one.severity);
     kept += '"';
@@ -47,7 +47,7 @@ void append_diagnostics(std::string& out, const Diagnostics& diagnostics) {
     kept += ']';
   }
   for (const Diagnostics::Count& count : diagnostics.counts()) {
-    if (is_noticed_again(count.code) || count.count <= Diagnostics::kMaxPerCode) continue;
+    if (is_found_again(count.code) || count.count <= Diagnostics::kMaxPerCode) continue;
     more += more.empty() ? "[" : ",[";
     append_json_string(more, count.code);
     fmt::format_to(std::back_inserter(more), ",{}]", count.count - Diagnostics::kMaxPerCode);

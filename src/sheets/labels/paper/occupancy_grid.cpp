@@ -60,7 +60,7 @@ void OccupancyGrid::walk(const PaperPoint& a, const PaperPoint& b, Take&& take) 
 
 void OccupancyGrid::add_line(const PaperPoint& a, const PaperPoint& b) {
   walk(a, b, [&](std::size_t cell) {
-    if (cells_[cell] == Taken::no) cells_[cell] = Taken::by_line;
+    if (cells_[cell] == Occupancy::no) cells_[cell] = Occupancy::by_line;
     return true;
   });
 }
@@ -69,7 +69,7 @@ void OccupancyGrid::block(const PaperBox& box) {
   if (!box.overlaps({0, 0, width_mm_, height_mm_})) return;
   for (std::size_t r = row(box.top); r <= row(box.bottom); ++r)
     for (std::size_t c = column(box.left); c <= column(box.right); ++c)
-      cells_[r * columns_ + c] = Taken::blocked;
+      cells_[r * columns_ + c] = Occupancy::blocked;
 }
 
 void OccupancyGrid::finish() {
@@ -79,7 +79,7 @@ void OccupancyGrid::finish() {
     for (std::size_t c = 0; c < columns_; ++c)
       taken_before_[(r + 1) * across + c + 1] =
           taken_before_[r * across + c + 1] + taken_before_[(r + 1) * across + c] -
-          taken_before_[r * across + c] + (cells_[r * columns_ + c] == Taken::no ? 0U : 1U);
+          taken_before_[r * across + c] + (cells_[r * columns_ + c] == Occupancy::no ? 0U : 1U);
 }
 
 bool OccupancyGrid::is_free(const PaperBox& box) const {
@@ -97,8 +97,8 @@ OccupancyGrid::LeaderPath OccupancyGrid::leader_path(const PaperPoint& a,
   LeaderPath path;
   walk(a, b, [&](std::size_t cell) {
     ++path.steps;
-    path.open = cells_[cell] != Taken::blocked;
-    if (cells_[cell] == Taken::by_line) ++path.lines;
+    path.open = cells_[cell] != Occupancy::blocked;
+    if (cells_[cell] == Occupancy::by_line) ++path.lines;
     return path.open;
   });
   return path;

@@ -39,7 +39,7 @@ class OccupancyGrid {
   [[nodiscard]] LeaderPath leader_path(const PaperPoint& a, const PaperPoint& b) const;
 
  private:
-  enum class Taken : std::uint8_t { no, by_line, blocked };
+  enum class Occupancy : std::uint8_t { no, by_line, blocked };
 
   [[nodiscard]] std::size_t column(double x) const;
   [[nodiscard]] std::size_t row(double y) const;
@@ -48,7 +48,7 @@ class OccupancyGrid {
 
   double width_mm_ = 0, height_mm_ = 0, size_ = 1;
   std::size_t columns_ = 1, rows_ = 1;
-  std::vector<Taken> cells_;
+  std::vector<Occupancy> cells_;
   /// For each corner of squares the number of taken squares to the left of it and above: a
   /// summed-area table.
   std::vector<std::uint32_t> taken_before_;

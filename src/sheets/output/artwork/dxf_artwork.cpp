@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "drawing/lettering/letter_widths.hpp"
+#include "drawing/lettering/lettering.hpp"
 #include "geometry/numeric/trig.hpp"
 #include "sheets/output/artwork/artwork.hpp"
 #include "sheets/output/artwork/artwork_canvas.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/edit_distance.hpp"
+#include "core/text/edit_distance.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hlr/incremental/paper.hpp"
+#include "hlr/incremental/bounds_projection.hpp"
 
 #include <algorithm>
 #include <array>
@@ -51,7 +51,7 @@ ViewBox turned_round(const SegmentQuery& query) {
 
 }  // namespace
 
-Paper::Paper(const View& view, const Box3l& drawn)
+BoundsProjection::BoundsProjection(const View& view, const Box3l& drawn)
     : projection_(in_lowest_terms(view.direction)), limits_(view.limits), window_(window(view)) {
   for (int k = 0; k < 3; ++k) {
     largest_ = std::max(largest_, std::abs(projection_.direction()[k]));
@@ -62,7 +62,7 @@ Paper::Paper(const View& view, const Box3l& drawn)
   map_.emplace(view, nearest_depth(view, drawn));
 }
 
-bool Paper::reaches(const Box3l& box) const {
+bool BoundsProjection::reaches(const Box3l& box) const {
   double reach = 0;
   for (int k = 0; k < 3; ++k)
     reach = std::max({reach,
@@ -71,7 +71,7 @@ bool Paper::reaches(const Box3l& box) const {
   return 4 * reach * static_cast<double>(largest_) < kFarthest;
 }
 
-ViewBox Paper::box_of(const Box3l& whole) const {
+ViewBox BoundsProjection::box_of(const Box3l& whole) const {
   const Box3l box = limits_ ? whole.common(*limits_) : whole;
   if (box.empty()) return {};
   const auto corners = corners_of(box, origin_);
@@ -81,7 +81,7 @@ ViewBox Paper::box_of(const Box3l& whole) const {
   return on_paper;
 }
 
-std::optional<SegmentQuery> Paper::edge(const Vec3l& a, const Vec3l& b) const {
+std::optional<SegmentQuery> BoundsProjection::edge(const Vec3l& a, const Vec3l& b) const {
   EdgeQuery drawn;
   drawn.a = a - origin_;
   drawn.b = b - origin_;
@@ -100,21 +100,21 @@ std::optional<SegmentQuery> Paper::edge(const Vec3l& a, const Vec3l& b) const {
   return everywhere;
 }
 
-SegmentQuery Paper::orthographic(const ViewPoint& a, const ViewPoint& b) const {
+SegmentQuery BoundsProjection::orthographic(const ViewPoint& a, const ViewPoint& b) const {
   ViewBox box;
   box.include(a);
   box.include(b);
   return on_segment(a, b, box);
 }
 
-Hideable::Hideable(std::vector<SegmentQuery> queries) : queries_(std::move(queries)) {
+OccludeeTree::OccludeeTree(std::vector<SegmentQuery> queries) : queries_(std::move(queries)) {
   std::vector<ViewBox> boxes;
   boxes.reserve(queries_.size());
   for (const SegmentQuery& query : queries_) boxes.push_back(turned_round(query));
   tree_ = ViewBvh(boxes);
 }
 
-bool Hideable::may_be_hidden_by(const ViewBox& box) const {
+bool OccludeeTree::may_be_hidden_by(const ViewBox& box) const {
   if (box.empty()) return false;
   const LooseBox hides = rounded_outwards(box);
   SegmentQuery query = anything_in(box);

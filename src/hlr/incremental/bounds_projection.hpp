@@ -16,10 +16,10 @@
 namespace strake::hlr {
 
 /// A view whose boxes and segments are compared. Coordinates are grid units of the model.
-class Paper {
+class BoundsProjection {
  public:
   /// `drawn`: the box of all that is drawn.
-  Paper(const View& view, const geometry::Box3l& drawn);
+  BoundsProjection(const View& view, const geometry::Box3l& drawn);
 
   /// Returns whether a box is so near to what is drawn that its place on paper can be told.
   [[nodiscard]] bool reaches(const geometry::Box3l& box) const;
@@ -44,9 +44,9 @@ class Paper {
 };
 
 /// Queries by what may be hidden: the tree of boxes turned round.
-class Hideable {
+class OccludeeTree {
  public:
-  explicit Hideable(std::vector<SegmentQuery> queries);
+  explicit OccludeeTree(std::vector<SegmentQuery> queries);
 
   /// Returns whether what lies in a box on paper may hide any of it.
   [[nodiscard]] bool may_be_hidden_by(const ViewBox& box) const;

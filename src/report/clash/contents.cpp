@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/clash/attribute_columns.hpp"
+#include "report/clash/contents.hpp"
 
 namespace strake::report {
 
