@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterator
 
 import pytest
 
@@ -41,7 +42,15 @@ def test_what_progress_raises_ends_the_call(large_ship: strake.Model) -> None:
     assert len(strake.clash(large_ship, a="PIP*", clearance=26)) > 0
 
 
-def test_interrupts(large_ship: strake.Model) -> None:
+@pytest.fixture
+def ctrl_c() -> Iterator[None]:
+    """Ctrl-C as a terminal has it: a shell has what runs in the background ignore it, and Python then leaves it so."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_interrupts(large_ship: strake.Model, ctrl_c: None) -> None:
     def interrupt(fraction: float, step: str) -> None:
         os.kill(os.getpid(), signal.SIGINT)
 

@@ -60,6 +60,8 @@ def faults_of(page, strake, project, data):
 
 
 def main():
+    # A shell has what runs in its background ignore Ctrl-C, and what is started from here would inherit it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     strake, project = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
     if strake.name != 'strake' or shutil.which(str(strake)) is None:
         sys.exit(f'{strake} is no program strake')

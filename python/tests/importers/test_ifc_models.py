@@ -13,6 +13,7 @@ pytest.importorskip("ifcopenshell")
 
 from conversions import convert
 from ifc_model import IfcModel
+from strake.importers.ifc.pinched import split_outline
 
 CUBE = [(x, y, z) for x in (0, 100) for y in (0, 100) for z in (0, 100)]
 CUBE_FACES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -131,6 +132,32 @@ def test_faulty_and_impossible_bodies_cost_only_themselves(tmp_path: Path) -> No
     skipped = {line["object"]: line["message"] for line in outcome.told("skipped")}
     assert set(skipped) == {vast.GlobalId, flat.GlobalId}
     assert "IfcBuildingElementProxy 'flat'" in skipped[flat.GlobalId]
+
+
+# Two triangles that meet in a point, as one outline, below and above.
+PINCHED = [(x, y, z) for z in (0, 50) for x, y in ((-20, -10), (0, 0), (20, -10), (20, 10), (0, 0), (-20, 10))]
+PINCHED_FACES = [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *((i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6) for i in range(6))]
+
+
+def test_outlines_that_touch_themselves_lose_nothing_by_any_product_that_has_them(tmp_path: Path) -> None:
+    model = IfcModel()
+    wedge = model.mapped(model.body(model.faceted(PINCHED, PINCHED_FACES), kind="Brep"))
+    wedges = [
+        model.product("IfcFooting", f"wedge {i}", model.body(model.use(wedge), kind="MappedRepresentation"), (i * 100, 0, 0))
+        for i in range(3)
+    ]
+    outcome = convert(model.write(tmp_path / "a.ifc"))
+    assert outcome.told("skipped") == outcome.told("warning") == []
+    assert [outcome.glb.volume(one.GlobalId) for one in wedges] == [pytest.approx(2 * 20 * 10 * 50, rel=1e-6)] * 3
+    assert len({outcome.glb.node(one.GlobalId)["mesh"] for one in wedges}) == 1
+
+
+def test_outlines_fall_apart_where_they_come_to_a_place_again() -> None:
+    assert split_outline("abcd") == [[0, 1, 2, 3]]
+    assert split_outline("abcadc") == [[0, 1, 2], [0, 4, 5]]
+    # There and back is no area; within what was cut off places are free again.
+    assert split_outline("abcbdea") == [[0, 1, 4, 5]]
+    assert split_outline("xabcayzbx") == [[1, 2, 3], [0, 1, 5, 6, 7]]
 
 
 def test_double_ids_become_unique_in_a_lasting_way(tmp_path: Path) -> None:

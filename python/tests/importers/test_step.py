@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from pathlib import Path
 from typing import Any
 
@@ -165,8 +166,8 @@ CORNERS = [(x, y, z) for x in (0.0, 10.0) for y in (0.0, 20.0) for z in (0.0, 30
 SIDES = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
 
 
-def bare_face(sides: list[tuple[int, ...]]) -> Any:
-    """A face of triangles without a surface."""
+def bare_face(sides: list[tuple[int, ...]], x: float = 0) -> Any:
+    """A face of triangles without a surface, at a place along x."""
     from OCP.BRep import BRep_Builder
     from OCP.gp import gp_Pnt
     from OCP.Poly import Poly_Triangle, Poly_Triangulation
@@ -176,7 +177,7 @@ def bare_face(sides: list[tuple[int, ...]]) -> Any:
     triangles = [corners for a, b, c, d in sides for corners in ((a, b, c), (a, c, d))]
     made = Poly_Triangulation(len(used), len(triangles), False)
     for i, corner in enumerate(used, 1):
-        made.SetNode(i, gp_Pnt(*CORNERS[corner]))
+        made.SetNode(i, gp_Pnt(CORNERS[corner][0] + x, *CORNERS[corner][1:]))
     for i, corners in enumerate(triangles, 1):
         made.SetTriangle(i, Poly_Triangle(*(used.index(corner) + 1 for corner in corners)))
     face = TopoDS_Face()
@@ -235,6 +236,46 @@ def test_triangles_of_ap242_are_read(tmp_path: Path, kind: str) -> None:
     # What the triangles stand for is not in the file.
     stated = {name: outcome.glb.json["meshes"][outcome.glb.node(name)["mesh"]].get("extras") for name in ("Rig/left", "Rig/Plate")}
     assert stated == {"Rig/left": None, "Rig/Plate": {"sag_mm": 0}}
+
+
+def box_of_loose_faces(x: float) -> Any:
+    """The six sides of a box, at a place along x, as faces of triangles that nothing holds together."""
+    return [bare_face([side], x) for side in SIDES]
+
+
+def loose_faces(folder: Path, names: list[str]) -> Outcome:
+    """Converts one product of two boxes of faces that are in no shell; the file calls them by names, in its order."""
+    from OCP.BRep import BRep_Builder
+    from OCP.TopoDS import TopoDS_Compound
+
+    draft, loose, builder = Draft(), TopoDS_Compound(), BRep_Builder()
+    builder.MakeCompound(loose)
+    for face in (*box_of_loose_faces(0), *box_of_loose_faces(100)):
+        builder.Add(loose, face)
+    draft.part(loose, "Hull")
+    file = write_with_triangles(draft, folder / "hull.step")
+    called = iter(names)
+    text, count = re.subn(r"(TRIANGULATED_SURFACE_SET\()'[^']*'", lambda found: f"{found[1]}'{next(called)}'", file.read_text())
+    assert count == len(names) == 12
+    file.write_text(text)
+    return convert(file, module=STEP)
+
+
+def test_loose_triangles_are_an_object_for_each_thing_that_hangs_together(tmp_path: Path) -> None:
+    outcome = loose_faces(tmp_path, [""] * 12)
+    assert outcome.told("warning") == outcome.told("skipped") == []
+    assert sorted(outcome.glb.ids) == ["Hull/1", "Hull/2"]
+    assert [outcome.glb.volume(name) for name in ("Hull/1", "Hull/2")] == [pytest.approx(6000, rel=1e-6)] * 2
+    assert outcome.glb.box("Hull/2")[0] == pytest.approx([100, 0, 0])
+    assert outcome.glb.attributes("Hull/1") == {"Product": "Hull"}
+
+
+def test_loose_triangles_have_the_names_of_their_face_sets(tmp_path: Path) -> None:
+    # Of the first box one side has a name of its own: it is a thing of its own.
+    outcome = loose_faces(tmp_path, ["deck"] * 5 + ["hatch"] + [""] * 6)
+    assert sorted(outcome.glb.ids) == ["Hull/3", "Hull/deck", "Hull/hatch"]
+    assert outcome.glb.box("Hull/hatch")[0][2] == outcome.glb.box("Hull/hatch")[1][2] == pytest.approx(30)
+    assert outcome.glb.volume("Hull/3") == pytest.approx(6000, rel=1e-6)
 
 
 def test_triangles_beside_surfaces_are_not_taken_for_them(tmp_path: Path) -> None:

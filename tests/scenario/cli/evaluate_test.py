@@ -335,6 +335,8 @@ class Peers(unittest.TestCase):
 
 
 if __name__ == '__main__':
+    # A shell has what runs in its background ignore Ctrl-C, and programs that are started from here would inherit it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     STRAKE = Path(sys.argv.pop(1)).resolve()
     SCHEMAS = Path(sys.argv.pop(1)).resolve()
     unittest.main(verbosity=2)

@@ -4,6 +4,7 @@ import base64
 import json
 import math
 import re
+import signal
 import struct
 import subprocess
 import sys
@@ -231,5 +232,7 @@ class Scenario(unittest.TestCase):
 
 def main():
     """Runs the tests of the script that was started; its first argument is the program."""
+    # A shell has what runs in its background ignore Ctrl-C, and programs that are started from here would inherit it.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     Scenario.STRAKE = str(Path(sys.argv.pop(1)).resolve())
     unittest.main(verbosity=1)

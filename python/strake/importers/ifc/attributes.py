@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-import ifcopenshell
 from ifcopenshell import ifcopenshell_wrapper
 
 from strake.importers.ifc.entity import Entity, Model, number_of
@@ -154,7 +153,7 @@ class AttributeReader:
         result = {}
         for name, measure in self._simple_attributes(definition.is_a()):
             value = getattr(definition, name, None)
-            if value is not None and not isinstance(value, (tuple, ifcopenshell.entity_instance)):
+            if value is not None and not isinstance(value, (tuple, Entity)):
                 result[name] = self._units.value(value, None, MEASURES.get(measure))
         return result
 
@@ -214,7 +213,8 @@ def _type_of(product: Entity) -> Entity | None:
     # IFC2x3 has the relation among those of properties.
     for relation in (*(getattr(product, "IsTypedBy", None) or ()), *(getattr(product, "IsDefinedBy", None) or ())):
         if relation.is_a("IfcRelDefinesByType"):
-            return relation.RelatingType
+            kind: Entity | None = relation.RelatingType
+            return kind
     return None
 
 
@@ -248,7 +248,7 @@ def _material_names(material: Entity, depth: int) -> list[str]:
         return []
     for single in ("ForLayerSet", "ForProfileSet", "Material"):
         inner = getattr(material, single, None)
-        if isinstance(inner, ifcopenshell.entity_instance):
+        if isinstance(inner, Entity):
             return _material_names(inner, depth + 1)
     names: list[str] = []
     for several in ("MaterialLayers", "MaterialProfiles", "MaterialConstituents", "Materials"):

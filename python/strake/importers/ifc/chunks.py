@@ -5,23 +5,24 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Sequence, Set
 from dataclasses import dataclass
 from typing import Any
 
-import ifcopenshell
-import ifcopenshell.geom
 import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
 from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.faces import Faces, faces_of
-from strake.importers.ifc.kernels import SAG_M, geometry_settings
+from strake.importers.ifc.kernels import SAG_M, geometry_settings, shapes_of
+from strake.importers.ifc.pinched import split_face
 from strake.importers.shapes import Color, Part, PreparedShape, prepare_shape
 
 # The fault of a shape without a triangle.
 EMPTY = "nothing is left of it"
+# What IfcOpenShell says of a face that it leaves out; the instance of the message is the face.
+_FACE_LEFT_OUT = "Failed to convert face"
 _MM_PER_M = 1000.0
 
 
@@ -60,27 +61,53 @@ Answer = Converted | Remark
 
 
 def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M) -> Iterator[Answer]:
-    """Yields what becomes of each product that gets a shape, then what is to be said of any.
+    """Yields what becomes of each product that gets a shape, then what is to be said of any; the last that is said of one
+    counts.
 
     Raises whatever IfcOpenShell raises, and may end the process.
     """
     log: Any = ifcopenshell_wrapper.logger()
     log.output_format(log.FMT_INMEMORY)
-    iterator = ifcopenshell.geom.iterator(
-        geometry_settings(sag_m),
-        model,
-        1,
-        include=[model.by_id(number) for number in chunk.products],
-        geometry_library=chunk.kernel,
-        logger=log,
-    )
+    keys: dict[int, bytes] = {}
+    for converted in _converted_by(model, chunk, sag_m, log):
+        keys[converted.product] = converted.key
+        yield converted
+    remarks = list(_remarks(log, chunk))
+    mended = _mended(model, log, {remark.product for remark in remarks})
+    yield from (remark for remark in remarks if remark.product not in mended)
+    if mended:
+        # What is said of a shape is said of the first that has it.
+        shapes = {keys[product] for product in mended if keys.get(product)}
+        again = mended | {product for product, key in keys.items() if key in shapes}
+        log.clear()
+        rest = Chunk(tuple(sorted(again)), chunk.kernel, chunk.attempt)
+        yield from _converted_by(model, rest, sag_m, log)
+        yield from _remarks(log, rest)
+
+
+def _converted_by(model: Model, chunk: Chunk, sag_m: float, log: Any) -> Iterator[Converted]:
+    iterator = shapes_of(model, chunk.products, geometry_settings(sag_m), chunk.kernel, log)
     known: dict[str, PreparedShape | str] = {}
     going = iterator.initialize()
     while going:
         element = iterator.get()
         yield _converted(model, element, known, chunk.kernel, sag_m)
         going = bool(iterator.next())
-    yield from _remarks(log, chunk)
+
+
+def _mended(model: Model, log: Any, doubtful: Set[int]) -> set[int]:
+    """Splits the faces that the kernel left out of these products; returns the products of which all could be split."""
+    could: dict[int, bool] = {}
+    split: dict[int, bool] = {}
+    for message in log.log_messages():
+        product, face = (re.match(r"#(\d+)=", text) for text in (message.product, message.instance))
+        if product is None or face is None or int(product[1]) not in doubtful or not message.message.startswith(_FACE_LEFT_OUT):
+            continue
+        number = int(face[1])
+        if number not in split:
+            split[number] = split_face(model, number)
+        could[int(product[1])] = could.get(int(product[1]), True) and split[number]
+    return {number for number, all_could in could.items() if all_could}
 
 
 def _converted(model: Model, element: Any, known: dict[str, PreparedShape | str], kernel: str, sag_m: float) -> Converted:

@@ -5,21 +5,19 @@ from __future__ import annotations
 
 import pickle
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-import ifcopenshell
-import ifcopenshell.geom
 import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
 from strake.importers.ifc.chunks import EMPTY, Chunk, Converted, Remark, convert_chunk
-from strake.importers.ifc.entity import Entity, Model
-from strake.importers.ifc.kernels import EXACT, FAST, SAG_M, geometry_settings, has_body, kernels_for
+from strake.importers.ifc.entity import Entity, Model, number_of
+from strake.importers.ifc.kernels import EXACT, FAST, SAG_M, geometry_settings, has_body, kernels_for, shapes_of
 from strake.importers.ifc.products import CircleFinder
 from strake.importers.ifc.workers import Ended, Workers
 from strake.importers.report import Report
@@ -88,23 +86,22 @@ class Conversion:
         return sorted(found)
 
 
-def tasks_of(model: Model, products: Sequence[Entity]) -> list[tuple[Entity, ...]]:
-    """Returns the products that have a body; those of one shape are together."""
+def tasks_of(model: Model, products: Sequence[Entity]) -> list[tuple[int, ...]]:
+    """Returns the products that have a body, by number; those of one shape are together."""
     settings = geometry_settings()
     settings.set("defer-processing-first-element", True)
-    iterator: Any = ifcopenshell.geom.iterator(settings, model, 1, include=list(products), logger=ifcopenshell_wrapper.logger())
+    iterator = shapes_of(model, map(number_of, products), settings, EXACT, ifcopenshell_wrapper.logger())
     iterator.initialize()
     # The wrapper in Python of this function asks for a file that the iterator does not have.
     get_task_products: Any = ifcopenshell_wrapper.iterator.get_task_products
-    return [tuple(task) for task in get_task_products(iterator)]
+    return sorted(tuple(sorted(product.id() for product in task)) for task in get_task_products(iterator))
 
 
-def chunks_of(tasks: Sequence[tuple[Entity, ...]]) -> list[Chunk]:
+def chunks_of(tasks: Sequence[tuple[int, ...]], kernels_of: Mapping[int, tuple[str, ...]]) -> list[Chunk]:
     """Returns the chunks, in the order of the file; each is for one kernel."""
     by_kernel: dict[str, list[tuple[int, ...]]] = {}
-    for task in sorted(tasks, key=lambda task: min(product.id() for product in task)):
-        kernel = kernels_for(task[0])[0]
-        by_kernel.setdefault(kernel, []).append(tuple(sorted(product.id() for product in task)))
+    for task in tasks:
+        by_kernel.setdefault(kernels_of[task[0]][0], []).append(task)
     most = max(_LEAST_IN_CHUNK, len(tasks) // _MOST_CHUNKS)
     chunks = []
     for kernel, numbers in sorted(by_kernel.items()):
@@ -123,23 +120,19 @@ def convert_products(
     result.failed.update(faults)
     products = [product for product in products if product.id() not in faults]
     tasks = tasks_of(model, products) if products else []
-    task_of: dict[int, tuple[str, ...]] = {}
-    for task in tasks:
-        kernels = kernels_for(task[0])
-        for product in task:
-            task_of[product.id()] = kernels
-    result.bodyless = [product.id() for product in products if product.id() not in task_of]
+    kernels_of = {number: kernels for task in tasks for kernels in [kernels_for(model.by_id(task[0]))] for number in task}
+    result.bodyless = [product.id() for product in products if product.id() not in kernels_of]
     with Workers(model, threads, convert=partial(convert_chunk, sag_m=sag_m)) as workers:
-        for chunk in chunks_of(tasks):
+        for chunk in chunks_of(tasks, kernels_of):
             workers.add(chunk)
         for event in workers.answers():
             if isinstance(event, Converted):
                 _keep(event, result)
-                report.progress(len(result.placed) / len(task_of))
+                report.progress(len(result.placed) / len(kernels_of))
             elif isinstance(event, Remark):
                 result.remarks.setdefault(event.product, []).append((event.kernel, event.message))
             elif isinstance(event, Ended):
-                _go_on(event, task_of, workers, result)
+                _go_on(event, kernels_of, workers, result)
             else:
                 report.alive()
     for product in products:
@@ -183,7 +176,8 @@ def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Worker
             _fail(number, result)
     if chunk.kernel == FAST and chunk.attempt == 0 and not ended.fault:
         # Where it says that something went wrong the exact one may do better.
-        doubtful = [number for number in chunk.products if number in result.placed and result.remarks_of(number)]
+        shapes = {result.placed[number].key for number in chunk.products if number in result.placed and result.remarks_of(number)}
+        doubtful = [number for number in chunk.products if number in result.placed and result.placed[number].key in shapes]
         for number in doubtful:
             del result.placed[number]
         onward.setdefault(EXACT, []).extend(doubtful)

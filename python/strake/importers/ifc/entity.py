@@ -1,12 +1,95 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Entities of a model. Their attributes are those of the schema of the file, which no type of Python says."""
+"""Entities of a model, and what they state by name.
+
+IfcOpenShell has such a class, too. It looks each name up in the schema again, and for one that the class does not have it goes
+through the rules of the schema, a module of megabytes. Half of our questions are of that kind (decision 0118).
+"""
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+from typing import Any
 
-Entity: TypeAlias = Any
-Model: TypeAlias = Any
+import ifcopenshell
+from ifcopenshell import ifcopenshell_wrapper
+
+_Raw: Any = ifcopenshell_wrapper.entity_instance
+# Where a class has an attribute: its number, or one of these.
+_NOWHERE, _INVERSE = -1, -2
+_STATED_CATEGORY, _INVERSE_CATEGORY = 1, 2
+# By class with its schema, as IFC4.IfcWall, then by name.
+_places: dict[str, dict[str, int]] = {}
+
+
+class Entity:
+    """An entity, or a value with a type. Attributes are those of its class: `wall.Name`, `wall.HasOpenings`.
+
+    One that the class does not have raises AttributeError, what the file states wrongly RuntimeError.
+    """
+
+    __slots__ = ("_of_class", "data")
+
+    def __init__(self, data: Any) -> None:
+        self.data = data
+        self._of_class: dict[str, int] | None = None
+
+    def __getattr__(self, name: str) -> Any:
+        of_class = self._of_class
+        if of_class is None:
+            of_class = self._of_class = _places.setdefault(self.data.is_a(True), {})
+        place = of_class.get(name)
+        if place is None:
+            place = of_class[name] = self._place_of(name)
+        if place >= 0:
+            return _wrapped(self.data.get_argument(place))
+        if place == _INVERSE:
+            return tuple(map(Entity, getattr(self.data, name)))
+        raise AttributeError(name)
+
+    def __repr__(self) -> str:
+        return repr(self.data)
+
+    def is_a(self, kind: str | None = None) -> Any:
+        """Returns the name of the class; with a name, whether it is of that class or of one made from it."""
+        return self.data.is_a() if kind is None else self.data.is_a(kind)
+
+    def id(self) -> int:
+        """Returns the number of the entity in the file, #1 and so on."""
+        return int(self.data.id())
+
+    def attribute_names(self) -> list[str]:
+        """Returns the names of what the class itself states, inverse attributes not among them."""
+        return [str(name) for name in self.data.get_attribute_names()]
+
+    def _place_of(self, name: str) -> int:
+        category = self.data.get_attribute_category(name)
+        if category == _STATED_CATEGORY:
+            return int(self.data.get_argument_index(name))
+        return _INVERSE if category == _INVERSE_CATEGORY else _NOWHERE
+
+
+class Model:
+    """A file that was read. `file` is what IfcOpenShell has of it."""
+
+    def __init__(self, file: ifcopenshell.file) -> None:
+        self.file: Any = file
+        self.schema = str(file.schema)
+        self.schema_identifier = str(file.schema_identifier)
+
+    def by_type(self, kind: str) -> list[Entity]:
+        """Returns the entities of a class and of those made from it."""
+        return [Entity(data) for data in self.file.by_type(kind)]
+
+    def by_id(self, number: int) -> Entity:
+        """Returns the entity of a number."""
+        return Entity(self.file.by_id(number))
+
+
+def _wrapped(value: Any) -> Any:
+    if isinstance(value, _Raw):
+        return Entity(value)
+    if isinstance(value, tuple):
+        return tuple(map(_wrapped, value))
+    return value
 
 
 def is_a(entity: Entity, kind: str) -> bool:
@@ -19,4 +102,4 @@ def is_a(entity: Entity, kind: str) -> bool:
 
 def number_of(entity: Entity) -> int:
     """Returns the number of an entity in the file, #1 and so on."""
-    return int(entity.id())
+    return entity.id()

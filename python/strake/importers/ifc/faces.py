@@ -7,8 +7,6 @@ import enum
 from collections.abc import Iterable
 from typing import Any
 
-import ifcopenshell
-
 from strake.importers.ifc.entity import Entity
 from strake.importers.ifc.kernels import NO_BODY
 
@@ -104,7 +102,7 @@ def _is_straight_profile(profile: Entity, depth: int) -> bool:
     if depth >= _MOST_DEPTH:
         return False
     if kind in _STRAIGHT_PROFILES:
-        return not any(value for name, value in profile.get_info(recursive=False).items() if name.endswith("Radius"))
+        return not any(getattr(profile, name) for name in profile.attribute_names() if name.endswith("Radius"))
     if kind in ("IfcArbitraryClosedProfileDef", "IfcArbitraryProfileDefWithVoids"):
         curves = [profile.OuterCurve, *(getattr(profile, "InnerCurves", None) or ())]
         return all(_is_straight(curve, depth + 1) for curve in curves)
@@ -123,7 +121,7 @@ def _is_straight(curve: Entity, depth: int) -> bool:
         return False
     if kind == "IfcIndexedPolyCurve":
         segments: Any = curve.Segments or ()
-        return all(isinstance(one, ifcopenshell.entity_instance) and one.is_a("IfcLineIndex") for one in segments)
+        return all(isinstance(one, Entity) and one.is_a("IfcLineIndex") for one in segments)
     if kind == "IfcCompositeCurve":
         return all(_is_straight(getattr(one, "ParentCurve", one), depth + 1) for one in curve.Segments)
     if kind == "IfcTrimmedCurve":

@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import Any
 
 import ifcopenshell
 import ifcopenshell.geom
 
-from strake.importers.ifc.entity import Entity
+from strake.importers.ifc.entity import Entity, Model
 
 # The furthest that a chord is from its curve, in metres.
 SAG_M = 0.001
@@ -56,6 +57,18 @@ def geometry_settings(sag_m: float = SAG_M) -> ifcopenshell.geom.settings:
     return settings
 
 
+def shapes_of(model: Model, products: Iterable[int], settings: ifcopenshell.geom.settings, kernel: str, log: Any) -> Any:
+    """Returns what goes through the shapes of products, which are given by number. It is yet to be initialized."""
+    return ifcopenshell.geom.iterator(
+        settings,
+        model.file,
+        1,
+        include=[model.file.by_id(number) for number in products],
+        geometry_library=kernel,
+        logger=log,
+    )
+
+
 def items_of(product: Entity) -> set[str]:
     """Returns the classes of the items that make a product's body, and of the openings that cut it as `opening`."""
     result: set[str] = set()
@@ -83,7 +96,7 @@ def _add_items(items: Iterable[Entity], result: set[str], depth: int) -> None:
             inner += item.MappingSource.MappedRepresentation.Items or ()
         for name in ("FirstOperand", "SecondOperand", "TreeRootExpression", "SweptArea", "Directrix"):
             value = getattr(item, name, None)
-            if isinstance(value, ifcopenshell.entity_instance):
+            if isinstance(value, Entity):
                 inner.append(value)
         _add_items(inner, result, depth + 1)
 

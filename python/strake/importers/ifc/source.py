@@ -96,7 +96,7 @@ def _opened(path: Path, report: Report) -> Model:
     log: Any = ifcopenshell_wrapper.logger()
     log.output_format(log.FMT_INMEMORY)
     try:
-        model = ifcopenshell.open(path, format=".ifc", logger=log)
+        model = Model(ifcopenshell.open(path, format=".ifc", logger=log))
     except (ifcopenshell.Error, ifcopenshell.SchemaError, OSError, RuntimeError, ValueError) as fault:
         said = _first_fault(log) or str(fault)
         report.fail(f"IfcOpenShell cannot read it: {said}", _EXPORT)
@@ -113,7 +113,7 @@ def origin_of(model: Model) -> dict[str, str]:
     origin = {}
     for project in model.by_type("IfcProject")[:1]:
         origin = {"Project": project.Name or project.is_a(), "ProjectId": project.GlobalId}
-    if date := str(model.header.file_name.time_stamp or ""):
+    if date := str(model.file.header.file_name.time_stamp or ""):
         origin["FileDate"] = date
     return origin
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import ifcopenshell
-
 from strake.importers.ifc.attributes import AttributeReader
 from strake.importers.ifc.entity import Entity, Model, is_a
 from strake.importers.ifc.georeference import map_attributes
@@ -83,7 +81,7 @@ def parent_of(entity: Entity) -> Entity | None:
     ):
         for relation in getattr(entity, inverse, None) or ():
             parent = getattr(relation, name, None)
-            if isinstance(parent, ifcopenshell.entity_instance):
+            if isinstance(parent, Entity):
                 # A window is beside its wall, not in it.
                 beside = inverse in ("VoidsElements", "FillsVoids")
                 return _parent_of_host(parent) if beside else parent

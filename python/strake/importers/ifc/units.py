@@ -6,8 +6,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-import ifcopenshell
-
 from strake.importers.ifc.entity import Entity, Model
 from strake.importers.report import Report
 
@@ -75,7 +73,7 @@ class Units:
         """Returns a nominal value as an attribute: text, truth or a number, with its unit where that is not plain."""
         if value is None:
             return None
-        if isinstance(value, ifcopenshell.entity_instance):
+        if isinstance(value, Entity):
             kind = kind or MEASURES.get(value.is_a())
             value = value.wrappedValue if hasattr(value, "wrappedValue") else str(value)
         if isinstance(value, (list, tuple)):

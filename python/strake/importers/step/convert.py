@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import importlib.metadata
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -30,12 +31,21 @@ from strake.importers.step.source import format_of
 _GREY: Color = (0.8, 0.8, 0.8, 1.0)
 
 
+@dataclass(frozen=True)
+class _Part:
+    """The triangles of a piece; its colour and its name where it has them."""
+
+    mesh: Mesh
+    color: Color | None
+    name: str
+
+
 @dataclass
 class _Product:
-    """A product with its triangles, a mesh and perhaps a colour for each of its pieces."""
+    """A product with its triangles, by piece."""
 
     name: str
-    parts: list[tuple[Mesh, Color | None]] = field(default_factory=list)
+    parts: list[_Part] = field(default_factory=list)
     attributes: dict[str, str] = field(default_factory=dict)
 
 
@@ -120,7 +130,7 @@ class _Builder:
         for root in roots:
             builder.Add(compound, XCAFDoc_ShapeTool.GetShape_s(root))
             XCAFPrs.CollectStyleSettings_s(root, TopLoc_Location(), styles)
-        self._add_separately(self._made(self._file, compound, styles), _Place(TopLoc_Location()), names)
+        self._add_separately(self._made(self._file, compound, styles, lambda _: ""), _Place(TopLoc_Location()), names)
 
     def _add(self, label: Any, instance: Any, place: _Place, names: _Names) -> None:
         if not self._labels.is_assembly(label):
@@ -152,8 +162,9 @@ class _Builder:
             return
         name = names.unique(product.name or self._file)
         within = replace(place, group=self._scene.group(name, place.group, {"Assembly": name}), path=f"{place.path}{name}/")
+        inner = _Names()
         for number, part in enumerate(product.parts, 1):
-            self._add_instance(_Product(str(number), [part], product.attributes), None, within, _Names())
+            self._add_instance(_Product(part.name or str(number), [part], product.attributes), None, within, inner)
 
     def _add_instance(self, product: _Product, instance: Any, place: _Place, names: _Names) -> None:
         if not product.parts:
@@ -162,10 +173,10 @@ class _Builder:
         name = own or product.name or self._file
         color = self._color_of_instance(instance, place)
         parts, known = [], []
-        for mesh, of_part in product.parts:
-            parts.append(Part(mesh.points, mesh.triangles, color or of_part or place.color or _GREY))
-            if mesh.sag_mm is not None:
-                known.append(mesh.sag_mm)
+        for part in product.parts:
+            parts.append(Part(part.mesh.points, part.mesh.triangles, color or part.color or place.color or _GREY))
+            if part.mesh.sag_mm is not None:
+                known.append(part.mesh.sag_mm)
         sag = max(known) if len(known) == len(parts) else None
         attributes = {**product.attributes, **({"Instance": own} if own else {})}
         if instance is not None and (layers := self._labels.layers_of(instance)):
@@ -183,7 +194,7 @@ class _Builder:
         if key not in self._products:
             styles = XCAFPrs_IndexedDataMapOfShapeStyle()
             XCAFPrs.CollectStyleSettings_s(label, TopLoc_Location(), styles)
-            product = self._made(name_of(label), XCAFDoc_ShapeTool.GetShape_s(label), styles)
+            product = self._made(name_of(label), XCAFDoc_ShapeTool.GetShape_s(label), styles, self._labels.name_of_face)
             if product.name:
                 product.attributes["Product"] = product.name
             if layers := self._labels.layers_of(label):
@@ -191,10 +202,10 @@ class _Builder:
             self._products[key] = product
         return self._products[key]
 
-    def _made(self, name: str, shape: Any, styles: Any) -> _Product:
+    def _made(self, name: str, shape: Any, styles: Any, name_of_face: Callable[[Any], str]) -> _Product:
         """Returns a product with triangles; what has none is told of."""
         product, shown = _Product(name), name or self._file
-        for piece in pieces_of(shape, styles):
+        for piece in pieces_of(shape, styles, name_of_face):
             self._report.alive()
             mesh = mesh_of(piece.shape, self._sag)
             if mesh.faces_without:
@@ -205,7 +216,7 @@ class _Builder:
                 continue
             if piece.is_solid and not mesh.is_closed:
                 self._report.warning("step-open-solid", "its faces do not meet everywhere, so that it counts as a surface", shown)
-            product.parts.append((mesh, piece.color))
+            product.parts.append(_Part(mesh, piece.color, piece.name))
         return product
 
 

@@ -13,6 +13,7 @@ from OCP.IGESCAFControl import IGESCAFControl_Reader
 from OCP.Interface import Interface_Static
 from OCP.Quantity import Quantity_ColorRGBA
 from OCP.STEPCAFControl import STEPCAFControl_Reader
+from OCP.StepVisual import StepVisual_TessellatedItem
 from OCP.TCollection import TCollection_ExtendedString
 from OCP.TColStd import TColStd_HSequenceOfExtendedString, TColStd_SequenceOfAsciiString
 from OCP.TDataStd import TDataStd_Name
@@ -28,6 +29,8 @@ from strake.importers.step.pieces import rgba
 _UNITS = (("milli", "mm"), ("centi", "cm"), ("kilo", "km"), ("micro", "um"), ("metre", "m"), ("meter", "m"), ("inch", "in"))
 _IGES_UNITS = ((1, "mm"), (10, "cm"), (1000, "m"), (25.4, "in"), (304.8, "ft"), (1e6, "km"), (1e-3, "um"))
 _MADE_UP = re.compile(r"=>\[0:|(COMPOUND|COMPSOLID|SOLID|SHELL|FACE|WIRE|EDGE|VERTEX|SHAPE)$")
+# Not of those alone that were asked for.
+_OF_ALL_ENTITIES = 1
 _NUMBERED = re.compile(r"(NAUO)?\d*$")
 
 
@@ -37,6 +40,7 @@ class Labels:
 
     document: Any
     unit: str
+    reader: Any = None  # that of a STEP file, which knows what was made of which entity
 
     def __post_init__(self) -> None:
         main = self.document.Main()
@@ -85,6 +89,14 @@ class Labels:
         if not self._layers.GetLayers(label, names):
             return ""
         return "; ".join(sorted(_text(names.Value(i)) for i in range(1, names.Length() + 1)))
+
+    def name_of_face(self, face: Any) -> str:
+        """Returns the name of the set of triangles that a face without a surface was made of; empty where it has none."""
+        if self.reader is None:
+            return ""
+        entity = self.reader.ChangeReader().WS().TransferReader().EntityFromShapeResult(face, _OF_ALL_ENTITIES)
+        name = entity.Name() if isinstance(entity, StepVisual_TessellatedItem) else None
+        return "" if name is None else str(name.ToCString()).strip()
 
 
 def _listed(fill: Any) -> list[Any]:
@@ -156,7 +168,9 @@ def read_document(file: Path, is_step: bool, report: Report) -> Labels:
     report.progress(0.15)
     if status != IFSelect_ReturnStatus.IFSelect_RetDone or not reader.Transfer(document):
         report.fail("nothing in it becomes an object: no entity is a product with a shape", "export a whole part or assembly")
-    return Labels(document, _step_unit(reader) if is_step else _iges_unit(reader))
+    if not is_step:
+        return Labels(document, _iges_unit(reader))
+    return Labels(document, _step_unit(reader), reader)
 
 
 def _step_unit(reader: Any) -> str:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +18,7 @@ from OCP.TopoDS import TopoDS, TopoDS_Compound
 from OCP.TopTools import TopTools_IndexedMapOfShape
 
 from strake.importers.shapes import Color
+from strake.importers.step.face_sets import face_sets
 
 # Faces whose edges lie no farther apart than this are one surface, mm.
 _SEWING = 0.01
@@ -24,11 +26,12 @@ _SEWING = 0.01
 
 @dataclass(frozen=True)
 class Piece:
-    """A solid or a shell."""
+    """A solid, a shell or a set of faces. Only such a set has a name of its own."""
 
     shape: Any
     is_solid: bool
     color: Color | None
+    name: str = ""
 
 
 def found(shape: Any, kind: TopAbs_ShapeEnum, outside: TopAbs_ShapeEnum | None = None) -> list[Any]:
@@ -43,7 +46,7 @@ def found(shape: Any, kind: TopAbs_ShapeEnum, outside: TopAbs_ShapeEnum | None =
     return shapes
 
 
-def pieces_of(product: Any, styles: Any) -> list[Piece]:
+def pieces_of(product: Any, styles: Any, name_of_face: Callable[[Any], str]) -> list[Piece]:
     """Returns the pieces of a product; `styles` are the colours of shapes within it."""
     kinds = TopAbs_ShapeEnum
     whole = color_of_shape(product, styles)
@@ -56,10 +59,12 @@ def pieces_of(product: Any, styles: Any) -> list[Piece]:
     loose: list[tuple[Any, Color | None]] = []
     for shell in found(product, kinds.TopAbs_SHELL, kinds.TopAbs_SOLID):
         of_shell = color_of_shape(shell, styles) or whole
-        pieces += _tessellated(found(shell, kinds.TopAbs_FACE), of_shell, styles)
+        if bare := _without_surface(found(shell, kinds.TopAbs_FACE)):
+            pieces.append(_tessellated(bare, of_shell, styles))
         loose += _with_colors(found(shell, kinds.TopAbs_FACE), of_shell, styles)
     alone = found(product, kinds.TopAbs_FACE, kinds.TopAbs_SHELL)
-    pieces += _tessellated(alone, whole, styles)
+    for one in face_sets(_without_surface(alone), name_of_face):
+        pieces.append(_tessellated(one.faces, whole, styles, one.name))
     loose += _with_colors(alone, whole, styles)
     return pieces + (_sewn(loose) if loose else [])
 
@@ -74,16 +79,17 @@ def _with_colors(faces: list[Any], whole: Color | None, styles: Any) -> list[tup
     return [(face, color_of_shape(face, styles) or whole) for face in faces if has_surface(face)]
 
 
-def _tessellated(faces: list[Any], whole: Color | None, styles: Any) -> list[Piece]:
-    """Returns those of the faces that are triangles alone as one piece: sewing would drop them."""
-    bare = [face for face in faces if not has_surface(face)]
-    if not bare:
-        return []
+def _without_surface(faces: list[Any]) -> list[Any]:
+    return [face for face in faces if not has_surface(face)]
+
+
+def _tessellated(faces: Sequence[Any], whole: Color | None, styles: Any, name: str = "") -> Piece:
+    """Returns faces that are triangles alone as one piece: sewing would drop them."""
     together, builder = TopoDS_Compound(), BRep_Builder()
     builder.MakeCompound(together)
-    for face in bare:
+    for face in faces:
         builder.Add(together, face)
-    return [Piece(together, False, _largest(bare, whole, styles))]
+    return Piece(together, False, _largest(faces, whole, styles), name)
 
 
 def _sewn(faces: list[tuple[Any, Color | None]]) -> list[Piece]:
@@ -108,7 +114,7 @@ def _sewn(faces: list[tuple[Any, Color | None]]) -> list[Piece]:
     return [Piece(part, False, max(own, key=lambda c: own[c]) if own else None) for part, own in zip(parts, areas, strict=True)]
 
 
-def _largest(faces: list[Any], whole: Color | None, styles: Any) -> Color | None:
+def _largest(faces: Sequence[Any], whole: Color | None, styles: Any) -> Color | None:
     """Returns the colour of most of the area."""
     own = [color_of_shape(face, styles) for face in faces]
     if not any(own):
