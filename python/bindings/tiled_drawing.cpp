@@ -106,13 +106,17 @@ Status check_request(const DrawRequest& request, const DrawJob& job) {
 std::shared_ptr<CutDrawing> cut(const std::vector<Path>& paths, std::optional<double> unit_mm,
                                 std::optional<int> up_axis, bool on_map, const Path& importers,
                                 const DrawRequest& request, std::uint64_t most_bytes,
-                                const RunOptions& options) {
+                                const Path& folder, const RunOptions& options) {
   Result<DrawJob> job = job_of(request);
   if (!job) raise(job.error());
   check(check_request(request, *job));
   check(tiles::check_tiled_view(job->options));
-  const auto made = std::make_shared<CutDrawing>(CutDrawing{
-      request, std::move(*job), {}, reader_of(paths, unit_mm, up_axis, on_map, importers), {}});
+  const auto made = std::make_shared<CutDrawing>(
+      CutDrawing{request,
+                 std::move(*job),
+                 {},
+                 reader_of(paths, unit_mm, up_axis, on_map, importers, folder),
+                 {}});
   run_status(options, "cut", [&](const parallel::Context& context) {
     return cut_files(*made, most_bytes, context);
   });
@@ -181,7 +185,7 @@ void bind_tiled_drawing(nb::module_& module) {
                    [](const CutDrawing& made) { return made.cut.outline.extents.size(); });
   module.def("cut_drawing", &cut, nb::arg("paths"), nb::arg("unit_mm").none(),
              nb::arg("up_axis").none(), nb::arg("on_map"), nb::arg("importers"), nb::arg("request"),
-             nb::arg("most_bytes"), nb::arg("options"));
+             nb::arg("most_bytes"), nb::arg("folder"), nb::arg("options"));
   module.def("write_drawing_tiles", &write, nb::arg("cut"), nb::arg("folder"), nb::arg("tiles"),
              nb::arg("options"));
   module.def("draw_in_tile", &solve, nb::arg("tile"), nb::arg("found"), nb::arg("options"));

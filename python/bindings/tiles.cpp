@@ -85,11 +85,11 @@ Status cut_files(Cut& made, std::uint64_t most_bytes, const parallel::Context& c
 
 std::shared_ptr<Cut> cut(const std::vector<Path>& paths, std::optional<double> unit_mm,
                          std::optional<int> up_axis, bool on_map, const Path& importers,
-                         const ClashRequest& request, std::uint64_t most_bytes,
+                         const ClashRequest& request, std::uint64_t most_bytes, const Path& folder,
                          const RunOptions& options) {
   const auto made = std::make_shared<Cut>();
   made->request = request;
-  made->reader.emplace(reader_of(paths, unit_mm, up_axis, on_map, importers));
+  made->reader.emplace(reader_of(paths, unit_mm, up_axis, on_map, importers, folder));
   run_status(options, "cut", [&](const parallel::Context& context) {
     return cut_files(*made, most_bytes, context);
   });
@@ -141,14 +141,15 @@ std::vector<std::pair<std::size_t, std::uint64_t>> sizes(const Cut& cut) {
 }  // namespace
 
 tiles::FileReader reader_of(const std::vector<Path>& paths, std::optional<double> unit_mm,
-                            std::optional<int> up_axis, bool on_map, const Path& importers) {
+                            std::optional<int> up_axis, bool on_map, const Path& importers,
+                            const Path& folder) {
   io::ReadOptions how{.unit_mm = unit_mm, .up_axis = {}, .encoding = {}, .on_map = on_map};
   if (up_axis) how.up_axis = static_cast<io::UpAxis>(*up_axis);
   std::vector<io::FileToRead> files;
   for (const Path& path : paths) files.push_back({path, how});
   Result<io::ImportSettings> settings = io::import_settings_of_environment();
   if (settings) settings->folders.insert(settings->folders.begin(), importers);
-  return {std::move(files), std::move(settings)};
+  return {std::move(files), std::move(settings), folder};
 }
 
 Error same_names() {
@@ -162,7 +163,7 @@ void bind_tiles(nb::module_& module) {
       .def_prop_ro("objects", [](const Cut& cut) { return cut.run.outline.extents.size(); });
   module.def("cut", &cut, nb::arg("paths"), nb::arg("unit_mm").none(), nb::arg("up_axis").none(),
              nb::arg("on_map"), nb::arg("importers"), nb::arg("request"), nb::arg("most_bytes"),
-             nb::arg("options"));
+             nb::arg("folder"), nb::arg("options"));
   module.def("tile_file", &tiles::tile_file, nb::arg("folder"), nb::arg("tile"));
   module.def("write_tiles", &write, nb::arg("cut"), nb::arg("folder"), nb::arg("tiles"),
              nb::arg("options"));

@@ -11,10 +11,11 @@
 /// What clash runs and drawings by tiles share.
 namespace strake::python {
 
-/// Returns what reads the files, as read_arguments() has them.
+/// Returns what reads the files, as read_arguments() has them, and keeps them in a folder.
 [[nodiscard]] tiles::FileReader reader_of(const std::vector<std::filesystem::path>& paths,
                                           std::optional<double> unit_mm, std::optional<int> up_axis,
-                                          bool on_map, const std::filesystem::path& importers);
+                                          bool on_map, const std::filesystem::path& importers,
+                                          const std::filesystem::path& folder);
 
 /// Returns the error of selections over files that are asked before their namesakes are known.
 [[nodiscard]] Error same_names();

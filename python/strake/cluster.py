@@ -121,7 +121,7 @@ def draw_in_tile(tile_file: str, found: str, threads: int) -> None:
 class _Job(Generic[_CutT, _RunT]):
     """What is made of a model by tiles."""
 
-    cut: Callable[[int, _core.RunOptions], _CutT]  # of the bytes that a tile may take
+    cut: Callable[[int, Path, _core.RunOptions], _CutT]  # of the bytes that a tile may take, and where files are kept
     write: Callable[[_CutT, Path, list[int], _core.RunOptions], None]
     task: _Task
     join: Callable[[_CutT, list[Path], _core.RunOptions], _RunT]
@@ -142,7 +142,7 @@ class _Where:
         most = (_bytes(self.memory) - _EMPTY_WORKER) // 2
         worker_threads = thread_count(self.worker_threads, "worker_threads")
         with _runner(self.scheduler) as runner, _working_folder(self.folder) as work:
-            cut = job.cut(most, options)
+            cut = job.cut(most, work, options)
             run = _Run(job, cut, work, runner, worker_threads, options)
             run.write(range(len(cut.sizes)))
             run.find(range(len(cut.sizes)))
@@ -193,7 +193,7 @@ def clash(
     request = request_of(0, a, b, **test)
     read = _read_arguments(files, unit, up_axis, georeference)
     job = _Job(
-        lambda most, options: _core.cut(*read, request, most, options),
+        lambda most, work, options: _core.cut(*read, request, most, work, options),
         _core.write_tiles,
         find_in_tile,
         _core.join_tiles,
@@ -238,7 +238,7 @@ def draw(
     request = draw_request(view, pick(select, 0, "select"), **options)
     read = _read_arguments(files, unit, up_axis, georeference)
     job = _Job(
-        lambda most, run: _core.cut_drawing(*read, request, most, run),
+        lambda most, work, run: _core.cut_drawing(*read, request, most, work, run),
         _core.write_drawing_tiles,
         draw_in_tile,
         _core.join_drawing_tiles,

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -149,6 +150,25 @@ class _Words:
         return {options[word].name: value for word, value in self.given.items() if word in options}
 
 
+def _as_typed(error: Error, options: dict[str, _Option]) -> Error:
+    """The error in the words of the command line: the package tells of arguments, and the program has options."""
+    word_of = {option.name: word for word, option in options.items()} | {"files": "FILE", "path_to": "--output"}
+    # Names of several words are no words of a sentence; what is in quotes stands there as it was given.
+    names = "|".join(name for name in word_of if "_" in name)
+
+    def told(text: str) -> str:
+        return re.sub(rf"(?<![\w'\"/])(?:{names})(?![\w'\"/])", lambda name: word_of[name[0]], text)
+
+    # The place of another error is a file.
+    where = word_of.get(error.where, error.where) if isinstance(error, UsageError) else error.where
+    asked = re.fullmatch(r"(give|leave out) (\w+)(?: or (\w+))?", error.mend)
+    if asked and all(name in word_of for name in asked.groups()[1:] if name):
+        mend = f"{asked[1]} {' or '.join(word_of[name] for name in asked.groups()[1:] if name)}"
+    else:
+        mend = told(error.mend)
+    return type(error)(told(error.message), where, mend)
+
+
 # What turns a flag of the program off, as "--volumes=false".
 _OFF = ("false", "off", "no", "disable", "f", "n", "0", "-")
 
@@ -221,7 +241,7 @@ def main(words: Sequence[str]) -> int:
     try:
         _run(words, line)
     except Error as error:
-        return _ended(str(error), _CODES[error.code], line)
+        return _ended(str(_as_typed(error, _options_of(words[0]))), _CODES[error.code], line)
     except ImportError as error:
         return _ended(str(error), _CODES["usage"], line)
     except KeyboardInterrupt:
@@ -235,10 +255,13 @@ def _ended(why: str, code: int, line: _Line) -> int:
     return code
 
 
+def _options_of(verb: str) -> dict[str, _Option]:
+    return _CLASH if verb == "clash" else _DRAW | _VIEW
+
+
 def _run(words: Sequence[str], line: _Line) -> None:
     verb = words[0]
-    options = _CLASH if verb == "clash" else _DRAW | _VIEW
-    taken = _taken_apart(words[1:], verb, options)
+    taken = _taken_apart(words[1:], verb, _options_of(verb))
     if taken.given.get("--scheduler") == "local":
         del taken.given["--scheduler"]
     if verb == "clash":

@@ -2,6 +2,7 @@
 """Clashes and drawings by tiles have the bytes of one machine, whatever gets lost on the way."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -268,17 +269,26 @@ def test_tiles_that_are_always_lost_are_an_error(
     assert not list((tmp_path / "work").iterdir())
 
 
-def test_files_that_change_meanwhile_are_an_error(tmp_path: Path, small_tiles: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
+def test_files_that_change_meanwhile(tmp_path: Path, small_tiles: list[int], monkeypatch: pytest.MonkeyPatch) -> None:
     files = [tmp_path / "a.glb", tmp_path / "b.glb"]
     for seed, file in enumerate(files):
         strake.generate(objects=300, seed=seed).save(file)
+    whole = strake.clash(strake.load(files))
     write = _core.write_tiles
 
-    def write_late(*arguments: Any) -> None:
+    def write_late(cut: Any, folder: Path, *others: Any) -> None:
         strake.generate(objects=301, seed=0).save(files[0])
-        write(*arguments)
+        if lost:
+            for kept in folder.glob("*.strake-kept"):
+                kept.unlink()
+        write(cut, folder, *others)
 
     monkeypatch.setattr(_core, "write_tiles", write_late)
+    # Each file is read once: what it says later on is for the next run.
+    lost = False
+    assert bytes_of(strake.cluster.clash(files), tmp_path) == bytes_of(whole, tmp_path)
+    strake.generate(objects=300, seed=0).save(files[0])
+    lost = True
     with pytest.raises(strake.InputError, match="changed while it was cut"):
         strake.cluster.clash(files)
 
@@ -396,6 +406,37 @@ def test_what_the_program_refuses_by_tiles(tmp_path: Path, through_python: None,
     code, told = ended("clash", ship_file, "--scheduler", "tcp://127.0.0.1:1x", "-o", out)
     assert code == 2 and ("no scheduler answers" in told or "strake[cluster]" in told)
     assert not out.exists()
+
+
+# Words that the package refuses, with what the program tells of them.
+WRONG_WORDS = [
+    ("clash", ["--worker-memory", "1MiB"], "--worker-memory: '1MiB' is too little for a worker"),
+    ("clash", ["--worker-memory", "much"], "--worker-memory: 'much' is no amount of memory"),
+    ("clash", ["--sort", "size"], "--sort: only groups have a size (give --group-by)"),
+    ("clash", ["--group-distance", "10mm"], "--group-distance: there are no groups (give --group-by)"),
+    ("clash", ["--list-exempted"], "--list-exempted: there are no rules that exempt (give --rules or --profile)"),
+    ("clash", ["--rules", "RULES", "--touch-gap", "2mm"], "--touch-gap: a rules file says this itself"),
+    ("clash", ["--a", "NONE*", "--clearance", "@"], "--clearance: "),
+    ("clash", ["--a", "name ="], "--a: "),
+    ("draw", ["--flush-seams", "off"], "--flush-seams: drawings by tiles have the flush seams"),
+    ("draw", ["--sharp-angle", "400"], "--sharp-angle: it is no angle between two faces"),
+    ("draw", ["--select", "NONE*"], "--select: "),
+    ("draw", ["--own-polylines", "some"], "--own-polylines: "),
+    ("draw", ["--near", "much", "--eye", "1,2,3", "--target", "9,9,9"], "--near: "),
+]
+
+
+@pytest.mark.parametrize(("verb", "words", "told"), WRONG_WORDS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
+def test_the_program_tells_of_its_own_words(
+    tmp_path: Path, through_python: None, ship_file: Path, verb: str, words: list[str], told: str
+) -> None:
+    rules = tmp_path / "rules.toml"
+    rules.write_text(RULES)
+    given = [str(rules) if word == "RULES" else word for word in words]
+    done = strake.run_program([verb, ship_file, *given, "--scheduler", "local", "-o", tmp_path / "out.json"], check=False)
+    assert done.returncode == 2
+    assert done.stderr.startswith(f"strake: error: {told}")
+    assert not re.search(r"(?<![\w'])[a-z]+_[a-z_]+", done.stderr)
 
 
 def test_no_module_comes_from_the_folder_of_the_run(

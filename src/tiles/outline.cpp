@@ -10,7 +10,6 @@
 
 #include "clash/rules/options.hpp"
 #include "io/importer/importing_reader.hpp"
-#include "io/read_file.hpp"
 #include "project/model/stored_diagnostics.hpp"
 
 namespace strake::tiles {
@@ -271,18 +270,6 @@ class Gathering {
 
 }  // namespace
 
-Result<const model::Model*> FileReader::read(std::size_t file, const parallel::Context& context) {
-  if (last_ && number_ == file) return &*last_;
-  last_.reset();
-  // An environment that says no settings tells of it where an importer is needed.
-  Result<io::ReadFile> read = io::read_file(files_[file], settings_, context);
-  if (!read) return read.error();
-  number_ = file;
-  last_.emplace(std::move(read->model));
-  map_ = std::move(read->map);
-  return &*last_;
-}
-
 Hash128 hash_of_ids(const model::Model& model) {
   WordHash hash;
   hash.add(std::uint64_t{model.objects.size()});
@@ -318,6 +305,8 @@ Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& option
     file.bodies = model.bodies.size();
     file.model = keep.places ? without_meshes(model) : without_geometry(model);
     if (keep.places) file.placed = without_triangles(std::move(*scene), keep);
+    *scene = {};  // it is no longer needed, and keeping a file takes memory
+    if (const Status s = reader.keep(f, context); !s) return s.error();
   }
   return Gathering(std::move(remains), reader.files()).run();
 }

@@ -8,43 +8,17 @@
 #include <span>
 #include <vector>
 
-#include "io/importer/map_place.hpp"
 #include "strake/core/diagnostics.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
-#include "strake/io/importer.hpp"
-#include "strake/io/reader.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
 #include "strake/parallel/detail/function_ref.hpp"
+#include "tiles/file_reader.hpp"
 #include "tiles/split.hpp"
 
 /// A model that is too large to be held, file by file.
 namespace strake::tiles {
-
-/// Reads model files one at a time, each alone in its model and finished.
-class FileReader {
- public:
-  FileReader(std::vector<io::FileToRead> files, Result<io::ImportSettings> settings)
-      : files_(std::move(files)), settings_(std::move(settings)) {}
-
-  [[nodiscard]] const std::vector<io::FileToRead>& files() const { return files_; }
-  /// Returns the model of one file, which lasts until the next call. Errors: those of
-  /// io::read_models().
-  [[nodiscard]] Result<const model::Model*> read(std::size_t file,
-                                                 const parallel::Context& context);
-  /// Returns where the importer of the last one says that it lies on a map.
-  [[nodiscard]] const std::optional<io::MapPlace>& map() const { return map_; }
-  /// Frees the last one.
-  void forget() { last_.reset(); }
-
- private:
-  std::vector<io::FileToRead> files_;
-  Result<io::ImportSettings> settings_;
-  std::size_t number_ = 0;
-  std::optional<model::Model> last_;
-  std::optional<io::MapPlace> map_;
-};
 
 /// What is held of a model besides names and extents.
 struct Keep {
@@ -77,7 +51,7 @@ struct Outline {
 /// has alone.
 using Look = parallel::FunctionRef<Status(const model::Scene& scene, std::size_t given)>;
 
-/// Reads all files, one at a time, and returns their outline: it is the model that
+/// Reads all files, one at a time, has the reader keep each, and returns their outline: it is the model that
 /// io::read_models() and model::make_scene() make of all, without geometry. Errors: theirs; those
 /// of `look`.
 [[nodiscard]] Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& options,

@@ -14,19 +14,14 @@
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
 #include "tiles/blob_file.hpp"
+#include "tiles/file_reader.hpp"
 #include "tiles/outline.hpp"
+#include "tiles/section.hpp"
 
 /// Tiles of a model on the disk: each has all that its task needs to know of some objects, and
 /// nothing else. A tile is one file with what is asked of it, and one for the geometry that it has
 /// of each model file.
 namespace strake::tiles {
-
-/// Objects [first, last) of a tile are of one model file.
-struct Section {
-  std::uint32_t file = 0, first = 0, last = 0;
-  std::uint64_t bodies = 0, shapes = 0;
-  Hash128 hash;  ///< of what it holds
-};
 
 struct Tile {
   clash::Cell cell;
@@ -37,12 +32,6 @@ struct Tile {
   /// Its objects with their ids, and of the files their labels: no names, groups and attributes.
   model::Model model;
 };
-
-/// Writes the part that some objects of a model file, which is alone in its model, have in a tile;
-/// `objects` are their numbers there. Errors: output, memory.
-[[nodiscard]] Result<Section> write_section(const std::filesystem::path& tile, std::uint32_t file,
-                                            const model::Model& model,
-                                            std::span<const std::uint32_t> objects);
 
 /// Writes the rest of a tile, all but its model's geometry. Errors: output, memory.
 [[nodiscard]] Status write_head(const std::filesystem::path& file, const Tile& tile);
@@ -66,8 +55,8 @@ struct TilesToWrite {
   parallel::FunctionRef<Result<Tile>(std::size_t tile)> head_of;
 };
 
-/// Writes tiles, reading the model's files again, one at a time. Errors: input for one that changed
-/// meanwhile; those of io::read_models(); output.
+/// Writes tiles, one model file after the other, as FileReader::read_again() has it. Errors: input
+/// for a file that had to be read again and changed meanwhile; those of io::read_models(); output.
 [[nodiscard]] Status write_tiles(const TilesToWrite& what, const parallel::Context& context);
 
 /// Reads a tile. Errors: input for one of which a file is not what was written (kLost).

@@ -106,6 +106,7 @@ class TiledRun {
   }
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_.path(); }
+  [[nodiscard]] const std::vector<io::FileToRead>& files() const { return files_; }
 
   [[nodiscard]] clash::Findings whole() const {
     const model::Model model = io::read_models(files_, {}).value();
@@ -125,8 +126,20 @@ class TiledRun {
 
   /// Cuts the files and writes all tiles.
   [[nodiscard]] CutRun cut(std::uint64_t most_bytes) const {
+    FileReader reader = this->reader();
+    CutRun run = outlined(reader);
+    tiles::cut(run, most_bytes);
+    EXPECT_TRUE(write_tiles(run, reader, folder(), tiles_of(run), {}));
+    return run;
+  }
+
+  [[nodiscard]] FileReader reader() const {
+    return {files_, io::import_settings_of_environment(), folder()};
+  }
+
+  /// Reads the files.
+  [[nodiscard]] CutRun outlined(FileReader& reader) const {
     const rules::Rules rules = parsed();
-    FileReader reader(files_, io::import_settings_of_environment());
     CutRun run;
     run.scene = rules.scene_options();
     std::vector<rules::ObjectFacts> facts(files_.size());
@@ -142,8 +155,6 @@ class TiledRun {
     model::Scene names;
     names.model = &run.outline.model;
     run.plan = with_engine(rules.plan(names, std::move(all), {}).value());
-    tiles::cut(run, most_bytes);
-    EXPECT_TRUE(write_tiles(run, reader, folder(), tiles_of(run), {}));
     return run;
   }
 
@@ -221,6 +232,42 @@ TEST(TiledClash, finds_what_is_found_in_the_whole_model) {
       }
     }
   }
+}
+
+/// What is kept of files in a folder.
+std::vector<std::filesystem::path> kept_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> kept;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".strake-kept") kept.push_back(entry.path());
+  return kept;
+}
+
+TEST(TiledClash, reads_several_files_once) {
+  const TiledRun files({1, 2});
+  const clash::Findings whole = files.whole();
+  FileReader reader = files.reader();
+  CutRun run = files.outlined(reader);
+  cut(run, 200'000);
+  const auto away = [](const io::FileToRead& file) { return file.path.string() + ".away"; };
+  for (const io::FileToRead& file : files.files()) std::filesystem::rename(file.path, away(file));
+  const auto write = [&] {
+    reader.forget();
+    return write_tiles(run, reader, files.folder(), TiledRun::tiles_of(run), {});
+  };
+  ASSERT_TRUE(write());
+  expect_same(whole, files.by_tiles(run));
+  // What is lost is read again, as long as it is what it was.
+  const auto kept = kept_in(files.folder());
+  ASSERT_EQ(kept.size(), 2U);
+  std::filesystem::resize_file(kept[0], std::filesystem::file_size(kept[0]) - 3);
+  std::filesystem::remove(kept[1]);
+  EXPECT_EQ(write().error().code, ErrorCode::input);
+  for (const io::FileToRead& file : files.files()) std::filesystem::rename(away(file), file.path);
+  ASSERT_TRUE(write());
+  expect_same(whole, files.by_tiles(run));
+  std::filesystem::copy_file(files.files()[0].path, files.files()[1].path,
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_EQ(write().error().message, "changed while it was cut");
 }
 
 TEST(TiledClash, tells_of_tiles_and_results_that_are_lost) {
