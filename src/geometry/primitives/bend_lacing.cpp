@@ -8,18 +8,18 @@
 namespace strake::geometry::tessellation {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kUnreached = std::numeric_limits<double>::infinity();
 /// A triangle that looks the wrong way weighs more than all long edges of a band.
-constexpr double kWrong = 1e9, kThin = 1e6;
+constexpr double kWeightOfWrong = 1e9, kWeightOfThin = 1e6;
 /// In length: a triangle narrower than this on paper may come to look either way, once its corners
 /// are rounded to the grid.
-constexpr double kNarrow = 2e-3;
+constexpr double kNarrowOnPaper = 2e-3;
 
 double square_of(const Vec3d& v) { return dot(v, v); }
 
-class Lacing {
+class BandSearch {
  public:
-  Lacing(const SectionArc& first, const SectionArc& second, const Vec3d& eye, bool faces_eye,
+  BandSearch(const SectionArc& first, const SectionArc& second, const Vec3d& eye, bool faces_eye,
          double step)
       : first_(first),
         second_(second),
@@ -34,13 +34,13 @@ class Lacing {
 
   [[nodiscard]] BandLacing best() {
     const std::size_t height = first_.angles.size();
-    cost_.assign(height * width_, kNever);
+    cost_.assign(height * width_, kUnreached);
     from_second_.assign(height * width_, false);
     cost_[0] = 0;
     for (std::size_t i = 0; i < height; ++i)
       for (std::size_t k = 0; k < width_; ++k) {
         const double here = cost_[i * width_ + k];
-        if (here == kNever) continue;
+        if (here == kUnreached) continue;
         if (i + 1 < height) reach(i + 1, k, here + weight_of_first(i, k), false);
         if (k + 1 < width_) reach(i, k + 1, here + weight_of_second(i, k), true);
       }
@@ -73,23 +73,23 @@ class Lacing {
     const double longest = std::max({square_of(b - a), square_of(c - b), square_of(a - c)});
     const double facing = sign_ * dot(cross(b - a, c - a), sight);
     const double height = facing / std::sqrt(longest * square_of(sight));
-    if (height > kNarrow) return 0;
-    return height > -kNarrow ? kThin : kWrong;
+    if (height > kNarrowOnPaper) return 0;
+    return height > -kNarrowOnPaper ? kWeightOfThin : kWeightOfWrong;
   }
 
   [[nodiscard]] BandLacing traced(std::size_t i, std::size_t k) const {
     BandLacing lacing;
-    if (cost_[i * width_ + k] == kNever) {
+    if (cost_[i * width_ + k] == kUnreached) {
       lacing.wrong = first_.angles.size() + width_;
       return lacing;
     }
-    lacing.wrong = static_cast<std::size_t>(cost_[i * width_ + k] / kWrong);
+    lacing.wrong = static_cast<std::size_t>(cost_[i * width_ + k] / kWeightOfWrong);
     while (i > 0 || k > 0) {
       const bool by_second = from_second_[i * width_ + k];
       lacing.second_goes_on.push_back(by_second);
       --(by_second ? k : i);
     }
-    std::ranges::reverse(lacing.second_goes_on);
+    std::reverse(lacing.second_goes_on.begin(), lacing.second_goes_on.end());
     return lacing;
   }
 
@@ -105,7 +105,7 @@ class Lacing {
 
 BandLacing lace_band(const SectionArc& first, const SectionArc& second, const Vec3d& eye,
                      bool faces_eye, double step) {
-  return Lacing(first, second, eye, faces_eye, step).best();
+  return BandSearch(first, second, eye, faces_eye, step).best();
 }
 
 }  // namespace strake::geometry::tessellation

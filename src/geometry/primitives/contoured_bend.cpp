@@ -23,18 +23,6 @@
 namespace strake::geometry::tessellation {
 namespace {
 
-constexpr int kMostSteps = 1024;
-/// In length: sections that are nearer to each other are told apart by rounding to the grid.
-constexpr double kNarrowest = 4e-3;
-/// In steps of a section: how far the contour may turn from one to the next, where the sight
-/// touches the skin from outside and where it runs on into the body.
-constexpr double kMostTurn = 0.4, kMostTurnInside = 0.8;
-/// In steps: a line that is nearer to the contour is left out.
-constexpr double kNear = 0.25;
-constexpr double kBeyond = 0.15;   ///< past where the next section has the contour
-constexpr double kWidest = 1.4;    ///< between neighbours
-constexpr double kSame = 1e-9;     ///< radians
-
 /// The angle from one to another, in (-pi, pi].
 double turn_between(double from, double to) {
   const double turns = (to - from) / (2 * kPi);
@@ -48,20 +36,20 @@ double within_turn(double angle) {
   return rest < 2 * kPi ? std::max(0.0, rest) : 0;
 }
 
-struct Section {
+struct BendSection {
   double angle = 0;                         ///< of the sweep
   std::optional<EyeContour> before, after;  ///< the contour as its two sides see it
   bool is_along = false;  ///< the eye sees it along the tube, and it is the contour all round
 };
 
 /// The vertices of a section.
-struct Ring {
+struct BendRing {
   std::vector<double> places;
   std::vector<Vec3d> points;
   std::vector<std::uint32_t> vertices;
 };
 
-struct Band {
+struct LacedBand {
   SectionArc first, second;
   BandLacing lacing;
 };
@@ -79,7 +67,7 @@ class ContouredBend {
         full_(is_full_turn(p.angle)),
         start_(full_ ? contour_.towards() : 0) {
     const int quarters = static_cast<int>(std::ceil(p_.angle / (kPi / 2) * (1 - 1e-6)));
-    sweep_step_ = p_.angle / std::max({1, quarters, arc_segments(outer(), p_.angle, rest, kMostSteps)});
+    sweep_step_ = p_.angle / std::max({1, quarters, arc_segments(outer(), p_.angle, rest, kMostBendSteps)});
     // A circle that is seen along the tube is off the true contour by no more than an eighth.
     const double turning = contour_.turning();
     turns_at_once_ = outer() * turning * turning / 2 < target.sag / 8;
@@ -98,9 +86,20 @@ class ContouredBend {
   }
 
  private:
+  static constexpr int kMostBendSteps = 1024;
+  /// In length: sections that are nearer to each other are told apart by rounding to the grid.
+  static constexpr double kLeastApart = 4e-3;
+  /// In steps of a section: how far the contour may turn from one to the next, where the sight
+  /// touches the skin from outside and where it runs on into the body.
+  static constexpr double kMostTurn = 0.4, kMostTurnInside = 0.8;
+  /// In steps: a line that is nearer to the contour is left out, or no farther beyond the contour
+  /// of a section beside it; and the widest between neighbours.
+  static constexpr double kNear = 0.25, kBeyond = 0.15, kWidest = 1.4;
+  static constexpr double kSame = 1e-9;  ///< radians
+
   [[nodiscard]] double outer() const { return p_.centre_radius + p_.tube_radius; }
 
-  [[nodiscard]] Section plain(double angle) const {
+  [[nodiscard]] BendSection plain(double angle) const {
     const auto here = contour_.at(angle);
     return {angle, here, here, false};
   }
@@ -117,8 +116,8 @@ class ContouredBend {
   }
 
   /// An end that is nearly seen along the tube has the lines of its side.
-  [[nodiscard]] Section at_end(double angle, double inside) const {
-    Section end = plain(angle);
+  [[nodiscard]] BendSection at_end(double angle, double inside) const {
+    BendSection end = plain(angle);
     if (!turns_at_once_) return end;
     for (const double along : contour_.seen_along())
       if (std::fabs(turn_between(along, angle)) < 2 * contour_.turning())
@@ -128,8 +127,8 @@ class ContouredBend {
   }
 
   void choose_sections() {
-    const double least = kNarrowest / outer();
-    std::vector<Section> corners;
+    const double least = kLeastApart / outer();
+    std::vector<BendSection> corners;
     if (turns_at_once_) {
       const double aside = 2 * contour_.turning();
       within_sweep(contour_.seen_along(), aside, [&](double angle) {
@@ -137,7 +136,7 @@ class ContouredBend {
                            contour_.along_before_or_behind(angle + aside), true});
       });
     } else {
-      within_sweep(contour_.meetings(kNarrowest), least, [&](double angle) {
+      within_sweep(contour_.meetings(kLeastApart), least, [&](double angle) {
         const double place = contour_.meeting_place(angle);
         corners.push_back({angle, EyeContour{place, place}, EyeContour{place, place}, false});
       });
@@ -145,29 +144,29 @@ class ContouredBend {
     const double inside = 4 * contour_.turning();
     corners.push_back(full_ ? plain(start_) : at_end(start_, inside));
     corners.push_back(full_ ? plain(start_ + p_.angle) : at_end(start_ + p_.angle, -inside));
-    std::ranges::sort(corners, {}, &Section::angle);
+    std::ranges::sort(corners, {}, &BendSection::angle);
     sections_ = {corners.front()};
     for (std::size_t i = 0; i + 1 < corners.size(); ++i) divide(corners[i], corners[i + 1]);
     add_cusps();
   }
 
-  void divide(const Section& from, const Section& to) {
+  void divide(const BendSection& from, const BendSection& to) {
     const double span = to.angle - from.angle;
     int parts = std::max(1, static_cast<int>(std::ceil(span / sweep_step_ * (1 - 1e-9))));
     // Between two meetings there is no contour, which takes a section to see.
     if (parts == 1 && from.after && to.before && !contour_.at(from.angle + span / 2)) parts = 2;
-    Section before = from;
+    BendSection before = from;
     for (int k = 1; k <= parts; ++k) {
-      const Section next = k == parts ? to : plain(from.angle + span * k / parts);
+      const BendSection next = k == parts ? to : plain(from.angle + span * k / parts);
       add(before, next, 0);
       before = next;
     }
   }
 
   /// Adds a section, and before it such that the contour does not turn too far.
-  void add(const Section& from, const Section& to, int depth) {
+  void add(const BendSection& from, const BendSection& to, int depth) {
     constexpr int kDeepest = 24;
-    const Section middle = plain((from.angle + to.angle) / 2);
+    const BendSection middle = plain((from.angle + to.angle) / 2);
     if (depth < kDeepest && turns_far(from, middle, to)) {
       add(from, middle, depth + 1);
       add(middle, to, depth + 1);
@@ -176,14 +175,14 @@ class ContouredBend {
     sections_.push_back(to);
   }
 
-  [[nodiscard]] bool may_divide(const Section& from, const Section& to) const {
+  [[nodiscard]] bool may_divide(const BendSection& from, const BendSection& to) const {
     const double span = to.angle - from.angle;
-    if (span * outer() < 2 * kNarrowest) return false;
+    if (span * outer() < 2 * kLeastApart) return false;
     return !(from.is_along || to.is_along) || span > 4 * contour_.turning();
   }
 
-  [[nodiscard]] bool turns_far(const Section& from, const Section& middle,
-                               const Section& to) const {
+  [[nodiscard]] bool turns_far(const BendSection& from, const BendSection& middle,
+                               const BendSection& to) const {
     if (!from.after || !middle.before || !to.before || !may_divide(from, to)) return false;
     for (const auto line : {&EyeContour::first, &EyeContour::second}) {
       const double here = (*middle.before).*line;
@@ -197,16 +196,16 @@ class ContouredBend {
 
   /// The contour has a vertex at each cusp, so that no chord runs on both sides of it.
   void add_cusps() {
-    std::vector<Section> cusps;
+    std::vector<BendSection> cusps;
     for (std::size_t j = 0; j + 1 < sections_.size(); ++j)
       for (const auto line : {&EyeContour::first, &EyeContour::second})
         if (const auto cusp = cusp_between(sections_[j], sections_[j + 1], line))
           cusps.push_back(plain(*cusp));
     sections_.insert(sections_.end(), cusps.begin(), cusps.end());
-    std::ranges::sort(sections_, {}, &Section::angle);
+    std::ranges::sort(sections_, {}, &BendSection::angle);
   }
 
-  [[nodiscard]] std::optional<double> cusp_between(const Section& from, const Section& to,
+  [[nodiscard]] std::optional<double> cusp_between(const BendSection& from, const BendSection& to,
                                                    double EyeContour::* line) const {
     if (!from.after || !to.before || from.is_along || to.is_along) return std::nullopt;
     const auto is_outside = [&](double angle, const EyeContour& at) {
@@ -222,7 +221,7 @@ class ContouredBend {
       if (!at) return std::nullopt;
       (is_outside(middle, *at) == at_first ? low : high) = middle;
     }
-    const double least = kNarrowest / outer();
+    const double least = kLeastApart / outer();
     if (low - from.angle < least || to.angle - low < least) return std::nullopt;
     return low;
   }
@@ -263,7 +262,7 @@ class ContouredBend {
   }
 
   /// The section beside one; none at an end.
-  [[nodiscard]] const Section* beside(std::size_t j, bool behind) const {
+  [[nodiscard]] const BendSection* beside(std::size_t j, bool behind) const {
     const std::size_t last = sections_.size() - 1;
     if (behind && j == last) return full_ ? &sections_[1] : nullptr;
     if (!behind && j == 0) return full_ ? &sections_[last - 1] : nullptr;
@@ -281,7 +280,7 @@ class ContouredBend {
   };
 
   /// What the contour in a section and in one beside it want of it.
-  void keep_off(const Section& here, const Section* other, bool behind, std::vector<Gap>& gaps,
+  void keep_off(const BendSection& here, const BendSection* other, bool behind, std::vector<Gap>& gaps,
                 std::vector<double>& places) const {
     const auto& contour = behind ? here.after : here.before;
     if (!contour) return;
@@ -357,7 +356,7 @@ class ContouredBend {
     std::uint32_t vertices = 0;
     const std::size_t distinct = sections_.size() - (full_ ? 1 : 0);
     for (std::size_t j = 0; j < distinct; ++j) {
-      Ring ring{places_of(j), {}, {}};
+      BendRing ring{places_of(j), {}, {}};
       for (const double place : ring.places) {
         ring.points.push_back(point(sections_[j].angle, place));
         ring.vertices.push_back(vertices++);
@@ -369,10 +368,10 @@ class ContouredBend {
     for (std::size_t j = 0; j + 1 < sections_.size(); ++j) bands_.push_back(bands_between(j));
   }
 
-  [[nodiscard]] std::vector<Band> bands_between(std::size_t j) const {
-    const Ring &a = rings_[j], &b = rings_[j + 1];
+  [[nodiscard]] std::vector<LacedBand> bands_between(std::size_t j) const {
+    const BendRing &a = rings_[j], &b = rings_[j + 1];
     const auto &from = sections_[j].after, &to = sections_[j + 1].before;
-    std::vector<Band> bands;
+    std::vector<LacedBand> bands;
     if (from && to) {
       add_band(bands, arc_of(a, from->first, from->second, false),
                arc_of(b, to->first, to->second, false), true);
@@ -385,7 +384,7 @@ class ContouredBend {
     return bands;
   }
 
-  void add_band(std::vector<Band>& bands, SectionArc first, SectionArc second,
+  void add_band(std::vector<LacedBand>& bands, SectionArc first, SectionArc second,
                 bool faces_eye) const {
     if (first.angles.size() + second.angles.size() < 3) return;
     const double turns =
@@ -397,7 +396,7 @@ class ContouredBend {
 
   /// Returns a section's points from one place to another; where both are one, that alone or all
   /// round.
-  [[nodiscard]] static SectionArc arc_of(const Ring& ring, double from, double to, bool round) {
+  [[nodiscard]] static SectionArc arc_of(const BendRing& ring, double from, double to, bool round) {
     const auto nearest = [&](double place) {
       const auto apart = [&](double other) { return std::fabs(turn_between(place, other)); };
       const auto found = std::ranges::min_element(ring.places, {}, apart);
@@ -419,17 +418,17 @@ class ContouredBend {
   /// Puts a section into each band of which triangles look the wrong way. Returns whether there is
   /// any.
   bool divide_wrong_bands() {
-    std::vector<Section> more;
+    std::vector<BendSection> more;
     wrong_bands_ = 0;
     for (std::size_t j = 0; j < bands_.size(); ++j) {
-      if (std::ranges::all_of(bands_[j], [](const Band& b) { return b.lacing.wrong == 0; }))
+      if (std::ranges::all_of(bands_[j], [](const LacedBand& b) { return b.lacing.wrong == 0; }))
         continue;
       ++wrong_bands_;
-      const Section &from = sections_[j], &to = sections_[j + 1];
+      const BendSection &from = sections_[j], &to = sections_[j + 1];
       if (may_divide(from, to)) more.push_back(plain((from.angle + to.angle) / 2));
     }
     sections_.insert(sections_.end(), more.begin(), more.end());
-    std::ranges::sort(sections_, {}, &Section::angle);
+    std::ranges::sort(sections_, {}, &BendSection::angle);
     return !more.empty();
   }
 
@@ -440,7 +439,7 @@ class ContouredBend {
     double sag = 0;
     for (std::size_t j = 0; j < bands_.size(); ++j) {
       const double along = sections_[j + 1].angle - sections_[j].angle;
-      for (const Band& band : bands_[j]) sag = std::max(sag, add_facets(builder, band, along));
+      for (const LacedBand& band : bands_[j]) sag = std::max(sag, add_facets(builder, band, along));
     }
     if (!full_) {
       builder.polygon(rings_.front().vertices);
@@ -450,7 +449,7 @@ class ContouredBend {
   }
 
   /// Returns how far they are from the skin, at most.
-  double add_facets(MeshBuilder& builder, const Band& band, double along) const {
+  double add_facets(MeshBuilder& builder, const LacedBand& band, double along) const {
     const SectionArc &a = band.first, &b = band.second;
     const auto& steps = band.lacing.second_goes_on;
     const double by_sweep = outer() * along * along;
@@ -492,11 +491,11 @@ class ContouredBend {
   double start_;  ///< of the sweep
   double sweep_step_ = 0;
   bool turns_at_once_ = false;  ///< the contour, where the eye sees the tube along
-  std::vector<Section> sections_;
+  std::vector<BendSection> sections_;
   std::array<std::vector<double>, 2> lines_;
   std::size_t second_lines_from_ = 0;  ///< the section
-  std::vector<Ring> rings_;
-  std::vector<std::vector<Band>> bands_;  ///< between sections: towards the eye and away
+  std::vector<BendRing> rings_;
+  std::vector<std::vector<LacedBand>> bands_;  ///< between sections: towards the eye and away
   std::size_t wrong_bands_ = 0;
 };
 

@@ -95,7 +95,7 @@ Measured measure(const BendSurface& surface, const Tessellation& t, double aside
     if (is_cap) continue;
     const Vec3d a = v[w[0]], n = cross(v[w[1]] - a, v[w[2]] - a), sight = surface.eye - a;
     double longest = 0;
-    for (int k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k) {
       const Vec3d e = v[w[(k + 1) % 3]] - v[w[k]];
       longest = std::max(longest, std::sqrt(dot(e, e)));
     }
