@@ -173,8 +173,8 @@ std::vector<SinCos> rim_of_dish(const SphericalDishPrimitive& p, const Tessellat
                              : rim_of(target, p.radius, segments);
 }
 
-std::optional<Tessellation> cap_from_eye(const SphericalDishPrimitive& p,
-                                         const TessellationTarget& target, int segments, int rows) {
+std::optional<Tessellation> cap_in_view(const SphericalDishPrimitive& p,
+                                        const TessellationTarget& target, int segments, int rows) {
   if (auto cap = contoured_cap(p, target, segments, rows)) return cap;
   return encircled_cap(p, target, rim_of_dish(p, target, segments), rows);
 }
@@ -191,7 +191,7 @@ std::optional<Tessellation> elliptical_from_eye(const EllipticalDishPrimitive& p
   if (stretch > 1)
     segments = static_cast<int>(
         std::min(std::ceil(segments * std::sqrt(stretch)), double{kMostDomeSegments}));
-  auto seen = cap_from_eye(SphericalDishPrimitive{p.radius, p.radius}, of_ball, segments, rows);
+  auto seen = cap_in_view(SphericalDishPrimitive{p.radius, p.radius}, of_ball, segments, rows);
   if (!seen) return std::nullopt;
   for (Vec3d& v : seen->mesh.vertices) v.z *= stretch;
   seen->mesh.sag_mm *= std::max(1.0, stretch);
@@ -280,11 +280,11 @@ Tessellation make(const SphericalDishPrimitive& p, const TessellationTarget& tar
       std::max(2, arc_segments(radius, from_apex, target.sag - sagitta(equator, 2 * kPi / n),
                                kMostDomeSegments / 2));
   if (target.towards)
-    if (auto cap = contoured_cap(p, target, n, rows)) return std::move(*cap);
+    if (auto cap = cap_in_view(p, target, n, rows)) return std::move(*cap);
   // Of more than half a ball, the columns spread, and take more of them to come as near.
   if (target.eye)
     for (int finer = 1; finer <= 4; finer *= 2) {
-      auto seen = cap_from_eye(p, target, std::min(n * finer, kMostDomeSegments),
+      auto seen = cap_in_view(p, target, std::min(n * finer, kMostDomeSegments),
                                std::min(rows * finer, kMostDomeSegments / 2));
       if (!seen) break;
       if (seen->mesh.sag_mm <= 1.5 * target.sag || finer == 4) return std::move(*seen);

@@ -38,9 +38,9 @@ struct CapContour {
                                                         const TessellationTarget& target,
                                                         int segments, int rows);
 
-/// Returns a spherical dish whose silhouette from the eye is a whole circle over the base circle,
-/// among its edges, with the base circle of `rim`. None where the silhouette is no such circle or
-/// is too near to the base circle.
+/// Returns a spherical dish whose silhouette is a whole circle over the base circle, among its
+/// edges, with the base circle of `rim`, to which one of more than half a ball may add. None where
+/// the silhouette is no such circle or is too near to the base circle.
 [[nodiscard]] std::optional<Tessellation> encircled_cap(const SphericalDishPrimitive& p,
                                                         const TessellationTarget& target,
                                                         const std::vector<SinCos>& rim, int rows);

@@ -10,7 +10,7 @@
 #include "geometry/primitives/domes.hpp"
 #include "geometry/primitives/mesh_builder.hpp"
 
-// Dishes whose silhouette from an eye is a whole circle over the base circle (decision 0111). The
+// Dishes whose silhouette is a whole circle over the base circle (decision 0111). The
 // planes of both meet in a line that misses the ball; all planes through it cut the ball in circles
 // that do not meet, and these are the rows of the net. The columns are at right angles to them:
 // circles through the two points in which planes through the line touch the ball, of which one,
@@ -28,17 +28,22 @@ struct Upright {
 
 class EncircledCap {
  public:
-  EncircledCap(const SphericalDishPrimitive& p, const Vec3d& eye) : p_(p), ball_(ball_of(p)) {
-    const double level = std::sqrt(eye.x * eye.x + eye.y * eye.y), up = eye.z - ball_.centre;
-    distance_ = std::sqrt(level * level + up * up);
-    out_ = level > 0 ? Vec3d{eye.x / level, eye.y / level, 0} : Vec3d{1, 0, 0};
+  EncircledCap(const SphericalDishPrimitive& p, const TessellationTarget& target)
+      : p_(p), ball_(ball_of(p)) {
+    const Vec3d viewer = target.eye ? *target.eye - Vec3d{0, 0, ball_.centre} : *target.towards;
+    const double distance = std::sqrt(dot(viewer, viewer));
+    // Of a view in one direction the eye is infinitely far away.
+    const double nearness = target.eye ? 1 / distance : 0;
+    const double level = std::sqrt(viewer.x * viewer.x + viewer.y * viewer.y) / distance;
+    const double up = viewer.z / distance;
+    out_ = level > 0 ? Vec3d{viewer.x, viewer.y, 0} * (1 / (level * distance)) : Vec3d{1, 0, 0};
     from_apex_ = 2 * arc_tan2(p.height, p.radius);
-    if (!(distance_ > kNearestEye * ball_.ball)) return;
-    const double middle = arc_tan2(level, up), half = arc_cos(ball_.ball / distance_);
+    if (!(kNearestEye * ball_.ball * nearness < 1)) return;
+    const double middle = arc_tan2(level, up), half = arc_cos(ball_.ball * nearness);
     near_ = within_turn(middle + half);
     far_ = within_turn(middle - half);
     if (near_ < far_) std::swap(near_, far_);
-    const double plane = ball_.ball * ball_.ball + ball_.centre * up;
+    const double plane = ball_.ball * ball_.ball * nearness + ball_.centre * up;
     is_whole_ = std::fabs(plane) > p.radius * level && near_ < from_apex_ && far_ > -from_apex_;
     if (!is_whole_) return;
     slope_ = level / plane;
@@ -119,17 +124,55 @@ class EncircledCap {
     return {from.out + s * along.out, from.up + s * along.up};
   }
 
+  /// A column's point on the row through a tilt.
+  [[nodiscard]] Vec3d on_row(double tilt, const SinCos& column) const {
+    const Vec3d base = on_base(column);
+    return crossing(on_ball(tilt), {dot(base, out_), 0}, out_.x * base.y - out_.y * base.x);
+  }
+  [[nodiscard]] Vec3d on_base(const SinCos& column) const {
+    return {p_.radius * column.cos, p_.radius * column.sin, 0};
+  }
+
+  /// Returns the columns through the base circle's vertices, and more between two of them that
+  /// spread: of more than half a ball, those on the side of the pole are far from each other where
+  /// the ball is wide.
+  [[nodiscard]] std::vector<SinCos> columns_of(const std::vector<SinCos>& rim,
+                                               const std::vector<double>& tilts) const {
+    if (!(p_.height > p_.radius)) return rim;
+    const double widest = 2 * kPi * ball_.ball / static_cast<double>(rim.size());
+    std::vector<SinCos> columns;
+    for (std::size_t k = 0; k < rim.size(); ++k) {
+      columns.push_back(rim[k]);
+      divide(rim[k], rim[k + 1 == rim.size() ? 0 : k + 1], tilts, widest, columns, 0);
+    }
+    return columns;
+  }
+  void divide(const SinCos& from, const SinCos& to, const std::vector<double>& tilts, double widest,
+              std::vector<SinCos>& columns, int depth) const {
+    constexpr int kDeepest = 12;
+    constexpr double kSlack = 1.05;
+    const auto chord = [&](double tilt) {
+      const Vec3d across = on_row(tilt, to) - on_row(tilt, from);
+      return dot(across, across);
+    };
+    const double most = kSlack * widest;
+    if (depth == kDeepest ||
+        std::ranges::none_of(tilts, [&](double tilt) { return chord(tilt) > most * most; }))
+      return;
+    const double x = from.cos + to.cos, y = from.sin + to.sin, length = std::sqrt(x * x + y * y);
+    const SinCos middle{y / length, x / length};
+    divide(from, middle, tilts, widest, columns, depth + 1);
+    columns.push_back(middle);
+    divide(middle, to, tilts, widest, columns, depth + 1);
+  }
+
   [[nodiscard]] Tessellation net(const std::vector<SinCos>& rim, const std::vector<double>& tilts) {
+    const std::vector<SinCos> columns = columns_of(rim, tilts);
     std::vector<Row> rows;
     for (std::size_t i = 0; i < tilts.size(); ++i) {
       rows.emplace_back();
-      const Upright of_row = on_ball(tilts[i]);
-      for (const SinCos& a : rim) {
-        const Vec3d base{p_.radius * a.cos, p_.radius * a.sin, 0};
-        const Upright in_plane{dot(base, out_), 0};
-        const double across = out_.x * base.y - out_.y * base.x;
-        rows.back().push_back(i == 0 ? base : crossing(of_row, in_plane, across));
-      }
+      for (const SinCos& a : columns)
+        rows.back().push_back(i == 0 ? on_base(a) : on_row(tilts[i], a));
     }
     return meshed(rows);
   }
@@ -172,7 +215,7 @@ class EncircledCap {
   const SphericalDishPrimitive& p_;
   CapContour ball_;
   Vec3d out_;
-  double distance_ = 0, from_apex_ = 0;
+  double from_apex_ = 0;
   double near_ = 0, far_ = 0, pole_ = 0;  ///< tilts of the silhouette on either side, of the pole
   bool is_whole_ = false;
   double slope_ = 0;  ///< 1 over where the planes of both circles meet, along `out`
@@ -184,7 +227,7 @@ class EncircledCap {
 std::optional<Tessellation> encircled_cap(const SphericalDishPrimitive& p,
                                           const TessellationTarget& target,
                                           const std::vector<SinCos>& rim, int rows) {
-  return EncircledCap(p, *target.eye).make(rim, rows);
+  return EncircledCap(p, target).make(rim, rows);
 }
 
 }  // namespace strake::geometry::tessellation

@@ -112,5 +112,43 @@ TEST(ContoursFromAnEye, RimsOfPipeAndDishMeet) {
   EXPECT_GT(met, 20 * missed);
 }
 
+/// How far the facets of a dish are from its ball, at most, but for those of its base.
+double distance_from_ball(const SphericalDishPrimitive& dish, const TriangleMesh& mesh) {
+  const double ball = (dish.radius * dish.radius / dish.height + dish.height) / 2;
+  const Vec3d centre{0, 0, dish.height - ball};
+  double farthest = 0;
+  for (const Triangle& w : mesh.triangles) {
+    const auto &a = mesh.vertices[w[0]], &b = mesh.vertices[w[1]], &c = mesh.vertices[w[2]];
+    if (std::max({a.z, b.z, c.z}) < 1e-9 * dish.height) continue;
+    constexpr int kParts = 6;
+    for (int i = 0; i <= kParts; ++i)
+      for (int k = 0; i + k <= kParts; ++k) {
+        const Vec3d p = (a * i + b * k + c * (kParts - i - k)) * (1.0 / kParts) - centre;
+        farthest = std::max(farthest, std::fabs(std::sqrt(dot(p, p)) - ball));
+      }
+  }
+  return farthest;
+}
+
+TEST(Contours, OfMoreThanHalfABallKeepTheSag) {
+  PrimitiveDraw draw(19);
+  for (int i = 0; i < test::rounds(200); ++i) {
+    SCOPED_TRACE(i);
+    const double radius = draw.between(10, 500);
+    const SphericalDishPrimitive dish{radius, radius * draw.between(1, i % 4 == 0 ? 12 : 3)};
+    const double ball = (radius * radius / dish.height + dish.height) / 2;
+    const Vec3d towards = draw.direction();
+    const Vec3d eye = Vec3d{0, 0, dish.height - ball} + towards * (ball * draw.between(1.05, 20));
+    for (const bool is_eye : {false, true}) {
+      const Tessellation t =
+          is_eye ? tessellate_from(eye, dish, {}, 0.5) : tessellate(dish, {}, 0.5, towards);
+      const Tessellation plain = tessellate(dish, {}, 0.5);
+      const double away = distance_from_ball(dish, t.mesh);
+      std::printf("%d %s r %.0f h/r %.2f says %.2f is %.2f triangles %zu of %zu\n", i, is_eye ? "eye" : "ortho",
+                  radius, dish.height / radius, t.mesh.sag_mm, away, t.mesh.triangles.size(), plain.mesh.triangles.size());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace strake::geometry
