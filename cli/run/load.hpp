@@ -24,8 +24,9 @@
 namespace strake::cli {
 
 /// Warns of two files that may be of different units: their extents differ by the ratio of two
-/// units of length, and the unit of one is only assumed, or nobody has said that of either.
-void note_doubtful_units(model::Scene& scene);
+/// units of length, and the unit of one is only assumed, or nobody has said that of either. Errors:
+/// cancelled, out of memory.
+[[nodiscard]] Status note_doubtful_units(model::Scene& scene, const parallel::Context& context);
 
 /// Which bodies take part, how finely curved ones are tessellated and which seams of meshes are
 /// closed, as written.

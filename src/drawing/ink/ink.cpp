@@ -6,14 +6,17 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "drawing/collinear/collinear_overlaps.hpp"
 #include "drawing/ink/hidden_ink.hpp"
 #include "drawing/ink/on_paper.hpp"
 #include "drawing/layout/duplicates.hpp"
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/reduce.hpp"
 
 namespace strake::drawing {
 
@@ -22,16 +25,20 @@ namespace {
 /// The length of lines per area of paper, by square.
 class Density {
  public:
+  /// Millimetres of lines in each square.
+  using Lengths = std::vector<double>;
+
   explicit Density(const Sheet& sheet)
       : width_mm_(sheet.width_mm),
         height_mm_(sheet.height_mm),
         size_(std::max(4.0, std::sqrt(sheet.width_mm * sheet.height_mm) / 500)),
         columns_(count(sheet.width_mm)),
-        rows_(count(sheet.height_mm)),
-        length_(columns_ * rows_) {}
+        rows_(count(sheet.height_mm)) {}
+
+  [[nodiscard]] Lengths none() const { return Lengths(columns_ * rows_); }
 
   /// What of a line lies off the sheet does not count: it may be as long as the scale makes it.
-  void add(const Line& line) {
+  void add(const Line& line, Lengths& lengths) const {
     const double dx = line.b_paper.x - line.a_paper.x, dy = line.b_paper.y - line.a_paper.y;
     const double length = std::sqrt(dx * dx + dy * dy);
     const double steps = std::ceil(length * 2 / size_);
@@ -41,15 +48,15 @@ class Density {
     const double last = std::min(std::floor(to * steps), steps - 1);
     for (double i = std::max(std::ceil(from * steps) - 1, 0.0); i <= last; ++i) {
       const double t = (i + 0.5) / steps;
-      length_[index(line.a_paper.y + dy * t, rows_) * columns_ +
+      lengths[index(line.a_paper.y + dy * t, rows_) * columns_ +
               index(line.a_paper.x + dx * t, columns_)] += length / steps;
     }
   }
 
   /// Returns the density as a reader's eye meets it: per mm of paper, averaged over the lines.
-  [[nodiscard]] double along_lines() const {
+  [[nodiscard]] double along_lines(const Lengths& lengths) const {
     double sum = 0, squares = 0;
-    for (const double length : length_) {
+    for (const double length : lengths) {
       sum += length;
       squares += length * length;
     }
@@ -80,7 +87,6 @@ class Density {
   double width_mm_, height_mm_;
   double size_;
   std::size_t columns_, rows_;
-  std::vector<double> length_;
 };
 
 // Line groups of ISO 128-2, wide to narrow as 2 to 1, the widths rounded as the standard rounds
@@ -209,11 +215,27 @@ Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
 
 }  // namespace
 
-Pens choose_pens(const NeutralDrawing& drawing) {
-  Density density(drawing.sheet);
-  for (const Line& line : drawing.lines)
-    if (line.state == LineState::visible && line.kind != hlr::EdgeKind::hatch) density.add(line);
-  const double per_mm = density.along_lines();
+Result<Pens> choose_pens(const NeutralDrawing& drawing, const parallel::Context& context) {
+  // Each block of lines has squares of its own, so that there are few, and long ones.
+  constexpr std::size_t kLeastGrain = 16384, kMostBlocks = 32;
+  const std::size_t lines = drawing.lines.size();
+  const Density density(drawing.sheet);
+  const auto lengths = parallel::reduce(
+      context,
+      {.name = "density of lines",
+       .n = lines,
+       .grain = std::max(kLeastGrain, (lines + kMostBlocks - 1) / kMostBlocks)},
+      density.none(),
+      [&](Density::Lengths& of_block, std::size_t i) {
+        const Line& line = drawing.lines[i];
+        if (line.state == LineState::visible && line.kind != hlr::EdgeKind::hatch)
+          density.add(line, of_block);
+      },
+      [](Density::Lengths& into, const Density::Lengths& of_block) {
+        std::ranges::transform(into, of_block, into.begin(), std::plus{});
+      });
+  if (!lengths) return lengths.error();
+  const double per_mm = density.along_lines(*lengths);
   const auto groups = std::span(kLineGroups).subspan(is_large(drawing.sheet) ? 0 : 1);
   for (const Pens& pens : groups)
     if (per_mm * pens.edge <= kMostBlackened) return pens;
@@ -223,7 +245,13 @@ Pens choose_pens(const NeutralDrawing& drawing) {
 Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
                        const parallel::Context& context) {
   Ink ink;
-  ink.pens = options.pens ? *options.pens : choose_pens(drawing);
+  if (options.pens) {
+    ink.pens = *options.pens;
+  } else {
+    const Result<Pens> pens = choose_pens(drawing, context);
+    if (!pens) return pens.error();
+    ink.pens = *pens;
+  }
   ink.split_hidden = options.split_hidden;
   ink.styles = options.styles;
   constexpr std::size_t kGrain = 16384;
