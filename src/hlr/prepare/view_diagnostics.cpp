@@ -9,9 +9,11 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "strake/geometry/grid.hpp"
 #include "strake/geometry/inside.hpp"
+#include "strake/parallel/collect.hpp"
 
 namespace strake::hlr {
 
@@ -101,12 +103,24 @@ PointSide side_of(const ViewJob& job, std::uint32_t body) {
 
 }  // namespace
 
-Diagnostics report_eye(const ViewJob& job) {
+Result<Diagnostics> report_eye(const ViewJob& job, const parallel::Context& context) {
   Diagnostics diagnostics;
   if (!job.view.perspective) return diagnostics;
-  for (std::uint32_t b = 0; b < job.scene->bodies.size(); ++b) {
-    const PointSide side = job.opaque[b] ? side_of(job, b) : PointSide::outside;
-    if (side == PointSide::outside) continue;
+  struct Met {
+    std::uint32_t body = 0;
+    PointSide side = PointSide::outside;
+  };
+  // Only shares the work out.
+  constexpr std::size_t kPerBlock = 1024;
+  const auto met = parallel::collect<Met>(
+      context, {.name = "view: eye", .n = job.scene->bodies.size(), .grain = kPerBlock},
+      [&](std::size_t index, std::vector<Met>& out) {
+        const auto b = static_cast<std::uint32_t>(index);
+        const PointSide side = job.opaque[b] ? side_of(job, b) : PointSide::outside;
+        if (side != PointSide::outside) out.push_back({b, side});
+      });
+  if (!met) return met.error();
+  for (const auto& [b, side] : *met) {
     std::string where = object_text(*job.scene->model, job.scene->bodies[b].object);
     if (side == PointSide::inside)
       diagnostics.add(Severity::warning, "eye-in-solid",

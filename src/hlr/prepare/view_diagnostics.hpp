@@ -26,7 +26,7 @@ namespace strake::hlr {
 
 /// Reports the objects in whose solids the eye of a view in perspective lies, so that they hide all
 /// outside, and those on whose surface it lies, which it does not see. The job must be otherwise
-/// ready.
-[[nodiscard]] Diagnostics report_eye(const ViewJob& job);
+/// ready. Errors: cancelled, out of memory.
+[[nodiscard]] Result<Diagnostics> report_eye(const ViewJob& job, const parallel::Context& context);
 
 }  // namespace strake::hlr

@@ -347,7 +347,9 @@ Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& co
   job.lines = std::move(*lines);
   if (input.whole == nullptr)
     job.diagnostics = report_sections(*job.scene, job.drawn, job.seen, *planes);
-  job.diagnostics.append(report_eye(job));
+  const Result<Diagnostics> of_eye = report_eye(job, context);
+  if (!of_eye) return of_eye.error();
+  job.diagnostics.append(*of_eye);
   return job;
 }
 

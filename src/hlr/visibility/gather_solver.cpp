@@ -539,8 +539,7 @@ Status compute_self_occlusion(VisibilityScene& visibility, const parallel::Conte
   }
   counters.shared_shapes =
       static_cast<std::uint64_t>(std::ranges::count(items, 0U, &EdgeRange::first));
-  counters.shared_bodies = static_cast<std::uint64_t>(
-      std::ranges::count(visibility.placed, true, &BodyInstance::shares_self_occlusion));
+  counters.shared_bodies = visibility.sharing;
   return {};
 }
 
