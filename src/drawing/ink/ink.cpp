@@ -17,6 +17,7 @@
 #include "drawing/layout/duplicates.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/reduce.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::drawing {
 
@@ -116,20 +117,24 @@ bool may_be_dashed(const Line& line) {
          line.kind != hlr::EdgeKind::smooth;
 }
 
-std::vector<PlaneSegment> flatten(const Ink& ink, const OnPaper& on_paper, double touch) {
+/// Lines that a worker takes at once where little is done for each.
+constexpr std::size_t kLinesPerRun = 16384;
+
+Result<std::vector<PlaneSegment>> flatten(const Ink& ink, const OnPaper& on_paper, double touch,
+                                          const parallel::Context& context) {
   const std::vector<Line>& lines = ink.lines;
-  std::vector<PlaneSegment> flat(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Line& line = lines[i];
-    PlaneSegment& f = flat[i];
-    f = on_paper(line);
-    f.reach = (width_of(line, ink) + touch) / 2;
-    if (is_hidden(line.state))
-      f.rank = Rank::hidden;
-    else if (f.length() > 0)
-      f.rank = Rank::visible;
-  }
-  return flat;
+  return parallel::transform(
+      context, {.name = "lines as segments", .n = lines.size(), .grain = kLinesPerRun},
+      [&](std::size_t i) {
+        const Line& line = lines[i];
+        PlaneSegment f = on_paper(line);
+        f.reach = (width_of(line, ink) + touch) / 2;
+        if (is_hidden(line.state))
+          f.rank = Rank::hidden;
+        else if (f.length() > 0)
+          f.rank = Rank::visible;
+        return f;
+      });
 }
 
 /// Chooses the intervals of hidden lines that are left beside visible lines and beside hidden ones
@@ -175,6 +180,37 @@ class HiddenChooser {
   const LineOverlaps& beside_visible_;
 };
 
+/// Leaves of the hidden lines the intervals that are kept, which are by line.
+Status keep_intervals(Ink& ink, std::span<const PlaneSegment> flat, const LineIntervals& kept,
+                      const PaperAxes& axes, const parallel::Context& context) {
+  const std::vector<Line>& lines = ink.lines;
+  const std::size_t runs = (lines.size() + kLinesPerRun - 1) / kLinesPerRun;
+  std::vector<std::uint64_t> left_out(runs);
+  auto left = parallel::collect<Line>(
+      context, {.name = "lines left on paper", .n = runs},
+      [&](std::size_t r, std::vector<Line>& out) {
+        const std::size_t first = r * kLinesPerRun;
+        const std::size_t last = std::min(lines.size(), first + kLinesPerRun);
+        auto next = std::ranges::lower_bound(kept, first, {}, &LineInterval::line);
+        for (std::size_t i = first; i < last; ++i) {
+          if (flat[i].rank != Rank::hidden) {
+            out.push_back(lines[i]);
+            continue;
+          }
+          double length = 0;
+          for (; next != kept.end() && next->line == i; ++next) {
+            length += next->to - next->from;
+            out.push_back(part_of(lines[i], axes, next->from, next->to));
+          }
+          if (length < 1) ++left_out[r];
+        }
+      });
+  if (!left) return left.error();
+  ink.lines = std::move(*left);
+  for (const std::uint64_t lines_of_run : left_out) ink.left_out += lines_of_run;
+  return {};
+}
+
 Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
                 const parallel::Context& context) {
   const double thin = ink.pens.thin, scale = drawing.sheet.scale;
@@ -186,45 +222,31 @@ Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
                           .covers_visible = false,
                           .hidden_covers = false,
                           .shortest = kDashGap * thin + touch};
-  const OnPaper on_paper(ink.lines, axes, scale);
-  const std::vector<PlaneSegment> flat = flatten(ink, on_paper, touch);
-  const auto overlaps = cut_overlaps(flat, along, context);
+  const Result<OnPaper> on_paper = OnPaper::of(ink.lines, axes, scale, context);
+  if (!on_paper) return on_paper.error();
+  const auto flat = flatten(ink, *on_paper, touch, context);
+  if (!flat) return flat.error();
+  const auto overlaps = cut_overlaps(*flat, along, context);
   if (!overlaps) return overlaps.error();
   const auto kept =
-      HiddenChooser(ink.lines, on_paper, flat, *overlaps)
+      HiddenChooser(ink.lines, *on_paper, *flat, *overlaps)
           .run({.overlap = along, .whole_below = kDash * thin + touch, .touch = touch}, context);
   if (!kept) return kept.error();
-  const std::vector<Line> lines = std::exchange(ink.lines, {});
-  ink.lines.reserve(lines.size());
-  std::size_t next = 0;
-  for (std::uint32_t i = 0; i < lines.size(); ++i) {
-    if (flat[i].rank != Rank::hidden) {
-      ink.lines.push_back(lines[i]);
-      continue;
-    }
-    double left = 0;
-    for (; next < kept->size() && (*kept)[next].line == i; ++next) {
-      const LineInterval& s = (*kept)[next];
-      left += s.to - s.from;
-      ink.lines.push_back(part_of(lines[i], axes, s.from, s.to));
-    }
-    if (left < 1) ++ink.left_out;
-  }
-  return {};
+  return keep_intervals(ink, *flat, *kept, axes, context);
 }
 
 }  // namespace
 
 Result<Pens> choose_pens(const NeutralDrawing& drawing, const parallel::Context& context) {
   // Each block of lines has squares of its own, so that there are few, and long ones.
-  constexpr std::size_t kLeastGrain = 16384, kMostBlocks = 32;
+  constexpr std::size_t kMostBlocks = 32;
   const std::size_t lines = drawing.lines.size();
   const Density density(drawing.sheet);
   const auto lengths = parallel::reduce(
       context,
       {.name = "density of lines",
        .n = lines,
-       .grain = std::max(kLeastGrain, (lines + kMostBlocks - 1) / kMostBlocks)},
+       .grain = std::max(kLinesPerRun, (lines + kMostBlocks - 1) / kMostBlocks)},
       density.none(),
       [&](Density::Lengths& of_block, std::size_t i) {
         const Line& line = drawing.lines[i];
@@ -254,9 +276,8 @@ Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
   }
   ink.split_hidden = options.split_hidden;
   ink.styles = options.styles;
-  constexpr std::size_t kGrain = 16384;
   auto lines = parallel::collect<Line>(
-      context, {.name = "lines on paper", .n = drawing.lines.size(), .grain = kGrain},
+      context, {.name = "lines on paper", .n = drawing.lines.size(), .grain = kLinesPerRun},
       [&](std::size_t i, std::vector<Line>& out) {
         const Line& line = drawing.lines[i];
         if (line.state == LineState::visible || (options.hidden && may_be_dashed(line)))
