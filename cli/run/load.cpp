@@ -378,7 +378,12 @@ Result<model::Model> load_model(Session& session, const InputOptions& input) {
 
 Result<Loaded> place(Session& session, model::Model model, const model::SceneOptions& options) {
   Loaded loaded;
-  loaded.model = std::make_unique<const model::Model>(std::move(model));
+  loaded.model = std::shared_ptr<model::Model>(
+      std::make_unique<model::Model>(std::move(model)).release(),
+      [context = parallel::Context{.team = session.context().team}](model::Model* done) {
+        model::clear(*done, context);
+        std::default_delete<model::Model>()(done);
+      });
   Result<model::Scene> scene = place_model(session, *loaded.model, options);
   if (!scene) return scene.error();
   loaded.scene = std::move(*scene);

@@ -42,7 +42,9 @@ void add_scene_options(CLI::App& command, SceneInput& options, const std::string
 
 /// The files of the command line as one model, and that model on the grid.
 struct Loaded {
-  std::unique_ptr<const model::Model> model;  ///< the model that the scene refers to
+  /// The model that the scene refers to. It is taken down by the workers of the session, which it
+  /// must not outlive.
+  std::shared_ptr<const model::Model> model;
   model::Scene scene;
   /// The model files; of a project those that it was made of.
   std::vector<std::filesystem::path> files = {};

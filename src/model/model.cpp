@@ -311,6 +311,14 @@ Status finish(Model& model, const parallel::Context& context) {
 
 void finish(Model& model) { throw_unless(finish(model, {})); }
 
+void clear(Model& model, const parallel::Context& context) {
+  parallel::clear(model.objects, context);
+  parallel::clear(model.groups, context);
+  parallel::clear(model.group_attributes, context);
+  parallel::clear(model.shapes, context);
+  model = {};
+}
+
 void append(Model& model, Model&& other) {
   const auto files = static_cast<std::uint32_t>(model.files.size());
   const auto groups = static_cast<std::uint32_t>(model.groups.size());

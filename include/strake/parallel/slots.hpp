@@ -72,6 +72,26 @@ template <class T>
   }
 }
 
+/// Takes all values of a vector down, by the whole team: a million objects with strings keep the
+/// thread that ends them busy for as long as reading them took all of it. Whatever the context's
+/// stop token says, all values are gone; the memory of the vector itself stays its own.
+/// The destructor of T must not throw.
+template <class T>
+void clear(std::vector<T>& values, const Context& context) noexcept {
+  if constexpr (detail::kCanLeaveUnset && !std::is_trivially_destructible_v<T>) {
+    if (detail::is_worth_a_team(context, values.size(), sizeof(T))) {
+      T* const first = values.data();
+      // All values, or none where there was no memory to share them out.
+      const Status status = detail::for_each_run_of_memory(
+          context, values.size(), sizeof(T), [first](std::size_t begin, std::size_t end) noexcept {
+            std::destroy(first + begin, first + end);
+          });
+      if (status) detail::set_size_unset(values, 0);
+    }
+  }
+  values.clear();
+}
+
 namespace detail {
 
 /// n + 1 numbers for where each of n lists begins and the last one ends: the first is 0, the others

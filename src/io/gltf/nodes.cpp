@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -14,6 +13,8 @@
 #include "io/source/precision.hpp"
 #include "io/source/units_and_axes.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/lowest.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -370,34 +371,34 @@ Status check_children(const NodeTable& nodes) {
   return {};
 }
 
-Result<std::vector<std::uint32_t>> parents_of(const NodeTable& nodes,
-                                              const parallel::Context& context) {
-  Result<std::vector<std::uint32_t>> parents = parallel::unset_slots<std::uint32_t>(nodes.size());
-  if (!parents) return parents;
+/// Returns the parent of each node, kNoParent where it has none.
+Result<parallel::Lowest> parents_of(const NodeTable& nodes, const parallel::Context& context) {
+  parallel::Lowest parents(nodes.size());
   const parallel::Region all{
       .name = "parents of glTF nodes", .n = nodes.size(), .grain = kNodesPerRun};
-  Status status =
-      parallel::for_each(context, all, [&](std::size_t i) { (*parents)[i] = kNoParent; });
-  if (!status) return std::move(status).error();
-  parallel::Marks faulty(1);
-  status = parallel::for_each(context, all, [&](std::size_t i) {
-    for (const std::uint64_t child : nodes.children(i)) {
-      if (child >= nodes.size()) return faulty.set(0);
-      // Of two parents the second finds the first.
-      const std::uint32_t before = std::atomic_ref((*parents)[child])
-                                       .exchange(static_cast<std::uint32_t>(i),
-                                                 std::memory_order_relaxed);
-      if (before != kNoParent) return faulty.set(0);
-    }
-  });
-  if (!status) return std::move(status).error();
-  if (faulty.is_set(0))
-    if (status = check_children(nodes); !status) return std::move(status).error();
+  const auto sum = [](std::size_t& into, std::size_t more) { into += more; };
+  const auto children = parallel::reduce(
+      context, all, std::size_t{0},
+      [&](std::size_t& count, std::size_t i) {
+        for (const std::uint64_t child : nodes.children(i)) {
+          ++count;
+          if (child < nodes.size()) parents.offer(child, i);
+        }
+      },
+      sum);
+  if (!children) return children.error();
+  const auto with_parent = parallel::reduce(
+      context, all, std::size_t{0},
+      [&](std::size_t& count, std::size_t i) { count += parents[i] != kNoParent ? 1U : 0U; }, sum);
+  if (!with_parent) return with_parent.error();
+  // A child that does not exist has no parent, and one of two parents only one.
+  if (*children != *with_parent)
+    if (const Status faultless = check_children(nodes); !faultless) return faultless.error();
   return parents;
 }
 
 /// Checks for cycles: with one parent at most for each, nodes that no root leads to form a cycle.
-Status check_cycles(const NodeTable& nodes, const std::vector<std::uint32_t>& parents) {
+Status check_cycles(const NodeTable& nodes, const parallel::Lowest& parents) {
   std::vector<std::uint32_t> open;
   std::vector<bool> reached(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -415,7 +416,7 @@ Status check_cycles(const NodeTable& nodes, const std::vector<std::uint32_t>& pa
 }
 
 Result<std::vector<std::uint64_t>> roots_of(const JsonValue& root, const NodeTable& nodes,
-                                            const std::vector<std::uint32_t>& parents) {
+                                            const parallel::Lowest& parents) {
   std::vector<std::uint64_t> roots;
   const std::vector<JsonValue> scenes = root["scenes"].items();
   if (scenes.empty()) {
@@ -477,7 +478,7 @@ Result<Visits> visits_from(std::span<const std::uint64_t> roots, const NodeTable
 
 Result<Visits> visit_order(const JsonValue& root, const NodeTable& nodes,
                            const parallel::Context& context) {
-  const Result<std::vector<std::uint32_t>> parents = parents_of(nodes, context);
+  const Result<parallel::Lowest> parents = parents_of(nodes, context);
   if (!parents) return parents.error();
   const Result<std::vector<std::uint64_t>> roots = roots_of(root, nodes, *parents);
   Result<Visits> visits = roots ? visits_from(*roots, nodes) : Result<Visits>(roots.error());

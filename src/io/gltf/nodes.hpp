@@ -14,6 +14,7 @@
 #include "io/gltf/json/json.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
+#include "strake/parallel/lowest.hpp"
 #include "strake/parallel/marks.hpp"
 
 /// The nodes of a glTF document, their instances and the order in which they are visited.
@@ -143,7 +144,7 @@ struct VisitedNode {
   std::uint32_t parent = 0;  ///< index of a visit; kNoParent for roots
 };
 
-inline constexpr std::uint32_t kNoParent = 0xffffffffU;
+inline constexpr std::uint32_t kNoParent = parallel::Lowest::kNone;
 
 /// The deepest nesting of nodes.
 inline constexpr std::uint32_t kMaxNodeDepth = 1000;

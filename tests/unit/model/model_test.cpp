@@ -131,6 +131,21 @@ TEST(Model, FinishIsTheSameForAnyTeam) {
   }
 }
 
+TEST(Model, IsEmptyOnceItIsClearedByAnyTeam) {
+  for (const unsigned workers : {1U, 2U, 3U, 8U}) {
+    parallel::Team team(workers);
+    Model m = one_file("a.obj", std::vector<std::string>(50'000, "an id that is too long to be short"));
+    m.set_attributes(GroupId{1}, {{"AREA", "1"}});
+    m.diagnostics.add(Severity::note, "told", "of it", "here");
+    clear(m, {.team = &team});
+    EXPECT_TRUE(m.files.empty() && m.groups.empty() && m.group_attributes.empty() &&
+                m.shapes.empty() && m.objects.empty() && m.bodies.empty());
+    EXPECT_TRUE(m.diagnostics.kept().empty());
+    append(m, one_file("b.obj", {"x"}));
+    EXPECT_EQ(keys(m), std::vector<std::string>{"b.obj:x"});
+  }
+}
+
 TEST(Model, WhatIsInOrderStaysWhereItIs) {
   Model m = one_file("a.obj", {"a", "b", "c"});
   const Object* const objects = m.objects.data();

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <stop_token>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -95,6 +96,39 @@ TEST(Slots, OfMoreThanThereIsMemoryAreAnError) {
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().code, ErrorCode::memory);
   }
+}
+
+/// A value that counts where it lies how often it was ended.
+struct Ended {
+  std::uint8_t* times = nullptr;
+  Ended() = default;
+  Ended(const Ended&) = delete;
+  Ended& operator=(const Ended&) = delete;
+  Ended(Ended&&) = delete;
+  Ended& operator=(Ended&&) = delete;
+  ~Ended() {
+    if (times != nullptr) ++*times;
+  }
+};
+
+TEST(Slots, AreTakenDownOnceEachWhoeverTakesPart) {
+  for (const std::size_t n : {0U, 1U, 1000U, 300'001U})
+    for (const unsigned workers : kTeams) {
+      Team team(workers);
+      std::stop_source stop;
+      stop.request_stop();
+      for (const Context& context :
+           {Context{.team = &team}, Context{.team = &team, .stop = stop.get_token()}, Context{}}) {
+        std::vector<std::uint8_t> times(n);
+        std::vector<Ended> values(n);
+        for (std::size_t i = 0; i < n; ++i) values[i].times = &times[i];
+        clear(values, context);
+        EXPECT_TRUE(values.empty());
+        EXPECT_EQ(std::ranges::count(times, 1), static_cast<std::ptrdiff_t>(n));
+        values = std::vector<Ended>(3);
+        EXPECT_EQ(values.size(), 3U);
+      }
+    }
 }
 
 TEST(Offsets, AreTheSumsForAnyTeam) {
