@@ -17,6 +17,7 @@
 #include "drawing/strokes/layers.hpp"
 #include "drawing/strokes/strokes.hpp"
 #include "geometry/numeric/trig.hpp"
+#include "strake/parallel/deal.hpp"
 
 namespace strake::drawing::dxf {
 
@@ -176,9 +177,11 @@ bool is_hidden_layer(std::size_t layer) {
 
 Result<SortedLines> sorted_lines(const Ink& ink, const StyleLayers& style_layers,
                                  const parallel::Context& context) {
-  const auto of_layer = deal_lines<kViewLayers>(
-      ink.in_model_space(),
-      [](const Line& line) { return static_cast<std::size_t>(layer_of(line)); }, context);
+  const std::vector<Line>& all = ink.in_model_space();
+  const auto of_layer = parallel::deal<const Line*, kViewLayers>(
+      context, "lines of layers", all.size(),
+      [&](std::size_t i) { return static_cast<std::size_t>(layer_of(all[i])); },
+      [&](std::size_t i) { return &all[i]; });
   if (!of_layer) return of_layer.error();
   SortedLines sorted;
   sorted.lines.reserve(ink.in_model_space().size());

@@ -8,12 +8,12 @@
 #include <string_view>
 
 #include "drawing/layout/duplicates.hpp"
-#include "drawing/strokes/deal_lines.hpp"
 #include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/ink.hpp"
 #include "strake/hlr/hlr.hpp"
 #include "strake/parallel/context.hpp"
+#include "strake/parallel/deal.hpp"
 
 namespace strake::drawing {
 
@@ -52,9 +52,10 @@ inline constexpr std::array<Layer, 18> kLayers = {{
 }
 
 /// The lines of a view by layer, in the order of kLayers.
-using LinesOfLayers = DealtLines<kLayers.size()>;
+using LinesOfLayers = parallel::Dealt<const Line*, kLayers.size()>;
 
-/// Returns the lines of all layers. The ink must outlive the result. Errors: cancelled, out of
+/// Returns the lines of all layers: lines are a hundred bytes each, and there are many layers, so
+/// that no layer goes through all of them by itself. The ink must outlive the result. Errors: cancelled, out of
 /// memory.
 [[nodiscard]] inline Result<LinesOfLayers> lines_of_layers(const Ink& ink,
                                                            const parallel::Context& context) {
@@ -66,14 +67,15 @@ using LinesOfLayers = DealtLines<kLayers.size()>;
   for (std::size_t layer = 0; layer < kLayers.size(); ++layer)
     layer_of.at(static_cast<std::size_t>(kLayers.at(layer).kind))
         .at(kLayers.at(layer).hidden ? 1 : 0) = layer;
-  return deal_lines<kLayers.size()>(
-      ink.lines,
-      [&](const Line& line) {
+  return parallel::deal<const Line*, kLayers.size()>(
+      context, "lines of layers", ink.lines.size(),
+      [&](std::size_t i) {
+        const Line& line = ink.lines[i];
         const bool hidden = is_hidden(line.state);
         if (!hidden && line.state != LineState::visible) return kLayers.size();
         return layer_of[static_cast<std::size_t>(line.kind)][hidden ? 1 : 0];
       },
-      context);
+      [&](std::size_t i) { return &ink.lines[i]; });
 }
 
 /// Calls `f` with the lines of each object, which stand side by side in the order of the drawing.

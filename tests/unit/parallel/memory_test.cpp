@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory that a team provides, offsets that it sums up, and the lowest item of each key.
+// Memory that a team provides and takes down, offsets that it sums up, items that it deals out, and
+// the lowest item of each key.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,11 +8,13 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "strake/parallel/deal.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/lowest.hpp"
 #include "strake/parallel/slots.hpp"
@@ -166,6 +169,37 @@ TEST(Offsets, ThatCannotBeCountedAreAnErrorForAnyTeam) {
       }
     }
   }
+}
+
+TEST(Deal, IsByLotsInTheOrderOfTheItemsForAnyTeam) {
+  constexpr std::size_t kLots = 5;
+  const auto lot_of = [](std::size_t i) { return i * i % 7 % (kLots + 1); };  // some in none
+  for (const std::size_t n : {0U, 1U, 1000U, 100'003U}) {
+    std::array<std::vector<std::uint64_t>, kLots> expected;
+    for (std::size_t i = 0; i < n; ++i)
+      if (lot_of(i) < kLots) expected.at(lot_of(i)).push_back(3 * i);
+    for (const unsigned workers : kTeams) {
+      Team team(workers);
+      const auto dealt = deal<std::uint64_t, kLots>({.team = &team}, "dealt", n, lot_of,
+                                                    [](std::size_t i) { return 3 * i; });
+      ASSERT_TRUE(dealt);
+      for (std::size_t lot = 0; lot < kLots; ++lot)
+        EXPECT_TRUE(std::ranges::equal((*dealt)[lot], expected.at(lot))) << n << ", " << lot;
+    }
+  }
+}
+
+TEST(Deal, TellsOfTheLowestItemThatFails) {
+  Team team(3);
+  const auto dealt = deal<std::size_t, 2>(
+      {.team = &team}, "dealt", 100'000,
+      [](std::size_t i) -> std::size_t {
+        if (i >= 20'000) throw std::runtime_error("no lot");
+        return 0;
+      },
+      [](std::size_t i) { return i; });
+  ASSERT_FALSE(dealt);
+  EXPECT_EQ(dealt.error().message, "no lot");
 }
 
 TEST(Lowest, IsTheLowestItemOfEachKeyForAnyTeam) {
