@@ -42,9 +42,9 @@ Result<BodyOrder> order_by_file(const Model& model, const parallel::Context& con
       [&](std::size_t i) { (*order)[i] = static_cast<std::uint32_t>(i); });
   if (!numbered) return numbered.error();
   const auto file_of = [&](std::size_t i) { return model.objects[i].file; };
-  const auto ascending = parallel::all_of(
-      context, {.name = "files of objects", .n = count, .grain = kObjectsPerBlock},
-      [&](std::size_t i) { return i == 0 || file_of(i - 1) <= file_of(i); });
+  const auto ascending =
+      parallel::all_of(context, {.name = "files of objects", .n = count, .grain = kObjectsPerBlock},
+                       [&](std::size_t i) { return i == 0 || file_of(i - 1) <= file_of(i); });
   if (!ascending) return ascending.error();
   if (!*ascending)
     std::ranges::sort(*order, [&](std::uint32_t a, std::uint32_t b) {

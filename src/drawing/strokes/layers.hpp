@@ -55,8 +55,8 @@ inline constexpr std::array<Layer, 18> kLayers = {{
 using LinesOfLayers = parallel::Dealt<const Line*, kLayers.size()>;
 
 /// Returns the lines of all layers: lines are a hundred bytes each, and there are many layers, so
-/// that no layer goes through all of them by itself. The ink must outlive the result. Errors: cancelled, out of
-/// memory.
+/// that no layer goes through all of them by itself. The ink must outlive the result. Errors:
+/// cancelled, out of memory.
 [[nodiscard]] inline Result<LinesOfLayers> lines_of_layers(const Ink& ink,
                                                            const parallel::Context& context) {
   constexpr std::size_t kKinds = static_cast<std::size_t>(hlr::kLastEdgeKind) + 1;

@@ -19,6 +19,7 @@
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -351,6 +352,11 @@ Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& co
   if (!of_eye) return of_eye.error();
   job.diagnostics.append(*of_eye);
   return job;
+}
+
+void take_down(ViewJob& job, const parallel::Context& context) {
+  parallel::clear(job.seen.all, context);
+  if (job.own) parallel::clear(job.own->shapes, context);
 }
 
 Result<WholeSections> prepare_sections(const ViewInput& input, const parallel::Context& context) {

@@ -570,6 +570,7 @@ Status solve_gather(const ViewJob& job, const parallel::Context& context, Drawin
   if (!sum) return sum.error();
   add(drawing.counters, *sum);
   shares.report(sum->own_s, sum->timed_s);
+  made->shapes.clear(context);
   return {};
 }
 

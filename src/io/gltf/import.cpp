@@ -103,9 +103,9 @@ class Importer {
   NodeTable nodes_;
   std::vector<VisitedNode> visits_;
   std::vector<std::uint32_t> inner_;  ///< visits of nodes with children
-  std::vector<std::uint32_t> used_;  ///< meshes that a visited node has, ascending
-  std::vector<LoadedMesh> loaded_;   ///< one per used mesh
-  std::vector<MeshShapes> shapes_;   ///< per mesh of the document
+  std::vector<std::uint32_t> used_;   ///< meshes that a visited node has, ascending
+  std::vector<LoadedMesh> loaded_;    ///< one per used mesh
+  std::vector<MeshShapes> shapes_;    ///< per mesh of the document
   model::Model model_;
 };
 
@@ -334,9 +334,9 @@ Result<model::Model> Importer::run() {
   note_nodes();
   adopt_meshes();
   if (const Status bounded = adopt_features(); !bounded) return bounded.error();
-  const PlacingInput placing{
-      visits_, inner_, nodes_, shapes_, accessors_, tables_, frame_, input_.file.path.string(),
-      input_.context};
+  const PlacingInput placing{visits_,       inner_,  nodes_, shapes_,
+                             accessors_,    tables_, frame_, input_.file.path.string(),
+                             input_.context};
   if (const Status placed = place_nodes(placing, model_); !placed) return placed.error();
   if (const Status cleared = nodes_.clear(input_.context); !cleared) return cleared.error();
   return end_model(input_.file, std::move(model_));

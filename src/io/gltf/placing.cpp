@@ -174,9 +174,9 @@ Status Placer::place_inner_nodes() {
   Result<std::vector<std::uint32_t>> leaves = parallel::unset_slots<std::uint32_t>(visits);
   if (!leaves) return leaves.error();
   inner_of_ = std::move(*leaves);
-  if (Status made = parallel::for_each(
-          input_.context, {.name = "glTF leaves", .n = visits, .grain = kVisitsPerRun},
-          [&](std::size_t visit) { inner_of_[visit] = kLeaf; });
+  if (Status made = parallel::for_each(input_.context,
+                                       {.name = "glTF leaves", .n = visits, .grain = kVisitsPerRun},
+                                       [&](std::size_t visit) { inner_of_[visit] = kLeaf; });
       !made)
     return made;
   inner_.reserve(input_.inner.size());

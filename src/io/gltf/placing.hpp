@@ -36,7 +36,7 @@ struct MeshShapes {
 struct PlacingInput {
   const std::vector<VisitedNode>& visits;
   const std::vector<std::uint32_t>& inner;  ///< visits of nodes with children, ascending
-  NodeTable& nodes;  ///< names and attributes of the visited ones are taken
+  NodeTable& nodes;                         ///< names and attributes of the visited ones are taken
   const std::vector<MeshShapes>& meshes;
   const Accessors& accessors;
   const PropertyTables& tables;

@@ -499,8 +499,7 @@ Status test(std::string& out, const Report& report, const NamedElements* element
 }
 
 /// Appends the member `tests`.
-Status test_list(std::string& out, const clash::Findings& findings,
-                 const NamedElements* elements) {
+Status test_list(std::string& out, const clash::Findings& findings, const NamedElements* elements) {
   Status all;
   append_list(
       out, "tests", findings.tests,

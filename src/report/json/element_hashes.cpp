@@ -92,12 +92,11 @@ Status ElementHashes::append_members(std::string& out, const std::vector<bool>& 
 
 Status ElementHashes::append_bytes(std::string& out, const std::vector<std::uint8_t>& of_object,
                                    const parallel::Context& context) const {
-  return append_encoded(out, elements_.size(), context,
-                        [&](std::size_t first, std::vector<std::uint8_t>& bytes) {
-                          for (const HashedElement& e : eight_from(first))
-                            bytes.push_back(e.object < of_object.size() ? of_object[e.object]
-                                                                        : std::uint8_t{0});
-                        });
+  return append_encoded(
+      out, elements_.size(), context, [&](std::size_t first, std::vector<std::uint8_t>& bytes) {
+        for (const HashedElement& e : eight_from(first))
+          bytes.push_back(e.object < of_object.size() ? of_object[e.object] : std::uint8_t{0});
+      });
 }
 
 }  // namespace strake::report

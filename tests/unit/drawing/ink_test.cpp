@@ -214,7 +214,8 @@ TEST(Ink, PensAreThoseOfAllLinesForAnyTeam) {
 TEST(Ink, ChoosingPensCanBeCancelled) {
   std::stop_source stop;
   stop.request_stop();
-  const auto pens = choose_pens(from_top({line({0, 0}, {1, 0}, kVisible)}), {.stop = stop.get_token()});
+  const auto pens =
+      choose_pens(from_top({line({0, 0}, {1, 0}, kVisible)}), {.stop = stop.get_token()});
   ASSERT_FALSE(pens);
   EXPECT_EQ(pens.error().code, ErrorCode::cancelled);
 }

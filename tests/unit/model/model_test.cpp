@@ -110,8 +110,8 @@ TEST(Model, FinishIsTheSameForAnyTeam) {
   }
   Model alone = source;
   finish(alone);
-  ASSERT_TRUE(std::ranges::is_sorted(
-      alone.objects, {}, [](const Object& o) { return std::tie(o.file, o.id); }));
+  ASSERT_TRUE(std::ranges::is_sorted(alone.objects, {},
+                                     [](const Object& o) { return std::tie(o.file, o.id); }));
   EXPECT_EQ(alone.diagnostics.kept().size(), 2U);
   for (const unsigned workers : {2U, 3U, 8U}) {
     parallel::Team team(workers);
@@ -134,7 +134,8 @@ TEST(Model, FinishIsTheSameForAnyTeam) {
 TEST(Model, IsEmptyOnceItIsClearedByAnyTeam) {
   for (const unsigned workers : {1U, 2U, 3U, 8U}) {
     parallel::Team team(workers);
-    Model m = one_file("a.obj", std::vector<std::string>(50'000, "an id that is too long to be short"));
+    Model m =
+        one_file("a.obj", std::vector<std::string>(50'000, "an id that is too long to be short"));
     m.set_attributes(GroupId{1}, {{"AREA", "1"}});
     m.diagnostics.add(Severity::note, "told", "of it", "here");
     clear(m, {.team = &team});
