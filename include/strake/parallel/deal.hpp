@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "strake/parallel/count_fill.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
@@ -73,6 +75,46 @@ template <class T, std::size_t kLots, class LotOf, class Value>
   });
   if (!status) return std::move(status).error();
   return dealt;
+}
+
+/// Lists the items that have each key, ascending: list k of the result is the numbers of the items
+/// whose key is k. It is a sort by counting for many keys, by all workers: items are dealt out to
+/// lots of neighbouring keys, each of which is counted out by itself.
+///
+///     const auto of_object = items_by_key(context, "lines by object", lines.size(), objects,
+///                                         [&](std::size_t i) { return object_of(lines[i]); });
+///     ... (*of_object)[o] are the numbers of the lines of object o ...
+///
+/// `key_of(i)` is below `keys`; it is called some times for an item, and says the same each time.
+/// Fewer than 2^32 items. Errors as in for_each.
+template <class KeyOf>
+[[nodiscard]] Result<Packed<std::uint32_t>> items_by_key(const Context& context,
+                                                         std::string_view name, std::size_t n,
+                                                         std::size_t keys, KeyOf&& key_of) {
+  constexpr std::size_t kLots = 64;
+  const std::size_t per_lot = keys / kLots + 1;
+  Result<Dealt<std::uint32_t, kLots>> lots = deal<std::uint32_t, kLots>(
+      context, name, n, [&](std::size_t i) { return key_of(i) / per_lot; },
+      [](std::size_t i) { return static_cast<std::uint32_t>(i); });
+  if (!lots) return std::move(lots).error();
+  Result<std::vector<std::size_t>> offsets = unset_slots<std::size_t>(keys + 1);
+  if (!offsets) return std::move(offsets).error();
+  Result<std::vector<std::uint32_t>> values = unset_slots<std::uint32_t>(n);
+  if (!values) return std::move(values).error();
+  Status status = for_each(context, {.name = name, .n = kLots}, [&](std::size_t lot) {
+    const std::size_t begin = std::min(keys, lot * per_lot), end = std::min(keys, begin + per_lot);
+    std::vector<std::size_t> next(end - begin);
+    for (const std::uint32_t i : (*lots)[lot]) ++next[key_of(i) - begin];
+    std::size_t at = lots->begin[lot];
+    for (std::size_t key = begin; key < end; ++key) {
+      (*offsets)[key] = at;
+      at += std::exchange(next[key - begin], at);
+    }
+    for (const std::uint32_t i : (*lots)[lot]) (*values)[next[key_of(i) - begin]++] = i;
+  });
+  if (!status) return std::move(status).error();
+  offsets->back() = n;
+  return Packed<std::uint32_t>{std::move(*offsets), std::move(*values)};
 }
 
 }  // namespace strake::parallel

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "hlr/edges/element_loop.hpp"
@@ -14,6 +13,7 @@
 #include "strake/hlr/steps.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/deal.hpp"
 #include "strake/parallel/distinct.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/lowest.hpp"
@@ -158,20 +158,20 @@ Status make_columns(VisibilityScene& visibility, std::span<const ViewBox> boxes,
   if (!found) return found.error();
   BodyColumns& columns = visibility.columns;
   const std::size_t count = found->first.size();
-  std::vector<std::uint32_t> end(count + 1);
-  for (const std::uint32_t c : found->of) ++end[c + 1];
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<std::uint32_t> all(some.size());
-  std::vector<std::uint32_t> next = end;
-  for (std::size_t i = 0; i < some.size(); ++i) all[next[found->of[i]]++] = some[i];
+  auto by_column =
+      parallel::items_by_key(context, "hidden lines: bodies of columns", some.size(), count,
+                             [&](std::size_t i) { return std::size_t{found->of[i]}; });
+  if (!by_column) return by_column.error();
   std::vector<ViewBox> nearest(count);
   const auto column = [&](std::size_t c) {
-    return std::span(all).subspan(end[c], end[c + 1] - end[c]);
+    const std::vector<std::size_t>& at = by_column->offsets;
+    return std::span(by_column->values).subspan(at[c], at[c + 1] - at[c]);
   };
   const auto stays = [&](std::uint32_t b) { return !visibility.placed[b].repeated; };
   auto kept = parallel::count_fill<std::uint32_t>(
       context, {.name = "hidden lines: columns", .n = count, .grain = kBodiesPerItem},
       [&](std::size_t c) {
+        for (std::uint32_t& b : column(c)) b = some[b];
         std::ranges::sort(column(c), [&](std::uint32_t x, std::uint32_t y) {
           const std::int64_t at_x = visibility.placed[x].at.w, at_y = visibility.placed[y].at.w;
           return at_x != at_y ? at_x > at_y : x < y;

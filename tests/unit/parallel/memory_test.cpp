@@ -189,6 +189,30 @@ TEST(Deal, IsByLotsInTheOrderOfTheItemsForAnyTeam) {
   }
 }
 
+TEST(ItemsByKey, AreListsInTheOrderOfTheItemsForAnyTeam) {
+  for (const std::size_t keys : {1U, 63U, 64U, 65U, 5000U})
+    for (const std::size_t n : {0U, 1U, 1000U, 60'001U}) {
+      const auto key_of = [&](std::size_t i) { return i * i % 10'007 % keys; };
+      std::vector<std::vector<std::uint32_t>> expected(keys);
+      for (std::size_t i = 0; i < n; ++i)
+        expected[key_of(i)].push_back(static_cast<std::uint32_t>(i));
+      for (const unsigned workers : kTeams) {
+        Team team(workers);
+        const auto lists = items_by_key({.team = &team}, "lists", n, keys, key_of);
+        ASSERT_TRUE(lists);
+        ASSERT_EQ(lists->size(), keys);
+        for (std::size_t key = 0; key < keys; ++key)
+          ASSERT_TRUE(std::ranges::equal((*lists)[key], expected[key])) << n << ", " << key;
+      }
+    }
+}
+
+TEST(ItemsByKey, OfNoKeysAreNone) {
+  const auto lists = items_by_key({}, "lists", 0, 0, [](std::size_t) { return std::size_t{0}; });
+  ASSERT_TRUE(lists);
+  EXPECT_EQ(lists->size(), 0U);
+}
+
 TEST(Deal, TellsOfTheLowestItemThatFails) {
   Team team(3);
   const auto dealt = deal<std::size_t, 2>(
