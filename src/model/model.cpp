@@ -146,6 +146,7 @@ Status reorder(Model& model, const BodyOrder& order, const parallel::Context& co
         object.body_count = static_cast<std::uint32_t>((*bodies)[i].size());
       });
   if (!moved) return moved;
+  parallel::clear(model.objects, context);
   model.objects = std::move(*objects);
   model.bodies = std::move(bodies->values);
   return {};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0120 says which lists one worker made before, and what of it was left out.
+
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0120 says why values are taken down by the whole team.
+
 #include <algorithm>
 #include <cstddef>
 #include <limits>

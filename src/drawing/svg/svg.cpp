@@ -26,6 +26,7 @@
 #include "drawing/svg/svg_path.hpp"
 #include "drawing/svg/svg_styles.hpp"
 #include "strake/drawing/write.hpp"
+#include "strake/parallel/collect.hpp"
 #include "strake/parallel/reduce.hpp"
 
 namespace strake::drawing {
@@ -69,20 +70,27 @@ void write_object(BufferedWriter& out, const PaperCurves& curves, const model::M
 Status write_objects(BufferedWriter& out, const PaperCurves& curves, const model::Model& model,
                      std::span<const Line* const> lines, std::span<const double> dash_mm,
                      const parallel::Context& context) {
-  std::vector<std::span<const Line* const>> objects;
-  for_each_object(lines,
-                  [&](std::span<const Line* const> of_object) { objects.push_back(of_object); });
+  constexpr std::size_t kGrain = 16384;
+  const auto starts = parallel::collect<std::size_t>(
+      context, {.name = "objects of a layer", .n = lines.size(), .grain = kGrain},
+      [&](std::size_t i, std::vector<std::size_t>& out) {
+        if (i == 0 || lines[i]->object != lines[i - 1]->object) out.push_back(i);
+      });
+  if (!starts) return starts.error();
+  const std::vector<std::size_t>& start = *starts;
   // Only shares the work out, and bounds what is made before it is written.
   constexpr std::size_t kObjectsPerPiece = 64;
   return make_in_order(
-      "objects as SVG", (objects.size() + kObjectsPerPiece - 1) / kObjectsPerPiece,
+      "objects as SVG", (start.size() + kObjectsPerPiece - 1) / kObjectsPerPiece,
       [&](std::size_t piece) {
         std::string text;
         const auto gather = [&](std::string_view more) { text += more; };
         BufferedWriter own(gather);
-        const std::size_t end = std::min(objects.size(), (piece + 1) * kObjectsPerPiece);
-        for (std::size_t o = piece * kObjectsPerPiece; o < end; ++o)
-          write_object(own, curves, model, objects[o], dash_mm);
+        const std::size_t end = std::min(start.size(), (piece + 1) * kObjectsPerPiece);
+        for (std::size_t o = piece * kObjectsPerPiece; o < end; ++o) {
+          const std::size_t next = o + 1 < start.size() ? start[o + 1] : lines.size();
+          write_object(own, curves, model, lines.subspan(start[o], next - start[o]), dash_mm);
+        }
         own.flush();
         return text;
       },

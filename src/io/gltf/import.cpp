@@ -339,7 +339,7 @@ Result<model::Model> Importer::run() {
                              input_.context};
   if (const Status placed = place_nodes(placing, model_); !placed) return placed.error();
   if (const Status cleared = nodes_.clear(input_.context); !cleared) return cleared.error();
-  return end_model(input_.file, std::move(model_));
+  return end_model(input_.file, std::move(model_), input_.context);
 }
 
 }  // namespace
