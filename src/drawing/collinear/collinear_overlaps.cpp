@@ -138,9 +138,9 @@ class Finder {
 /// Returns the covers by line, as keys with their numbers.
 Result<std::vector<KeyedItem>> by_line(std::span<const Cover> covers,
                                        const parallel::Context& context) {
-  constexpr std::size_t kGrain = 16384;
+  constexpr std::size_t kCoversPerRun = 16384;
   auto keys = parallel::transform(
-      context, {.name = "keys of covers", .n = covers.size(), .grain = kGrain},
+      context, {.name = "keys of covers", .n = covers.size(), .grain = kCoversPerRun},
       [&](std::size_t i) { return KeyedItem{covers[i].line, static_cast<std::uint32_t>(i)}; });
   if (!keys) return keys;
   const Status status = radix_sort(*keys, context);

@@ -67,14 +67,16 @@ void write_object(BufferedWriter& out, const PaperCurves& curves, const model::M
   out << "</g>\n";
 }
 
+/// Lines that a worker takes at once where little is done for each.
+constexpr std::size_t kLinesOfSvgRun = 16384;
+
 Status write_objects(BufferedWriter& out, const PaperCurves& curves, const model::Model& model,
                      std::span<const Line* const> lines, std::span<const double> dash_mm,
                      const parallel::Context& context) {
-  constexpr std::size_t kGrain = 16384;
   const auto starts = parallel::collect<std::size_t>(
-      context, {.name = "objects of a layer", .n = lines.size(), .grain = kGrain},
-      [&](std::size_t i, std::vector<std::size_t>& out) {
-        if (i == 0 || lines[i]->object != lines[i - 1]->object) out.push_back(i);
+      context, {.name = "objects of a layer", .n = lines.size(), .grain = kLinesOfSvgRun},
+      [&](std::size_t i, std::vector<std::size_t>& found) {
+        if (i == 0 || lines[i]->object != lines[i - 1]->object) found.push_back(i);
       });
   if (!starts) return starts.error();
   const std::vector<std::size_t>& start = *starts;
@@ -259,9 +261,8 @@ using Kinds = std::uint32_t;
 constexpr Kinds bit_of(hlr::EdgeKind kind) { return Kinds{1} << static_cast<unsigned>(kind); }
 
 Result<Kinds> kinds_of(std::span<const Line> lines, const parallel::Context& context) {
-  constexpr std::size_t kGrain = 16384;
   return parallel::reduce(
-      context, {.name = "kinds of lines", .n = lines.size(), .grain = kGrain}, Kinds{0},
+      context, {.name = "kinds of lines", .n = lines.size(), .grain = kLinesOfSvgRun}, Kinds{0},
       [&](Kinds& kinds, std::size_t i) { kinds |= bit_of(lines[i].kind); },
       [](Kinds& into, Kinds kinds) { into |= kinds; });
 }
