@@ -21,6 +21,7 @@
 #include "core/text_encoding.hpp"
 #include "core/units.hpp"
 #include "strake/core/diagnostics.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/project/project.hpp"
 
 namespace strake::cli {
@@ -91,15 +92,33 @@ bool are_trusted(const FileExtent& x, const FileExtent& y) {
 }
 
 /// Returns the extents of the files of which anything is placed.
-std::vector<FileExtent> extents(const model::Scene& scene) {
+Result<std::vector<FileExtent>> extents(const model::Scene& scene,
+                                        const parallel::Context& context) {
   const std::vector<model::SourceFile>& files = scene.model->files;
-  std::vector<Box3d> boxes(files.size(), geometry::empty_box<double>());
-  for (const model::GridBody& body : scene.bodies)
-    boxes[scene.model->object(body.object).file].include(
-        body.box(scene.shapes[body.grid_shape]).as<double>());
+  using Boxes = std::vector<Box3d>;
+  // Each block has boxes of its own, so that there are few, and long ones.
+  constexpr std::size_t kLeastGrain = 4096, kMostBlocks = 64;
+  const std::size_t bodies = scene.bodies.size();
+  const auto boxes = parallel::reduce(
+      context,
+      {.name = "extents of files",
+       .n = bodies,
+       .grain = std::max(kLeastGrain, (bodies + kMostBlocks - 1) / kMostBlocks)},
+      Boxes(files.size(), geometry::empty_box<double>()),
+      [&](Boxes& of_block, std::size_t i) {
+        const model::GridBody& body = scene.bodies[i];
+        of_block[scene.model->object(body.object).file].include(
+            body.box(scene.shapes[body.grid_shape]).as<double>());
+      },
+      [](Boxes& into, const Boxes& of_block) {
+        for (std::size_t f = 0; f < into.size(); ++f) into[f].include(of_block[f]);
+      });
+  if (!boxes) return boxes.error();
   std::vector<FileExtent> found;
-  for (std::size_t f = 0; f < files.size(); ++f)
-    if (!boxes[f].empty()) found.push_back(extent_of(f, boxes[f].hi - boxes[f].lo, files[f].unit));
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    const Box3d& box = (*boxes)[f];
+    if (!box.empty()) found.push_back(extent_of(f, box.hi - box.lo, files[f].unit));
+  }
   return found;
 }
 
@@ -130,11 +149,13 @@ std::string options_to_try(const FileExtent& small, const FileExtent& large,
 
 }  // namespace
 
-void note_doubtful_units(model::Scene& scene) {
+Status note_doubtful_units(model::Scene& scene, const parallel::Context& context) {
   const std::vector<model::SourceFile>& files = scene.model->files;
-  const std::vector<FileExtent> found = extents(scene);
-  for (const FileExtent& large : found)
-    for (const FileExtent& small : found) {
+  if (files.size() < 2) return {};
+  const Result<std::vector<FileExtent>> found = extents(scene, context);
+  if (!found) return found.error();
+  for (const FileExtent& large : *found)
+    for (const FileExtent& small : *found) {
       if (are_trusted(large, small)) continue;
       for (const UnitConfusion& confusion : kUnitConfusions)
         if (is_alike_in_any_frame(small, large, confusion))
@@ -146,6 +167,7 @@ void note_doubtful_units(model::Scene& scene) {
                           options_to_try(small, large, confusion, files)),
               files[large.file].label);
     }
+  return {};
 }
 
 namespace {
@@ -321,7 +343,8 @@ Result<model::Scene> place_model(Session& session, const model::Model& model,
   const auto timer = session.step("place");
   Result<model::Scene> scene = model::make_scene(model, options, session.context());
   if (!scene) return scene;
-  note_doubtful_units(*scene);
+  if (const Status status = note_doubtful_units(*scene, session.context()); !status)
+    return status.error();
   print_diagnostics(session.console(), scene->diagnostics);
   if (scene->left_out > 0)
     session.console().note(fmt::format(
@@ -339,12 +362,11 @@ Diagnostics LoadedModel::diagnostics() const {
 }
 
 void print_model_notes(Session& session, const model::Model& model) {
-  std::vector<std::uint64_t> objects(model.files.size());
-  for (const model::Object& object : model.objects) ++objects[object.file];
-  for (std::size_t f = 0; f < model.files.size(); ++f) {
+  for (std::uint32_t f = 0; f < model.files.size(); ++f) {
     const model::SourceFile& file = model.files[f];
+    const auto objects = std::ranges::equal_range(model.objects, f, {}, &model::Object::file);
     session.console().note(fmt::format("{}: {}, {} objects, unit {}, {} up", file.label,
-                                       file.format, objects[f], file.unit, file.up_axis));
+                                       file.format, objects.size(), file.unit, file.up_axis));
   }
   print_diagnostics(session.console(), model.diagnostics);
   if (const std::string rest = unread_rest(model); !rest.empty())
@@ -356,10 +378,14 @@ Result<model::Model> load_model(Session& session, const InputOptions& input) {
   return read_model(session, input, {}, sources);
 }
 
-Result<LoadedModel> place(Session& session, model::Model model,
-                          const model::SceneOptions& options) {
+Result<LoadedModel> place(Session& session, model::Model model, const model::SceneOptions& options) {
   LoadedModel loaded;
-  loaded.model = std::make_unique<const model::Model>(std::move(model));
+  loaded.model = std::shared_ptr<model::Model>(
+      std::make_unique<model::Model>(std::move(model)).release(),
+      [context = parallel::Context{.team = session.context().team}](model::Model* done) {
+        model::clear(*done, context);
+        std::default_delete<model::Model>()(done);
+      });
   Result<model::Scene> scene = place_model(session, *loaded.model, options);
   if (!scene) return scene.error();
   loaded.scene = std::move(*scene);

@@ -24,8 +24,9 @@
 namespace strake::cli {
 
 /// Warns of two files that may be of different units: their extents differ by the ratio of two
-/// units of length, and the unit of one is only assumed, or nobody has said that of either.
-void note_doubtful_units(model::Scene& scene);
+/// units of length, and the unit of one is only assumed, or nobody has said that of either. Errors:
+/// cancelled, out of memory.
+[[nodiscard]] Status note_doubtful_units(model::Scene& scene, const parallel::Context& context);
 
 /// Which bodies take part, how finely curved ones are tessellated and which seams of meshes are
 /// closed, as written.
@@ -41,7 +42,9 @@ void add_scene_options(CLI::App& command, SceneInput& options, const std::string
 
 /// The files of the command line as one model, and that model on the grid.
 struct LoadedModel {
-  std::unique_ptr<const model::Model> model;  ///< the model that the scene refers to
+  /// The model that the scene refers to. It is taken down by the workers of the session, which it
+  /// must not outlive.
+  std::shared_ptr<const model::Model> model;
   model::Scene scene;
   /// The model files; of a project those that it was made of.
   std::vector<std::filesystem::path> files = {};

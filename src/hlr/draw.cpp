@@ -33,7 +33,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   Options adjusted = options;
   // The baseline knows no culling.
   if (options.solver == Solver::push) adjusted.culling = false;
-  const Result<ViewJob> job = [&] {
+  Result<ViewJob> job = [&] {
     const parallel::StageTimer timer(context.report, kPreparationStep);
     return prepare_view({scene, drawn, view, adjusted}, context);
   }();
@@ -67,6 +67,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
       return status.error();
   sum_up_lines(drawing);
   report_defects(*job->scene->model, drawing.account, drawing.diagnostics);
+  take_down(*job, context);
   return drawing;
 }
 

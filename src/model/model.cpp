@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <new>
 #include <numeric>
@@ -17,7 +18,9 @@
 #include "model/file_labels.hpp"
 #include "model/string_sort.hpp"
 #include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/find.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -29,29 +32,41 @@ using BodyOrder = std::vector<std::uint32_t>;
 // Only shares the work out.
 constexpr std::size_t kObjectsPerBlock = 4096;
 
-BodyOrder identity(std::size_t count) {
-  BodyOrder order(count);
-  std::iota(order.begin(), order.end(), 0U);
+/// Returns the indices of all objects by file, those of a file as the source has them.
+Result<BodyOrder> order_by_file(const Model& model, const parallel::Context& context) {
+  const std::size_t count = model.objects.size();
+  Result<BodyOrder> order = parallel::unset_slots<std::uint32_t>(count);
+  if (!order) return order;
+  const Status numbered = parallel::for_each(
+      context, {.name = "objects as they stand", .n = count, .grain = kObjectsPerBlock},
+      [&](std::size_t i) { (*order)[i] = static_cast<std::uint32_t>(i); });
+  if (!numbered) return numbered.error();
+  const auto file_of = [&](std::size_t i) { return model.objects[i].file; };
+  const auto ascending =
+      parallel::all_of(context, {.name = "files of objects", .n = count, .grain = kObjectsPerBlock},
+                       [&](std::size_t i) { return i == 0 || file_of(i - 1) <= file_of(i); });
+  if (!ascending) return ascending.error();
+  if (!*ascending)
+    std::ranges::sort(*order, [&](std::uint32_t a, std::uint32_t b) {
+      return file_of(a) != file_of(b) ? file_of(a) < file_of(b) : a < b;
+    });
   return order;
 }
 
-/// Puts the indices of all objects in the order of (file, id), equal ones as the source has them.
-/// Returns true when no two objects of a file have one id.
+/// Puts the indices of all objects, which are ordered by file, in the order of (file, id), equal
+/// ones as they stand. Returns true when no two objects of a file have one id.
 Result<bool> sort_objects(const Model& model, BodyOrder& order, const parallel::Context& context) {
   const auto file_of = [&](std::uint32_t i) { return model.objects[i].file; };
-  const auto by_file = [&](std::uint32_t a, std::uint32_t b) {
-    return file_of(a) != file_of(b) ? file_of(a) < file_of(b) : a < b;
-  };
-  if (!std::is_sorted(order.begin(), order.end(), by_file))
-    std::sort(order.begin(), order.end(), by_file);
   const auto ids = parallel::transform(
       context, {.name = "ids of objects", .n = model.objects.size(), .grain = kObjectsPerBlock},
       [&](std::size_t i) { return std::string_view(model.objects[i].id); });
   if (!ids) return ids.error();
   bool distinct = true;
-  for (std::size_t i = 0, end = 0; i < order.size(); i = end) {
-    for (end = i + 1; end < order.size() && file_of(order[end]) == file_of(order[i]);) ++end;
-    const auto sorted = sort_strings(*ids, std::span(order).subspan(i, end - i), context);
+  for (auto first = order.begin(), last = first; first != order.end(); first = last) {
+    last = std::partition_point(first, order.end(), [&, file = file_of(*first)](std::uint32_t i) {
+      return file_of(i) == file;
+    });
+    const auto sorted = sort_strings(*ids, std::span(first, last), context);
     if (!sorted) return sorted.error();
     distinct = *sorted && distinct;
   }
@@ -59,10 +74,7 @@ Result<bool> sort_objects(const Model& model, BodyOrder& order, const parallel::
 }
 
 /// Notes for each file how many ids its reader could only count.
-void note_positional_ids(Model& model) {
-  std::vector<std::size_t> counts(model.files.size(), 0);
-  for (const Object& o : model.objects)
-    if (o.positional_id && o.file < counts.size()) ++counts[o.file];
+void note_positional_ids(Model& model, std::span<const std::size_t> counts) {
   for (std::size_t file = 0; file < counts.size(); ++file)
     if (counts[file] > 0)
       model.diagnostics.add(
@@ -134,6 +146,7 @@ Status reorder(Model& model, const BodyOrder& order, const parallel::Context& co
         object.body_count = static_cast<std::uint32_t>((*bodies)[i].size());
       });
   if (!moved) return moved;
+  parallel::clear(model.objects, context);
   model.objects = std::move(*objects);
   model.bodies = std::move(bodies->values);
   return {};
@@ -141,45 +154,76 @@ Status reorder(Model& model, const BodyOrder& order, const parallel::Context& co
 
 /// Whether reorder() would change nothing. Many programs write objects in the order of their ids,
 /// and a copy of a million objects takes a fifteenth of the time of loading them.
-bool is_in_order(const Model& model, const BodyOrder& order) {
-  std::size_t bodies = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const Object& object = model.objects[i];
-    if (order[i] != i || object.first_body != bodies) return false;
-    bodies += object.body_count;
-  }
-  return bodies == model.bodies.size();
+Result<bool> is_in_order(const Model& model, const BodyOrder& order,
+                         const parallel::Context& context) {
+  const auto bodies_before = [&](std::size_t i) -> std::size_t {
+    if (i == 0) return 0;
+    return std::size_t{model.objects[i - 1].first_body} + model.objects[i - 1].body_count;
+  };
+  if (bodies_before(order.size()) != model.bodies.size()) return false;
+  return parallel::all_of(
+      context, {.name = "objects in order", .n = order.size(), .grain = kObjectsPerBlock},
+      [&](std::size_t i) {
+        return order[i] == i && model.objects[i].first_body == bodies_before(i);
+      });
 }
 
-/// Gives files their numbers by label, and objects their places as the source has them.
-void number_by_source(Model& model) {
-  for (std::uint32_t place = 0; Object & o : model.objects) o.place = place++;
+Status reorder_if_needed(Model& model, const BodyOrder& order, const parallel::Context& context) {
+  const Result<bool> in_order = is_in_order(model, order, context);
+  if (!in_order) return in_order.error();
+  return *in_order ? Status{} : reorder(model, order, context);
+}
+
+/// Gives files their numbers by label, and objects their places as the source has them. Returns for
+/// each file how many ids its reader could only count.
+Result<std::vector<std::size_t>> number_by_source(Model& model, const parallel::Context& context) {
   const BodyOrder renumbered = label_and_sort_files(model);
-  for (Object& o : model.objects)
-    if (o.file < renumbered.size()) o.file = renumbered[o.file];
+  // Each block has counts of its own, so that there are few, and long ones.
+  constexpr std::size_t kMostBlocks = 64;
+  const std::size_t count = model.objects.size();
+  using Counts = std::vector<std::size_t>;
+  return parallel::reduce(
+      context,
+      {.name = "objects numbered",
+       .n = count,
+       .grain = std::max(kObjectsPerBlock, (count + kMostBlocks - 1) / kMostBlocks)},
+      Counts(model.files.size()),
+      [&](Counts& positional, std::size_t i) {
+        Object& o = model.objects[i];
+        o.place = static_cast<std::uint32_t>(i);
+        if (o.file >= renumbered.size()) return;
+        o.file = renumbered[o.file];
+        if (o.positional_id) ++positional[o.file];
+      },
+      [](Counts& into, const Counts& of_block) {
+        std::ranges::transform(into, of_block, into.begin(), std::plus{});
+      });
 }
 
 /// Puts the objects of a numbered model in order, and separates ids that repeat.
 Status arrange_objects(Model& model, const parallel::Context& context) {
-  BodyOrder order = identity(model.objects.size());
-  auto distinct = sort_objects(model, order, context);
+  Result<BodyOrder> order = order_by_file(model, context);
+  if (!order) return order.error();
+  auto distinct = sort_objects(model, *order, context);
   if (!distinct) return distinct.error();
   if (!*distinct) {
-    separate_ids(model, order);
-    distinct = sort_objects(model, order, context);
+    separate_ids(model, *order);
+    order = order_by_file(model, context);
+    if (!order) return order.error();
+    distinct = sort_objects(model, *order, context);
     if (!distinct) return distinct.error();
   }
-  return is_in_order(model, order) ? Status{} : reorder(model, order, context);
+  return reorder_if_needed(model, *order, context);
 }
 
 /// Puts the objects of a finished model as the source has them, and takes folders off its labels.
 Status take_up_again(Model& model) {
-  BodyOrder order = identity(model.objects.size());
+  BodyOrder order(model.objects.size());
+  std::iota(order.begin(), order.end(), 0U);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return model.objects[a].place < model.objects[b].place;
   });
-  if (!is_in_order(model, order))
-    if (Status status = reorder(model, order, {}); !status) return status;
+  if (Status status = reorder_if_needed(model, order, {}); !status) return status;
   for (SourceFile& file : model.files) file.label.erase(0, file.label.rfind('/') + 1);
   return {};
 }
@@ -260,12 +304,21 @@ void Model::set_attributes(GroupId group, Attributes attributes) {
 }
 
 Status finish(Model& model, const parallel::Context& context) {
-  number_by_source(model);
-  note_positional_ids(model);
+  const Result<std::vector<std::size_t>> positional = number_by_source(model, context);
+  if (!positional) return positional.error();
+  note_positional_ids(model, *positional);
   return arrange_objects(model, context);
 }
 
 void finish(Model& model) { throw_unless(finish(model, {})); }
+
+void clear(Model& model, const parallel::Context& context) {
+  parallel::clear(model.objects, context);
+  parallel::clear(model.groups, context);
+  parallel::clear(model.group_attributes, context);
+  parallel::clear(model.shapes, context);
+  model = {};
+}
 
 void append(Model& model, Model&& other) {
   const auto files = static_cast<std::uint32_t>(model.files.size());
@@ -276,16 +329,20 @@ void append(Model& model, Model&& other) {
     return id == GroupId::none ? id : GroupId{index(id) + groups};
   };
   const auto attributes = static_cast<std::uint32_t>(model.group_attributes.size());
-  for (Group& g : other.groups) {
-    g.parent = shifted(g.parent);
-    if (g.attributes != Group::kNoAttributes) g.attributes += attributes;
-  }
-  for (Object& o : other.objects) {
-    o.file += files;
-    o.parent = shifted(o.parent);
-    o.first_body += bodies;
-  }
-  for (Body& b : other.bodies) b.shape = ShapeId{index(b.shape) + shapes};
+  // What a model begins with keeps its numbers: most have one file.
+  if (groups > 0 || attributes > 0)
+    for (Group& g : other.groups) {
+      g.parent = shifted(g.parent);
+      if (g.attributes != Group::kNoAttributes) g.attributes += attributes;
+    }
+  if (files > 0 || groups > 0 || bodies > 0)
+    for (Object& o : other.objects) {
+      o.file += files;
+      o.parent = shifted(o.parent);
+      o.first_body += bodies;
+    }
+  if (shapes > 0)
+    for (Body& b : other.bodies) b.shape = ShapeId{index(b.shape) + shapes};
   const auto move_all = [](auto& from, auto& to) {
     if (to.empty())
       to = std::move(from);
@@ -310,7 +367,7 @@ Model join(std::span<Model> models) {
     append(all, std::move(model));
   }
   // What finish() notes has been noted of each.
-  number_by_source(all);
+  if (const auto numbered = number_by_source(all, {}); !numbered) throw_unless(numbered.error());
   throw_unless(arrange_objects(all, {}));
   return all;
 }

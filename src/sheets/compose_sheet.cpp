@@ -320,8 +320,9 @@ class Composer {
   Status ink() {
     std::optional<drawing::Pens> pens;
     for (const PlacedView& view : sheet_.views) {
-      const drawing::Pens own = drawing::choose_pens(view.drawing);
-      if (!pens || own.edge < pens->edge) pens = own;
+      const Result<drawing::Pens> own = drawing::choose_pens(view.drawing, context_);
+      if (!own) return own.error();
+      if (!pens || own->edge < pens->edge) pens = *own;
     }
     sheet_.styles = styles_of(what_.styles, pens.value_or(drawing::Pens{}));
     const std::shared_ptr<const drawing::ObjectStyles> styles = object_styles();

@@ -74,8 +74,10 @@ struct Ink {
 };
 
 /// Returns the pens for a drawing: the widest group that suits the sheet's size, or a narrower one
-/// by the density where the lines are, as a dense drawing in wide lines is a black patch.
-[[nodiscard]] Pens choose_pens(const NeutralDrawing& drawing);
+/// by the density where the lines are, as a dense drawing in wide lines is a black patch. Errors:
+/// cancelled, out of memory.
+[[nodiscard]] Result<Pens> choose_pens(const NeutralDrawing& drawing,
+                                       const parallel::Context& context);
 
 /// Chooses which lines are worth drawing, with the given pens or with those of choose_pens().
 /// Visible lines are never left out.

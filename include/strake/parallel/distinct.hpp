@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/deal.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -46,10 +46,7 @@ struct LotFault {
 };
 
 /// Item numbers by the lot that their hash puts them in, ascending within each.
-struct HashLots {
-  std::array<std::size_t, kDistinctLots + 1> begin{};
-  std::vector<std::uint32_t> order;
-};
+using HashLots = Dealt<std::uint32_t, kDistinctLots>;
 
 /// Deals items out to lots, run by run. Errors as in for_each.
 [[nodiscard]] Result<HashLots> hash_lots(const Context& context, std::string_view name,
@@ -89,10 +86,10 @@ template <class Hash, class Same>
   if (!faults) return std::move(faults).error();
   Status status =
       for_each(context, {.name = name, .n = detail::kDistinctLots}, [&](std::size_t lot) {
-        const std::size_t begin = lots->begin[lot], end = lots->begin[lot + 1];
-        std::vector<std::uint32_t> slots(std::bit_ceil(2 * (end - begin) + 1), kFree);
-        for (std::size_t k = begin; k < end && !context.stop.stop_requested(); ++k) {
-          const std::uint32_t i = lots->order[k];
+        const std::span<const std::uint32_t> of_lot = (*lots)[lot];
+        std::vector<std::uint32_t> slots(std::bit_ceil(2 * of_lot.size() + 1), kFree);
+        for (const std::uint32_t i : of_lot) {
+          if (context.stop.stop_requested()) break;
           Status compared = detail::status_of(name, i, [&] {
             const std::uint64_t h = (*hashes)[i];
             const auto is_same = [&](std::uint32_t j) { return (*hashes)[j] == h && same(j, i); };

@@ -13,6 +13,7 @@
 
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/heavy.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::parallel {
 
@@ -57,6 +58,13 @@ class Precomputed {
     return key < made_.size() ? made_[key] : nullptr;
   }
 
+  /// Takes all values down by the whole team, as clear() of slots does; the keys stay.
+  void clear(const Context& context) noexcept {
+    made_.clear();
+    for (std::vector<T>& values : fills_) parallel::clear(values, context);
+    fills_.clear();
+  }
+
   /// Makes make(key), a T or a Result<T>, for the keys that are wanted and not there yet, each once
   /// however often it is named. The region's n is set here. Errors: a key that the table has not;
   /// else as in for_each, that of the lowest failing key, which is the item that an exception's
@@ -65,7 +73,7 @@ class Precomputed {
   [[nodiscard]] Status fill(const Context& context, Region region,
                             std::span<const std::uint32_t> wanted, Make&& make) {
     detail::require_shareable<Make, std::size_t>();
-    return add(region.name, wanted,
+    return add(context, region.name, wanted,
                [&](std::span<const std::uint32_t> missing, std::vector<T>& values) {
                  region.n = missing.size();
                  return for_each(context, region, [&](std::size_t k) {
@@ -81,14 +89,15 @@ class Precomputed {
                                       std::span<const std::uint32_t> wanted, Cost&& cost,
                                       Make&& make) {
     detail::require_shareable<Make, std::size_t>();
-    return add(region.name, wanted,
+    detail::require_shareable<Cost, std::size_t>();
+    return add(context, region.name, wanted,
                [&](std::span<const std::uint32_t> missing, std::vector<T>& values) -> Status {
                  region.n = missing.size();
                  const auto put_one = [&](std::size_t k) {
                    return put(region.name, missing[k], make, values[k]);
                  };
                  if (region.is_short()) return for_each(context, region, put_one);
-                 auto costs = costs_of(region.name, missing, cost);
+                 auto costs = costs_of(context, region.name, missing, cost);
                  if (!costs) return std::move(costs).error();
                  return for_each_by_weight(
                      context, region, least, [&](std::size_t k) { return (*costs)[k]; }, put_one);
@@ -113,19 +122,28 @@ class Precomputed {
 
   /// An exception names the key, not its number among those that are missing.
   template <class Cost>
-  static Result<std::vector<double>> costs_of(std::string_view region,
+  static Result<std::vector<double>> costs_of(const Context& context, std::string_view region,
                                               std::span<const std::uint32_t> keys, Cost& cost) {
-    std::vector<double> costs;
-    for (const std::uint32_t key : keys) {
-      Status status = detail::status_of(
-          region, key, [&] { costs.push_back(static_cast<double>(cost(std::size_t{key}))); });
-      if (!status) return std::move(status).error();
-    }
+    auto costs = unset_slots<double>(keys.size());
+    if (!costs) return costs;
+    constexpr std::size_t kGrain = 1024;
+    Context silent = context;
+    silent.progress = nullptr;  // it counts values that are made
+    Status status = for_each(
+        silent,
+        {.name = "costs of values", .n = keys.size(), .grain = kGrain, .alone_below = 2 * kGrain},
+        [&](std::size_t k) {
+          return detail::status_of(region, keys[k], [&] {
+            (*costs)[k] = static_cast<double>(cost(std::size_t{keys[k]}));
+          });
+        });
+    if (!status) return std::move(status).error();
     return costs;
   }
 
   template <class Fill>
-  Status add(std::string_view region, std::span<const std::uint32_t> wanted, Fill&& fill) {
+  Status add(const Context& context, std::string_view region, std::span<const std::uint32_t> wanted,
+             Fill&& fill) {
     try {
       // No memory for tables that nobody asks.
       if (wanted.empty()) return {};
@@ -141,7 +159,9 @@ class Precomputed {
       }
       std::ranges::sort(missing);
       missing.erase(std::ranges::unique(missing).begin(), missing.end());
-      std::vector<T> values(missing.size());
+      auto made = slots<T>(missing.size(), context);
+      if (!made) return std::move(made).error();
+      std::vector<T> values = std::move(*made);
       if (fills_.size() == fills_.capacity()) fills_.reserve(2 * fills_.size() + 1);
       Status status = fill(std::span<const std::uint32_t>(missing), values);
       if (status && !missing.empty()) {

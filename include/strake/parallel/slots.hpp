@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// Decision 0120 says why values are taken down by the whole team.
+
 #include <algorithm>
 #include <cstddef>
 #include <limits>
@@ -70,6 +72,26 @@ template <class T>
   } else {
     return slots<T>(n, context);
   }
+}
+
+/// Takes all values of a vector down, by the whole team: a million objects with strings keep the
+/// thread that ends them busy for as long as reading them took all of it. Whatever the context's
+/// stop token says, all values are gone; the memory of the vector itself stays its own.
+/// The destructor of T must not throw.
+template <class T>
+void clear(std::vector<T>& values, const Context& context) noexcept {
+  if constexpr (detail::kCanLeaveUnset && !std::is_trivially_destructible_v<T>) {
+    if (detail::is_worth_a_team(context, values.size(), sizeof(T))) {
+      T* const first = values.data();
+      // All values, or none where there was no memory to share them out.
+      const Status status = detail::for_each_run_of_memory(
+          context, values.size(), sizeof(T), [first](std::size_t begin, std::size_t end) noexcept {
+            std::destroy(first + begin, first + end);
+          });
+      if (status) detail::set_size_unset(values, 0);
+    }
+  }
+  values.clear();
 }
 
 namespace detail {

@@ -11,6 +11,7 @@
 #include "drawing/collinear/line_index.hpp"
 #include "drawing/collinear/radix_sort.hpp"
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::drawing {
 
@@ -137,9 +138,12 @@ class OverlapSearch {
 /// Returns the covers by line, as keys with their numbers.
 Result<std::vector<KeyedItem>> by_line(std::span<const Cover> covers,
                                        const parallel::Context& context) {
-  std::vector<KeyedItem> keys(covers.size());
-  for (std::uint32_t i = 0; i < covers.size(); ++i) keys[i] = {covers[i].line, i};
-  const Status status = radix_sort(keys, context);
+  constexpr std::size_t kCoversPerRun = 16384;
+  auto keys = parallel::transform(
+      context, {.name = "keys of covers", .n = covers.size(), .grain = kCoversPerRun},
+      [&](std::size_t i) { return KeyedItem{covers[i].line, static_cast<std::uint32_t>(i)}; });
+  if (!keys) return keys;
+  const Status status = radix_sort(*keys, context);
   if (!status) return status.error();
   return keys;
 }

@@ -8,8 +8,10 @@
 #include <tuple>
 #include <utility>
 
+#include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
+#include "strake/parallel/slots.hpp"
 
 namespace strake::drawing {
 
@@ -164,7 +166,8 @@ Result<LineIndex> LineIndex::build(std::span<const PlaneSegment> lines, const Ov
     status = index.take(lines, *keys, context);
     if (!status) return status.error();
   }
-  index.lay_out_sectors();
+  status = index.lay_out_sectors();
+  if (!status) return status.error();
   status = index.make_leaves(context);
   if (!status) return status.error();
   status = index.make_nodes(context);
@@ -244,17 +247,14 @@ std::uint64_t LineIndex::key_of(const PlaneSegment& line) const {
 
 Result<std::vector<KeyedItem>> LineIndex::sorted(std::span<const PlaneSegment> lines, double least,
                                                  const parallel::Context& context) const {
-  constexpr std::uint64_t kLeftOut = std::uint64_t{kSectors} << kPlaceBits;
-  std::vector<KeyedItem> keys(lines.size());
-  Status status = parallel::for_each(
-      context, {.name = "keys of lines", .n = lines.size(), .grain = kGrain}, [&](std::size_t i) {
-        const PlaneSegment& line = lines[i];
-        keys[i] = {takes_part(line, least) ? key_of(line) : kLeftOut,
-                   static_cast<std::uint32_t>(i)};
+  auto keys = parallel::collect<KeyedItem>(
+      context, {.name = "keys of lines", .n = lines.size(), .grain = kGrain},
+      [&](std::size_t i, std::vector<KeyedItem>& out) {
+        if (takes_part(lines[i], least))
+          out.push_back({key_of(lines[i]), static_cast<std::uint32_t>(i)});
       });
-  if (!status) return status.error();
-  std::erase_if(keys, [](const KeyedItem& k) { return k.key == kLeftOut; });
-  status = radix_sort(keys, context);
+  if (!keys) return keys;
+  const Status status = radix_sort(*keys, context);
   if (!status) return status.error();
   return keys;
 }
@@ -270,8 +270,12 @@ Status LineIndex::take(std::span<const PlaneSegment> lines, std::span<const Keye
         keys.begin());
     sectors_[number].last = at;
   }
-  order_.resize(keys.size());
-  flats_.resize(keys.size());
+  auto order = parallel::unset_slots<std::uint32_t>(keys.size());
+  if (!order) return order.error();
+  auto flats = parallel::unset_slots<PlaneSegment>(keys.size());
+  if (!flats) return flats.error();
+  order_ = std::move(*order);
+  flats_ = std::move(*flats);
   return parallel::for_each(context, {.name = "order of lines", .n = keys.size(), .grain = kGrain},
                             [&](std::size_t i) {
                               order_[i] = keys[i].item;
@@ -279,7 +283,7 @@ Status LineIndex::take(std::span<const PlaneSegment> lines, std::span<const Keye
                             });
 }
 
-void LineIndex::lay_out_sectors() {
+Status LineIndex::lay_out_sectors() {
   std::size_t nodes = 0;
   for (Sector& sector : sectors_) {
     sector.nodes = nodes;
@@ -291,7 +295,11 @@ void LineIndex::lay_out_sectors() {
       if (count == 1) break;
     }
   }
-  nodes_.resize(nodes);
+  // Leaves and nodes write all of theirs.
+  auto made = parallel::unset_slots<BoxLanes>(nodes);
+  if (!made) return made.error();
+  nodes_ = std::move(*made);
+  return {};
 }
 
 LineIndex::Leaf LineIndex::leaf(std::size_t number) const {

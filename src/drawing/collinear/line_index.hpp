@@ -142,7 +142,7 @@ class LineIndex {
                                                       const parallel::Context& context) const;
   [[nodiscard]] Status take(std::span<const PlaneSegment> lines, std::span<const KeyedItem> keys,
                             const parallel::Context& context);
-  void lay_out_sectors();
+  [[nodiscard]] Status lay_out_sectors();
   [[nodiscard]] Status make_leaves(const parallel::Context& context);
   [[nodiscard]] Status make_nodes(const parallel::Context& context);
 

@@ -10,6 +10,7 @@
 
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
+#include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::drawing {
@@ -60,7 +61,10 @@ Status radix_sort(std::vector<KeyedItem>& items, const parallel::Context& contex
       [](std::uint64_t& into, const std::uint64_t& most) { into = std::max(into, most); });
   if (!highest) return highest.error();
   const auto bits = static_cast<unsigned>(std::bit_width(*highest));
-  std::vector<KeyedItem> other(items.size());
+  if (bits == 0) return {};
+  auto made = parallel::unset_slots<KeyedItem>(items.size());
+  if (!made) return made.error();
+  std::vector<KeyedItem> other = std::move(*made);
   for (unsigned shift = 0; shift < bits; shift += kDigitBits) {
     if (const Status status = deal(items, other, shift, context); !status) return status;
     items.swap(other);

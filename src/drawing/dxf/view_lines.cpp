@@ -17,6 +17,7 @@
 #include "drawing/strokes/layers.hpp"
 #include "drawing/strokes/strokes.hpp"
 #include "geometry/numeric/trig.hpp"
+#include "strake/parallel/deal.hpp"
 
 namespace strake::drawing::dxf {
 
@@ -174,14 +175,18 @@ bool is_hidden_layer(std::size_t layer) {
          layer == static_cast<std::size_t>(ViewLayer::hidden_by_self);
 }
 
-SortedLines sorted_lines(const Ink& ink, const StyleLayers& style_layers) {
-  std::array<std::vector<const Line*>, kViewLayers> of_layer;
-  for (const Line& line : ink.in_model_space())
-    of_layer.at(static_cast<std::size_t>(layer_of(line))).push_back(&line);
+Result<SortedLines> sorted_lines(const Ink& ink, const StyleLayers& style_layers,
+                                 const parallel::Context& context) {
+  const std::vector<Line>& all = ink.in_model_space();
+  const auto of_layer = parallel::deal<const Line*, kViewLayers>(
+      context, "lines of layers", all.size(),
+      [&](std::size_t i) { return static_cast<std::size_t>(layer_of(all[i])); },
+      [&](std::size_t i) { return &all[i]; });
+  if (!of_layer) return of_layer.error();
   SortedLines sorted;
   sorted.lines.reserve(ink.in_model_space().size());
   for (std::size_t layer = 0; layer < kViewLayers; ++layer)
-    for (const LinesOfStyle& part : by_style(of_layer.at(layer), ink)) {
+    for (const LinesOfStyle& part : by_style((*of_layer)[layer], ink)) {
       const bool plain = part.style == ObjectStyles::kPlain;
       const std::size_t number =
           plain ? layer : style_layers[part.style - 1].at(layer).value_or(layer);
@@ -220,7 +225,9 @@ std::vector<double> dashes_in_model(const LayerStyle& style, double scale) {
 Status write_view_lines(const ViewLines& view, const model::Model& model,
                         std::span<const LayerStyle> layers, Handle first, Sink sink,
                         const parallel::Context& context) {
-  const SortedLines sorted = sorted_lines(view.ink, view.style_layers);
+  const Result<SortedLines> by_layer = sorted_lines(view.ink, view.style_layers, context);
+  if (!by_layer) return by_layer.error();
+  const SortedLines& sorted = *by_layer;
   const PaperCurves curves = view.plane.curves(view.curves);
   const auto append_object = [&](const SortedLines::LinesOfObject& of_object, std::string& out) {
     std::vector<Line> placed;

@@ -6,14 +6,18 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "drawing/collinear/collinear_overlaps.hpp"
 #include "drawing/ink/hidden_ink.hpp"
 #include "drawing/ink/on_paper.hpp"
 #include "drawing/layout/duplicates.hpp"
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/reduce.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::drawing {
 
@@ -22,16 +26,20 @@ namespace {
 /// The length of lines per area of paper, by square.
 class Density {
  public:
+  /// Millimetres of lines in each square.
+  using Lengths = std::vector<double>;
+
   explicit Density(const Sheet& sheet)
       : width_mm_(sheet.width_mm),
         height_mm_(sheet.height_mm),
         size_(std::max(4.0, std::sqrt(sheet.width_mm * sheet.height_mm) / 500)),
         columns_(count(sheet.width_mm)),
-        rows_(count(sheet.height_mm)),
-        length_(columns_ * rows_) {}
+        rows_(count(sheet.height_mm)) {}
+
+  [[nodiscard]] Lengths none() const { return Lengths(columns_ * rows_); }
 
   /// What of a line lies off the sheet does not count: it may be as long as the scale makes it.
-  void add(const Line& line) {
+  void add(const Line& line, Lengths& lengths) const {
     const double dx = line.b_paper.x - line.a_paper.x, dy = line.b_paper.y - line.a_paper.y;
     const double length = std::sqrt(dx * dx + dy * dy);
     const double steps = std::ceil(length * 2 / size_);
@@ -41,15 +49,15 @@ class Density {
     const double last = std::min(std::floor(to * steps), steps - 1);
     for (double i = std::max(std::ceil(from * steps) - 1, 0.0); i <= last; ++i) {
       const double t = (i + 0.5) / steps;
-      length_[index(line.a_paper.y + dy * t, rows_) * columns_ +
+      lengths[index(line.a_paper.y + dy * t, rows_) * columns_ +
               index(line.a_paper.x + dx * t, columns_)] += length / steps;
     }
   }
 
   /// Returns the density as a reader's eye meets it: per mm of paper, averaged over the lines.
-  [[nodiscard]] double along_lines() const {
+  [[nodiscard]] double along_lines(const Lengths& lengths) const {
     double sum = 0, squares = 0;
-    for (const double length : length_) {
+    for (const double length : lengths) {
       sum += length;
       squares += length * length;
     }
@@ -80,7 +88,6 @@ class Density {
   double width_mm_, height_mm_;
   double size_;
   std::size_t columns_, rows_;
-  std::vector<double> length_;
 };
 
 // Line groups of ISO 128-2, wide to narrow as 2 to 1, the widths rounded as the standard rounds
@@ -110,20 +117,24 @@ bool may_be_dashed(const Line& line) {
          line.kind != hlr::EdgeKind::smooth;
 }
 
-std::vector<PlaneSegment> flatten(const Ink& ink, const OnPaper& on_paper, double touch) {
+/// Lines that a worker takes at once where little is done for each.
+constexpr std::size_t kLinesPerRun = 16384;
+
+Result<std::vector<PlaneSegment>> flatten(const Ink& ink, const OnPaper& on_paper, double touch,
+                                          const parallel::Context& context) {
   const std::vector<Line>& lines = ink.lines;
-  std::vector<PlaneSegment> flat(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Line& line = lines[i];
-    PlaneSegment& f = flat[i];
-    f = on_paper(line);
-    f.reach = (width_of(line, ink) + touch) / 2;
-    if (is_hidden(line.state))
-      f.rank = OverlapRank::hidden;
-    else if (f.length() > 0)
-      f.rank = OverlapRank::visible;
-  }
-  return flat;
+  return parallel::transform(
+      context, {.name = "lines as segments", .n = lines.size(), .grain = kLinesPerRun},
+      [&](std::size_t i) {
+        const Line& line = lines[i];
+        PlaneSegment f = on_paper(line);
+        f.reach = (width_of(line, ink) + touch) / 2;
+        if (is_hidden(line.state))
+          f.rank = OverlapRank::hidden;
+        else if (f.length() > 0)
+          f.rank = OverlapRank::visible;
+        return f;
+      });
 }
 
 /// Chooses the intervals of hidden lines that are left beside visible lines and beside hidden ones
@@ -169,6 +180,37 @@ class HiddenChooser {
   const LineOverlaps& beside_visible_;
 };
 
+/// Leaves of the hidden lines the intervals that are kept, which are by line.
+Status keep_intervals(Ink& ink, std::span<const PlaneSegment> flat, const LineIntervals& kept,
+                      const PaperAxes& axes, const parallel::Context& context) {
+  const std::vector<Line>& lines = ink.lines;
+  const std::size_t runs = (lines.size() + kLinesPerRun - 1) / kLinesPerRun;
+  std::vector<std::uint64_t> left_out(runs);
+  auto left = parallel::collect<Line>(
+      context, {.name = "lines left on paper", .n = runs},
+      [&](std::size_t r, std::vector<Line>& out) {
+        const std::size_t first = r * kLinesPerRun;
+        const std::size_t last = std::min(lines.size(), first + kLinesPerRun);
+        auto next = std::ranges::lower_bound(kept, first, {}, &LineInterval::line);
+        for (std::size_t i = first; i < last; ++i) {
+          if (flat[i].rank != OverlapRank::hidden) {
+            out.push_back(lines[i]);
+            continue;
+          }
+          double length = 0;
+          for (; next != kept.end() && next->line == i; ++next) {
+            length += next->to - next->from;
+            out.push_back(part_of(lines[i], axes, next->from, next->to));
+          }
+          if (length < 1) ++left_out[r];
+        }
+      });
+  if (!left) return left.error();
+  ink.lines = std::move(*left);
+  for (const std::uint64_t lines_of_run : left_out) ink.left_out += lines_of_run;
+  return {};
+}
+
 Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
                 const parallel::Context& context) {
   const double thin = ink.pens.thin, scale = drawing.sheet.scale;
@@ -180,40 +222,42 @@ Status clean_up(Ink& ink, const NeutralDrawing& drawing, const PaperAxes& axes,
                           .covers_visible = false,
                           .hidden_covers = false,
                           .shortest = kDashGap * thin + touch};
-  const OnPaper on_paper(ink.lines, axes, scale);
-  const std::vector<PlaneSegment> flat = flatten(ink, on_paper, touch);
-  const auto overlaps = cut_overlaps(flat, along, context);
+  const Result<OnPaper> on_paper = OnPaper::of(ink.lines, axes, scale, context);
+  if (!on_paper) return on_paper.error();
+  const auto flat = flatten(ink, *on_paper, touch, context);
+  if (!flat) return flat.error();
+  const auto overlaps = cut_overlaps(*flat, along, context);
   if (!overlaps) return overlaps.error();
   const auto kept =
-      HiddenChooser(ink.lines, on_paper, flat, *overlaps)
+      HiddenChooser(ink.lines, *on_paper, *flat, *overlaps)
           .run({.overlap = along, .whole_below = kDash * thin + touch, .touch = touch}, context);
   if (!kept) return kept.error();
-  const std::vector<Line> lines = std::exchange(ink.lines, {});
-  ink.lines.reserve(lines.size());
-  std::size_t next = 0;
-  for (std::uint32_t i = 0; i < lines.size(); ++i) {
-    if (flat[i].rank != OverlapRank::hidden) {
-      ink.lines.push_back(lines[i]);
-      continue;
-    }
-    double left = 0;
-    for (; next < kept->size() && (*kept)[next].line == i; ++next) {
-      const LineInterval& s = (*kept)[next];
-      left += s.to - s.from;
-      ink.lines.push_back(part_of(lines[i], axes, s.from, s.to));
-    }
-    if (left < 1) ++ink.left_out;
-  }
-  return {};
+  return keep_intervals(ink, *flat, *kept, axes, context);
 }
 
 }  // namespace
 
-Pens choose_pens(const NeutralDrawing& drawing) {
-  Density density(drawing.sheet);
-  for (const Line& line : drawing.lines)
-    if (line.state == LineState::visible && line.kind != hlr::EdgeKind::hatch) density.add(line);
-  const double per_mm = density.along_lines();
+Result<Pens> choose_pens(const NeutralDrawing& drawing, const parallel::Context& context) {
+  // Each block of lines has squares of its own, so that there are few, and long ones.
+  constexpr std::size_t kMostBlocks = 32;
+  const std::size_t lines = drawing.lines.size();
+  const Density density(drawing.sheet);
+  const auto lengths = parallel::reduce(
+      context,
+      {.name = "density of lines",
+       .n = lines,
+       .grain = std::max(kLinesPerRun, (lines + kMostBlocks - 1) / kMostBlocks)},
+      density.none(),
+      [&](Density::Lengths& of_block, std::size_t i) {
+        const Line& line = drawing.lines[i];
+        if (line.state == LineState::visible && line.kind != hlr::EdgeKind::hatch)
+          density.add(line, of_block);
+      },
+      [](Density::Lengths& into, const Density::Lengths& of_block) {
+        std::ranges::transform(into, of_block, into.begin(), std::plus{});
+      });
+  if (!lengths) return lengths.error();
+  const double per_mm = density.along_lines(*lengths);
   const auto groups = std::span(kLineGroups).subspan(is_large(drawing.sheet) ? 0 : 1);
   for (const Pens& pens : groups)
     if (per_mm * pens.edge <= kMostBlackened) return pens;
@@ -223,12 +267,17 @@ Pens choose_pens(const NeutralDrawing& drawing) {
 Result<Ink> choose_ink(const NeutralDrawing& drawing, const InkOptions& options,
                        const parallel::Context& context) {
   Ink ink;
-  ink.pens = options.pens ? *options.pens : choose_pens(drawing);
+  if (options.pens) {
+    ink.pens = *options.pens;
+  } else {
+    const Result<Pens> pens = choose_pens(drawing, context);
+    if (!pens) return pens.error();
+    ink.pens = *pens;
+  }
   ink.split_hidden = options.split_hidden;
   ink.styles = options.styles;
-  constexpr std::size_t kGrain = 16384;
   auto lines = parallel::collect<Line>(
-      context, {.name = "lines on paper", .n = drawing.lines.size(), .grain = kGrain},
+      context, {.name = "lines on paper", .n = drawing.lines.size(), .grain = kLinesPerRun},
       [&](std::size_t i, std::vector<Line>& out) {
         const Line& line = drawing.lines[i];
         if (line.state == LineState::visible || (options.hidden && may_be_dashed(line)))

@@ -3,14 +3,17 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "drawing/collinear/collinear_overlaps.hpp"
 #include "drawing/layout/view_plane.hpp"
+#include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/ink.hpp"
 #include "strake/drawing/object_styles.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/reduce.hpp"
 
 namespace strake::drawing {
 
@@ -42,13 +45,23 @@ namespace strake::drawing {
 /// their ink nearly touches.
 class OnPaper {
  public:
-  OnPaper(const std::vector<Line>& lines, const PaperAxes& axes, double scale)
-      : axes_(axes), scale_(scale) {
+  /// The axes must outlive the result. Errors: cancelled, out of memory.
+  [[nodiscard]] static Result<OnPaper> of(const std::vector<Line>& lines, const PaperAxes& axes,
+                                          double scale, const parallel::Context& context) {
+    OnPaper made(axes, scale);
+    if (lines.empty()) return made;
     // An origin near the lines that does not depend on their order.
-    if (!lines.empty()) origin_ = lines.front().a_mm;
-    for (const Line& l : lines)
-      origin_ = {std::min(origin_.x, l.a_mm.x), std::min(origin_.y, l.a_mm.y),
-                 std::min(origin_.z, l.a_mm.z)};
+    const auto lowest = [](geometry::Vec3d& into, const geometry::Vec3d& p) {
+      into = {std::min(into.x, p.x), std::min(into.y, p.y), std::min(into.z, p.z)};
+    };
+    constexpr std::size_t kGrain = 16384;
+    const auto origin = parallel::reduce(
+        context, {.name = "origin of lines", .n = lines.size(), .grain = kGrain},
+        lines.front().a_mm,
+        [&](geometry::Vec3d& least, std::size_t i) { lowest(least, lines[i].a_mm); }, lowest);
+    if (!origin) return origin.error();
+    made.origin_ = *origin;
+    return made;
   }
 
   [[nodiscard]] PlaneSegment operator()(const Line& line) const {
@@ -67,6 +80,8 @@ class OnPaper {
   }
 
  private:
+  OnPaper(const PaperAxes& axes, double scale) : axes_(axes), scale_(scale) {}
+
   /// Returns an unrounded point; in perspective, where nothing looks equal, `rounded`.
   [[nodiscard]] PaperPoint at(const geometry::Vec3d& mm, const PaperPoint& rounded) const {
     if (axes_.eye) return rounded;

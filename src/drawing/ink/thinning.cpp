@@ -332,8 +332,9 @@ Status thin_lines(Ink& ink, const NeutralDrawing& drawing, const ThinOptions& op
           styled ? ink.styles->widening(ink.styles->number_of(object), ink.pens.edge) : 1;
       return ThinRule(thinned.spacing_mm * wider, touch);
     };
-    const OnPaper on_paper(ink.lines, *axes, drawing.sheet.scale);
-    const auto kept = thinned_intervals(ink.lines, on_paper, rule_of, context);
+    const Result<OnPaper> on_paper = OnPaper::of(ink.lines, *axes, drawing.sheet.scale, context);
+    if (!on_paper) return on_paper.error();
+    const auto kept = thinned_intervals(ink.lines, *on_paper, rule_of, context);
     if (!kept) return kept.error();
     std::vector<Line> left = with_intervals(ink.lines, *kept, *axes, thinned);
     if (thinned.lines > 0) {

@@ -20,6 +20,7 @@
 #include "drawing/strokes/dash_runs.hpp"
 #include "drawing/strokes/dashed_paths.hpp"
 #include "drawing/strokes/strokes.hpp"
+#include "strake/parallel/find.hpp"
 
 namespace strake::drawing {
 
@@ -165,13 +166,19 @@ class LayerMaker {
   LayerMaker(PdfDocument& document, std::optional<PdfLayerId> parent, const Ink& ink)
       : document_(document), parent_(parent), ink_(ink) {}
 
-  std::vector<LayerContents> make(const PdfPens& pens) {
-    for (std::size_t c = 0; c < kOcclusions.size(); ++c)
-      if (std::ranges::any_of(
-              ink_.lines, [&](const Line& line) { return line.state == kOcclusions.at(c).state; }))
-        causes_.at(c) = document_.add_layer(kOcclusions.at(c).label, parent_);
-    for (const Layer& layer : kLayers) {
-      const std::vector<const Line*> lines = lines_of(layer, ink_);
+  Result<std::vector<LayerContents>> make(const PdfPens& pens, const parallel::Context& context) {
+    const Result<LinesOfLayers> lines_of = lines_of_layers(ink_, context);
+    if (!lines_of) return lines_of.error();
+    for (std::size_t c = 0; c < kOcclusions.size(); ++c) {
+      const auto found = parallel::find_first(
+          context, {.name = "causes of hiding", .n = ink_.lines.size(), .grain = 16384},
+          [&](std::size_t i) { return ink_.lines[i].state == kOcclusions.at(c).state; });
+      if (!found) return found.error();
+      if (*found) causes_.at(c) = document_.add_layer(kOcclusions.at(c).label, parent_);
+    }
+    for (std::size_t l = 0; l < kLayers.size(); ++l) {
+      const Layer& layer = kLayers.at(l);
+      const std::span<const Line* const> lines = (*lines_of)[l];
       if (lines.empty()) continue;
       const PdfLayerId id = document_.add_layer(layer.label, parent_);
       for (const LinesOfStyle& part : by_style(lines, ink_))
@@ -318,8 +325,10 @@ std::string pdf_pen(const LinePen& pen) {
 Status add_pdf_view(PdfDocument& document, std::optional<PdfLayerId> parent,
                     const PaperCurves& curves, const Ink& ink, const model::Model& model,
                     const PdfPens& pens, const parallel::Context& context) {
-  const std::vector<LayerContents> layers = LayerMaker(document, parent, ink).make(pens);
-  const std::vector<Stream> streams = streams_of(layers);
+  const Result<std::vector<LayerContents>> layers =
+      LayerMaker(document, parent, ink).make(pens, context);
+  if (!layers) return layers.error();
+  const std::vector<Stream> streams = streams_of(*layers);
   std::size_t lines = 0;
   for (const Stream& stream : streams) lines += stream.lines.size();
   const parallel::ProgressPhase phase(context.progress, "PDF", lines);

@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "drawing/layout/duplicates.hpp"
+#include "strake/core/result.hpp"
 #include "strake/drawing/drawing.hpp"
 #include "strake/drawing/ink.hpp"
 #include "strake/hlr/hlr.hpp"
+#include "strake/parallel/context.hpp"
+#include "strake/parallel/deal.hpp"
 
 namespace strake::drawing {
 
@@ -49,12 +51,31 @@ inline constexpr std::array<Layer, 18> kLayers = {{
   return layer.hidden ? is_hidden(line.state) : line.state == LineState::visible;
 }
 
-/// Returns the lines of a layer, in the order of the drawing.
-[[nodiscard]] inline std::vector<const Line*> lines_of(const Layer& layer, const Ink& ink) {
-  std::vector<const Line*> lines;
-  for (const Line& line : ink.lines)
-    if (belongs(line, layer)) lines.push_back(&line);
-  return lines;
+/// The lines of a view by layer, in the order of kLayers.
+using LinesOfLayers = parallel::Dealt<const Line*, kLayers.size()>;
+
+/// Returns the lines of all layers: lines are a hundred bytes each, and there are many layers, so
+/// that no layer goes through all of them by itself. The ink must outlive the result. Errors:
+/// cancelled, out of memory.
+[[nodiscard]] inline Result<LinesOfLayers> lines_of_layers(const Ink& ink,
+                                                           const parallel::Context& context) {
+  constexpr std::size_t kKinds = static_cast<std::size_t>(hlr::kLastEdgeKind) + 1;
+  // By kind: the layer of visible lines, and that of hidden ones; kLayers.size() where there is
+  // none.
+  std::array<std::array<std::size_t, 2>, kKinds> layer_of{};
+  for (auto& of_kind : layer_of) of_kind.fill(kLayers.size());
+  for (std::size_t layer = 0; layer < kLayers.size(); ++layer)
+    layer_of.at(static_cast<std::size_t>(kLayers.at(layer).kind))
+        .at(kLayers.at(layer).hidden ? 1 : 0) = layer;
+  return parallel::deal<const Line*, kLayers.size()>(
+      context, "lines of layers", ink.lines.size(),
+      [&](std::size_t i) {
+        const Line& line = ink.lines[i];
+        const bool hidden = is_hidden(line.state);
+        if (!hidden && line.state != LineState::visible) return kLayers.size();
+        return layer_of[static_cast<std::size_t>(line.kind)][hidden ? 1 : 0];
+      },
+      [&](std::size_t i) { return &ink.lines[i]; });
 }
 
 /// Calls `f` with the lines of each object, which stand side by side in the order of the drawing.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <new>
 #include <span>
@@ -26,6 +27,7 @@
 #include "drawing/svg/svg_styles.hpp"
 #include "strake/drawing/write.hpp"
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/reduce.hpp"
 
 namespace strake::drawing {
 
@@ -65,23 +67,32 @@ void write_object(BufferedWriter& out, const PaperCurves& curves, const model::M
   out << "</g>\n";
 }
 
+/// Lines that a worker takes at once where little is done for each.
+constexpr std::size_t kLinesOfSvgRun = 16384;
+
 Status write_objects(BufferedWriter& out, const PaperCurves& curves, const model::Model& model,
                      std::span<const Line* const> lines, std::span<const double> dash_mm,
                      const parallel::Context& context) {
-  std::vector<std::span<const Line* const>> objects;
-  for_each_object(lines,
-                  [&](std::span<const Line* const> of_object) { objects.push_back(of_object); });
+  const auto starts = parallel::collect<std::size_t>(
+      context, {.name = "objects of a layer", .n = lines.size(), .grain = kLinesOfSvgRun},
+      [&](std::size_t i, std::vector<std::size_t>& found) {
+        if (i == 0 || lines[i]->object != lines[i - 1]->object) found.push_back(i);
+      });
+  if (!starts) return starts.error();
+  const std::vector<std::size_t>& start = *starts;
   // Only shares the work out, and bounds what is made before it is written.
   constexpr std::size_t kObjectsPerPiece = 64;
   return make_in_order(
-      "objects as SVG", (objects.size() + kObjectsPerPiece - 1) / kObjectsPerPiece,
+      "objects as SVG", (start.size() + kObjectsPerPiece - 1) / kObjectsPerPiece,
       [&](std::size_t piece) {
         std::string text;
         const auto gather = [&](std::string_view more) { text += more; };
         BufferedWriter own(gather);
-        const std::size_t end = std::min(objects.size(), (piece + 1) * kObjectsPerPiece);
-        for (std::size_t o = piece * kObjectsPerPiece; o < end; ++o)
-          write_object(own, curves, model, objects[o], dash_mm);
+        const std::size_t end = std::min(start.size(), (piece + 1) * kObjectsPerPiece);
+        for (std::size_t o = piece * kObjectsPerPiece; o < end; ++o) {
+          const std::size_t next = o + 1 < start.size() ? start[o + 1] : lines.size();
+          write_object(own, curves, model, lines.subspan(start[o], next - start[o]), dash_mm);
+        }
         own.flush();
         return text;
       },
@@ -105,17 +116,6 @@ void begin_style(BufferedWriter& out, const ObjectStyles& styles, std::size_t nu
               fmt::format("{}-style-{}", outer_id, number), fmt::format("style-{}", number), label);
 }
 
-/// Returns what lines_of() does: there are many layers, and each goes through all lines.
-Result<std::vector<const Line*>> find_lines_of(const Layer& layer, const Ink& ink,
-                                               const parallel::Context& context) {
-  constexpr std::size_t kGrain = 16384;
-  return parallel::collect<const Line*>(
-      context, {.name = "lines of a layer", .n = ink.lines.size(), .grain = kGrain},
-      [&](std::size_t i, std::vector<const Line*>& out) {
-        if (belongs(ink.lines[i], layer)) out.push_back(&ink.lines[i]);
-      });
-}
-
 /// Writes the layers of a view.
 class LayerWriter {
  public:
@@ -123,10 +123,7 @@ class LayerWriter {
               const model::Model& model, PenOfLayer pen_of, const parallel::Context& context)
       : out_(out), curves_(curves), ink_(ink), model_(model), pen_of_(pen_of), context_(context) {}
 
-  Status write(const Layer& layer, std::string_view prefix) {
-    const auto found = find_lines_of(layer, ink_, context_);
-    if (!found) return found.error();
-    const std::vector<const Line*>& lines = *found;
+  Status write(const Layer& layer, std::span<const Line* const> lines, std::string_view prefix) {
     if (lines.empty()) return {};
     const std::string_view state = layer.hidden ? "hidden" : "visible";
     const std::string_view kind = kind_name(layer.kind);
@@ -153,7 +150,7 @@ class LayerWriter {
     std::string label, id;
   };
 
-  Status write_state(const Layer& layer, const std::vector<const Line*>& lines, LineState by,
+  Status write_state(const Layer& layer, std::span<const Line* const> lines, LineState by,
                      const Names& names) {
     std::vector<const Line*> some;
     std::ranges::copy_if(lines, std::back_inserter(some),
@@ -167,7 +164,7 @@ class LayerWriter {
     return {};
   }
 
-  Status write_styles(const Layer& layer, const std::vector<const Line*>& lines, LineState state,
+  Status write_styles(const Layer& layer, std::span<const Line* const> lines, LineState state,
                       const Names& names) {
     for (const LinesOfStyle& part : by_style(lines, ink_)) {
       const LinePen pen = pen_of_(layer, state);
@@ -217,9 +214,12 @@ void write_far_objects(BufferedWriter& out, const NeutralDrawing& drawing,
 Status write_layers(BufferedWriter& out, const PaperCurves& curves, const Ink& ink,
                     const model::Model& model, std::string_view prefix, PenOfLayer pen_of,
                     const parallel::Context& context) {
+  const Result<LinesOfLayers> lines = lines_of_layers(ink, context);
+  if (!lines) return lines.error();
   LayerWriter writer(out, curves, ink, model, pen_of, context);
-  for (const Layer& layer : kLayers)
-    if (Status status = writer.write(layer, prefix); !status) return status;
+  for (std::size_t layer = 0; layer < kLayers.size(); ++layer)
+    if (Status status = writer.write(kLayers.at(layer), (*lines)[layer], prefix); !status)
+      return status;
   return {};
 }
 
@@ -255,7 +255,20 @@ void write_centre_lines(BufferedWriter& out, const Ink& ink, std::string_view pr
 
 namespace {
 
-void write_style(BufferedWriter& out, const Ink& ink, bool sections, PenOfLayer pen_of) {
+/// The kinds of lines that there are, a bit for each.
+using Kinds = std::uint32_t;
+
+constexpr Kinds bit_of(hlr::EdgeKind kind) { return Kinds{1} << static_cast<unsigned>(kind); }
+
+Result<Kinds> kinds_of(std::span<const Line> lines, const parallel::Context& context) {
+  return parallel::reduce(
+      context, {.name = "kinds of lines", .n = lines.size(), .grain = kLinesOfSvgRun}, Kinds{0},
+      [&](Kinds& kinds, std::size_t i) { kinds |= bit_of(lines[i].kind); },
+      [](Kinds& into, Kinds kinds) { into |= kinds; });
+}
+
+void write_style(BufferedWriter& out, const Ink& ink, Kinds kinds, bool sections,
+                 PenOfLayer pen_of) {
   const Pens& pens = ink.pens;
   const std::vector<double> dashes = pen_dashes(kHiddenDashes, pens.thin);
   // A dash of 12 line widths and a gap of 3; long dash, gap, dot for centre lines (ISO 128-20).
@@ -282,9 +295,7 @@ void write_style(BufferedWriter& out, const Ink& ink, bool sections, PenOfLayer 
     out << fmt::format(".centre path {{ stroke-width: {}; stroke-linecap: butt; }}\n", pens.thin);
   if (!ink.break_lines.empty())
     out << fmt::format(".break path {{ stroke-width: {}; }}\n", pens.thin);
-  const auto has = [&](hlr::EdgeKind kind) {
-    return std::ranges::any_of(ink.lines, [&](const Line& line) { return line.kind == kind; });
-  };
+  const auto has = [&](hlr::EdgeKind kind) { return (kinds & bit_of(kind)) != 0; };
   if (has(hlr::EdgeKind::single_line))
     out << fmt::format(".visible.single_line path {{ stroke-width: {}; }}\n", pens.outline);
   if (has(hlr::EdgeKind::smooth))
@@ -362,7 +373,9 @@ Status write_svg(const NeutralDrawing& drawing, const Ink& ink, const model::Mod
   const auto pen_of = [&](const Layer& layer, LineState /*state*/) {
     return usual_pen(layer, ink.pens);
   };
-  write_style(out, ink, !drawing.view.sections.empty(), pen_of);
+  const Result<Kinds> kinds = kinds_of(ink.lines, context);
+  if (!kinds) return kinds.error();
+  write_style(out, ink, *kinds, !drawing.view.sections.empty(), pen_of);
   out << fmt::format("<rect class=\"sheet\" width=\"{}\" height=\"{}\"/>\n",
                      shortest(drawing.sheet.width_mm), shortest(drawing.sheet.height_mm));
   out << "<g class=\"view\" id=\"view\" data-view=\"" << xml_escaped(drawing.view_name)

@@ -169,7 +169,9 @@ Result<WholeExtent> whole_extent(const model::Scene& scene, const std::vector<bo
   const auto seen_by = tessellation_of(view, options);
   if (!seen_by) return seen_by.error();
   WholeExtent whole;
-  whole.tessellation = plan_view_tessellation(scene, drawn, *seen_by);
+  auto plan = plan_view_tessellation(scene, drawn, *seen_by, context);
+  if (!plan) return plan.error();
+  whole.tessellation = std::move(*plan);
   const auto shapes = shape_extents(scene, context);
   if (!shapes) return shapes.error();
   auto boxes = object_extents(scene, drawn, view, *shapes, context);

@@ -237,7 +237,8 @@ Result<Signatures> signatures(const model::Scene& scene, const std::vector<bool>
   add(hasher, view);
   add(hasher, options);
   result.view = hasher.value();
-  const model::ViewTessellation plan = plan_view_tessellation(scene, drawn, *seen_by);
+  const auto plan = plan_view_tessellation(scene, drawn, *seen_by, context);
+  if (!plan) return plan.error();
   const auto extents = shape_extents(scene, context);
   if (!extents) return extents.error();
   auto boxes = object_extents(scene, drawn, view, *extents, context);
@@ -245,7 +246,7 @@ Result<Signatures> signatures(const model::Scene& scene, const std::vector<bool>
   result.boxes = std::move(*boxes);
   const auto shapes = hash_shapes(scene, context);
   if (!shapes) return shapes.error();
-  const ObjectHasher all(scene, view, options, *shapes, plan);
+  const ObjectHasher all(scene, view, options, *shapes, *plan);
   auto objects = parallel::transform_with(
       context,
       {.name = "signatures: objects", .n = scene.model->objects.size(), .grain = kObjectsPerBlock},

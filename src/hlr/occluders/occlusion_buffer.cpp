@@ -7,6 +7,8 @@
 
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/order.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
@@ -394,10 +396,16 @@ Result<OcclusionBuffer> OcclusionBuffer::of(std::span<const BodyInstance> placed
                                             const ViewProjection& projection, std::int64_t contact,
                                             std::size_t tiles, const parallel::Context& context) {
   OcclusionBuffer occlusion_buffer;
-  ViewBox box;
-  for (const BodyInstance& p : placed)
-    if (p.shape != nullptr && p.opaque && !p.shape->box.empty())
-      box.include(p.shape->box.moved(p.at));
+  const auto extent = parallel::reduce(
+      context, {.name = "hidden lines: extent", .n = placed.size(), .grain = 1024}, ViewBox{},
+      [&](ViewBox& of_block, std::size_t b) {
+        const BodyInstance& p = placed[b];
+        if (p.shape != nullptr && p.opaque && !p.shape->box.empty())
+          of_block.include(p.shape->box.moved(p.at));
+      },
+      [](ViewBox& into, const ViewBox& of_block) { into.include(of_block); });
+  if (!extent) return extent.error();
+  const ViewBox& box = *extent;
   if (box.empty() || box.lo.u == box.hi.u || box.lo.v == box.hi.v) return occlusion_buffer;
   const auto a_side = static_cast<std::size_t>(std::sqrt(static_cast<double>(tiles)));
   occlusion_buffer.columns_ = occlusion_buffer.rows_ =
@@ -434,8 +442,13 @@ Result<OcclusionBuffer> OcclusionBuffer::of(std::span<const BodyInstance> placed
                                      std::min(rows, (band + 1) * kListedRows));
       });
   if (!listed) return listed.error();
+  // Most faces lie where the model is.
+  const auto order = parallel::longest_first(bands_of(rows, kPaintedRows), [&](std::size_t item) {
+    return (*listed)[item * kPaintedRows / kListedRows].size();
+  });
   const Status painted = parallel::for_each(
-      context, {.name = "hidden lines: covered tiles", .n = bands_of(rows, kPaintedRows)},
+      context,
+      {.name = "hidden lines: covered tiles", .n = bands_of(rows, kPaintedRows), .order = order},
       [&](std::size_t item) {
         const std::size_t first = item * kPaintedRows;
         Rows some(occlusion_buffer, first, std::min(rows, first + kPaintedRows));

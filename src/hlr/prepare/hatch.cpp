@@ -18,6 +18,8 @@
 #include "strake/geometry/grid.hpp"
 #include "strake/geometry/wide_int.hpp"
 #include "strake/parallel/collect.hpp"
+#include "strake/parallel/distinct.hpp"
+#include "strake/parallel/reduce.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -27,53 +29,103 @@ using geometry::BoxItem;
 constexpr std::array<double, 6> kAngles{45, 135, 30, 120, 60, 150};
 /// The spacings to choose from, in usual spacings.
 constexpr std::array<double, 4> kSpacings{1, 1.5, 0.75, 2};
-constexpr std::uint32_t kNotCut = 0xffffffffU;
+
+// Only shares the work out.
+constexpr std::size_t kHatchedPerBlock = 1024;
 
 /// Returns the segments of outlines that are hatched, as boxes with their object.
-std::vector<BoxItem> outlines(const model::Scene& scene, const SectionedShapes& seen,
-                              const std::vector<std::int64_t>& contact) {
-  std::vector<BoxItem> items;
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    const ShapeCut* cut = seen.all[seen.of[b]].cut.get();
-    if (cut == nullptr) continue;
-    const model::GridBody& body = scene.bodies[b];
-    for (const auto& rim : cut->rims)
-      for (const auto& [p, q] : rim) {
-        geometry::Box3l box = geometry::empty_box<std::int64_t>();
-        box.include(p + body.origin);
-        box.include(q + body.origin);
-        items.push_back({.box = box.inflated(contact[b]), .owner = model::index(body.object)});
-      }
-  }
-  return items;
+Result<std::vector<BoxItem>> outlines(const model::Scene& scene, const SectionedShapes& seen,
+                                      const std::vector<std::int64_t>& contact,
+                                      const parallel::Context& context) {
+  return parallel::collect<BoxItem>(
+      context, {.name = "hatch: outlines", .n = scene.bodies.size(), .grain = kHatchedPerBlock},
+      [&](std::size_t b, std::vector<BoxItem>& items) {
+        const ShapeCut* cut = seen.all[seen.of[b]].cut.get();
+        if (cut == nullptr) return;
+        const model::GridBody& body = scene.bodies[b];
+        for (const auto& rim : cut->rims)
+          for (const auto& [p, q] : rim) {
+            geometry::Box3l box = geometry::empty_box<std::int64_t>();
+            box.include(p + body.origin);
+            box.include(q + body.origin);
+            items.push_back({.box = box.inflated(contact[b]), .owner = model::index(body.object)});
+          }
+      });
 }
 
-/// Returns, by object, its colour's number among the colours that are cut.
-std::vector<std::uint32_t> colours(const model::Scene& scene, const SectionedShapes& seen) {
-  std::vector<std::uint32_t> of(scene.model->objects.size(), kNotCut);
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    std::uint32_t& colour = of[model::index(scene.bodies[b].object)];
-    if (colour != kNotCut || seen.all[seen.of[b]].planes.empty()) continue;
-    const model::Color& c = scene.model->bodies[scene.bodies[b].body].color;
-    colour = (std::uint32_t{c.red} << 16U) | (std::uint32_t{c.green} << 8U) | c.blue;
-  }
-  std::vector<std::uint32_t> known = of;
+/// An object that is cut, and the colour of its first body that is.
+struct CutObject {
+  std::uint32_t object = 0, colour = 0;
+};
+
+Result<std::vector<CutObject>> cut_objects(const model::Scene& scene, const SectionedShapes& seen,
+                                           const parallel::Context& context) {
+  return parallel::collect<CutObject>(
+      context,
+      {.name = "hatch: cut objects",
+       .n = scene.first_body.empty() ? 0 : scene.first_body.size() - 1,
+       .grain = kHatchedPerBlock},
+      [&](std::size_t o, std::vector<CutObject>& out) {
+        for (std::uint32_t b = scene.first_body[o]; b < scene.first_body[o + 1]; ++b) {
+          if (seen.all[seen.of[b]].planes.empty()) continue;
+          const model::Color& c = scene.model->bodies[scene.bodies[b].body].color;
+          out.push_back({static_cast<std::uint32_t>(o),
+                         (std::uint32_t{c.red} << 16U) | (std::uint32_t{c.green} << 8U) | c.blue});
+          return;
+        }
+      });
+}
+
+/// Puts, in the place of each colour, its number among those of all.
+void number_colours(std::vector<CutObject>& cut) {
+  std::vector<std::uint32_t> known;
+  for (const CutObject& object : cut) known.push_back(object.colour);
   std::ranges::sort(known);
   const auto repeated = std::ranges::unique(known);
   known.erase(repeated.begin(), repeated.end());
-  for (std::uint32_t& colour : of)
-    if (colour != kNotCut)
-      colour = static_cast<std::uint32_t>(std::ranges::lower_bound(known, colour) - known.begin());
-  return of;
+  for (CutObject& object : cut)
+    object.colour =
+        static_cast<std::uint32_t>(std::ranges::lower_bound(known, object.colour) - known.begin());
+}
+
+/// An object, and one whose outlines are near its own.
+using Neighbours = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+/// Returns all neighbours by object, both ways, each once.
+Result<Neighbours> neighbours_of(const std::vector<BoxItem>& items,
+                                 const std::vector<geometry::IndexPair>& pairs,
+                                 const parallel::Context& context) {
+  const auto owners = [&](std::size_t i) {
+    return std::pair(items[pairs[i].first].owner, items[pairs[i].second].owner);
+  };
+  // Two outlines are near each other with many of their segments.
+  const auto kinds = parallel::distinct(
+      context, "hatch: neighbours", pairs.size(),
+      [&](std::size_t i) {
+        return parallel::mixed(parallel::mixed(0, owners(i).first), owners(i).second);
+      },
+      [&](std::size_t i, std::size_t j) { return owners(i) == owners(j); });
+  if (!kinds) return kinds.error();
+  Neighbours both;
+  both.reserve(2 * kinds->first.size());
+  for (const std::uint32_t i : kinds->first) {
+    const auto [x, y] = owners(i);
+    both.emplace_back(x, y);
+    both.emplace_back(y, x);
+  }
+  std::ranges::sort(both);
+  const auto repeated = std::ranges::unique(both);
+  both.erase(repeated.begin(), repeated.end());
+  return both;
 }
 
 /// Returns the first of the usual angles that the fewest neighbours have.
-double rarest_angle(const std::vector<std::uint32_t>& neighbours,
+double rarest_angle(std::span<const Neighbours::value_type> neighbours,
                     const std::vector<Hatch>& hatches) {
   std::array<std::size_t, kAngles.size()> had{};
-  for (const std::uint32_t n : neighbours)
+  for (const auto& [object, other] : neighbours)
     for (std::size_t i = 0; i < kAngles.size(); ++i)
-      if (hatches[n].angle_deg == kAngles[i]) ++had[i];
+      if (hatches[other].angle_deg == kAngles[i]) ++had[i];
   return kAngles[static_cast<std::size_t>(std::ranges::min_element(had) - had.begin())];
 }
 
@@ -85,25 +137,23 @@ Result<std::vector<Hatch>> choose_hatches(const model::Scene& scene, const Secti
                                           const parallel::Context& context) {
   std::vector<Hatch> hatches = given;
   hatches.resize(scene.model->objects.size());
-  const std::vector<BoxItem> items = outlines(scene, seen, contact);
-  const auto tree = geometry::SceneBvh::build(items, context);
+  const auto items = outlines(scene, seen, contact, context);
+  if (!items) return items.error();
+  const auto tree = geometry::SceneBvh::build(*items, context);
   if (!tree) return tree.error();
   const auto pairs = geometry::overlapping_box_pairs(*tree, context);
   if (!pairs) return pairs.error();
-  std::vector<std::vector<std::uint32_t>> neighbours(hatches.size());
-  for (const auto& [first, second] : *pairs) {
-    neighbours[items[first].owner].push_back(items[second].owner);
-    neighbours[items[second].owner].push_back(items[first].owner);
-  }
-  const std::vector<std::uint32_t> colour = colours(scene, seen);
-  for (std::uint32_t o = 0; o < hatches.size(); ++o) {
-    if (colour[o] == kNotCut) continue;
-    std::ranges::sort(neighbours[o]);
-    const auto repeated = std::ranges::unique(neighbours[o]);
-    neighbours[o].erase(repeated.begin(), repeated.end());
-    if (hatches[o].angle_deg < 0) hatches[o].angle_deg = rarest_angle(neighbours[o], hatches);
+  const auto neighbours = neighbours_of(*items, *pairs, context);
+  if (!neighbours) return neighbours.error();
+  auto cut = cut_objects(scene, seen, context);
+  if (!cut) return cut.error();
+  number_colours(*cut);
+  for (const auto& [o, colour] : *cut) {
+    const auto own = std::ranges::equal_range(*neighbours, o, {}, &Neighbours::value_type::first);
+    if (hatches[o].angle_deg < 0)
+      hatches[o].angle_deg = rarest_angle({own.begin(), own.end()}, hatches);
     if (hatches[o].spacing_mm < 0)
-      hatches[o].spacing_mm = usual_mm * kSpacings[colour[o] % kSpacings.size()];
+      hatches[o].spacing_mm = usual_mm * kSpacings[colour % kSpacings.size()];
   }
   return hatches;
 }
@@ -222,17 +272,23 @@ constexpr double kFinestShare = 20000;
 constexpr double kFinestMm = 0.01;
 
 /// Returns the largest side of what the sections leave, mm.
-double largest_side(const ViewJob& job) {
+Result<double> largest_side(const ViewJob& job, const parallel::Context& context) {
   const model::Scene& scene = *job.scene;
-  Box3l box = geometry::empty_box<std::int64_t>();
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    const model::GridShape& shape = scene.shapes[scene.bodies[b].grid_shape];
-    if (!job.drawn[model::index(scene.bodies[b].object)] || job.sectioned_shape_of(b).away)
-      continue;
-    if (!shape.box.empty()) box.include(scene.bodies[b].box(shape));
-  }
+  const auto left = parallel::reduce(
+      context, {.name = "hatch: extent", .n = scene.bodies.size(), .grain = kHatchedPerBlock},
+      geometry::empty_box<std::int64_t>(),
+      [&](Box3l& box, std::size_t index) {
+        const auto b = static_cast<std::uint32_t>(index);
+        const model::GridShape& shape = scene.shapes[scene.bodies[b].grid_shape];
+        if (!job.drawn[model::index(scene.bodies[b].object)] || job.sectioned_shape_of(b).away)
+          return;
+        if (!shape.box.empty()) box.include(scene.bodies[b].box(shape));
+      },
+      [](Box3l& into, const Box3l& box) { into.include(box); });
+  if (!left) return left.error();
+  Box3l box = *left;
   if (job.view.limits) box = box.common(*job.view.limits);
-  if (box.empty()) return 0;
+  if (box.empty()) return 0.0;
   const Vec3l size = box.hi - box.lo;
   return static_cast<double>(std::max({size.x, size.y, size.z})) * geometry::kMmPerGrid;
 }
@@ -294,7 +350,9 @@ void add_body(const ViewJob& job, std::span<const SectionPlane> planes, std::uin
 Result<std::vector<Hatch>> choose_hatches(const ViewJob& job, std::span<const SectionPlane> planes,
                                           const parallel::Context& context) {
   if (planes.empty() || job.options.hatch_spacing_mm == 0) return std::vector<Hatch>{};
-  const double side_mm = largest_side(job);
+  const Result<double> side = largest_side(job, context);
+  if (!side) return side.error();
+  const double side_mm = *side;
   if (side_mm == 0) return std::vector<Hatch>{};
   const double usual_mm = job.options.hatch_spacing_mm < 0 ? usual_number(side_mm / kUsualShare)
                                                            : job.options.hatch_spacing_mm;

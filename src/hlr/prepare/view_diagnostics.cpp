@@ -9,9 +9,11 @@
 #include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "strake/geometry/grid.hpp"
 #include "strake/geometry/inside.hpp"
+#include "strake/parallel/collect.hpp"
 
 namespace strake::hlr {
 
@@ -55,21 +57,35 @@ void report_misses(const model::Scene& scene, const std::vector<bool>& drawn,
 
 }  // namespace
 
-Diagnostics report_sections(const model::Scene& scene, const std::vector<bool>& drawn,
-                            const SectionedShapes& seen, std::span<const SectionPlane> planes) {
+Result<Diagnostics> report_sections(const model::Scene& scene, const std::vector<bool>& drawn,
+                                    const SectionedShapes& seen,
+                                    std::span<const SectionPlane> planes,
+                                    const parallel::Context& context) {
   Diagnostics diagnostics;
   report_misses(scene, drawn, planes, diagnostics);
-  if (planes.empty()) return diagnostics;
-  for (std::uint32_t o = 0; o + 1 < scene.first_body.size(); ++o) {
+  if (planes.empty() || scene.first_body.empty()) return diagnostics;
+  struct NotClosed {
+    std::uint32_t object = 0;
     std::uint64_t open_ends = 0, not_filled = 0;
-    for (std::uint32_t b = scene.first_body[o]; b < scene.first_body[o + 1]; ++b)
-      if (const ShapeCut* cut = seen.all[seen.of[b]].cut.get()) {
-        open_ends += cut->open_ends;
-        not_filled += cut->not_filled;
-      }
-    const auto add = [&](std::string_view code, const std::string& message) {
+  };
+  // Only shares the work out.
+  constexpr std::size_t kGrain = 1024;
+  const auto not_closed = parallel::collect<NotClosed>(
+      context, {.name = "view: open sections", .n = scene.first_body.size() - 1, .grain = kGrain},
+      [&](std::size_t o, std::vector<NotClosed>& out) {
+        NotClosed object{.object = static_cast<std::uint32_t>(o)};
+        for (std::uint32_t b = scene.first_body[o]; b < scene.first_body[o + 1]; ++b)
+          if (const ShapeCut* cut = seen.all[seen.of[b]].cut.get()) {
+            object.open_ends += cut->open_ends;
+            object.not_filled += cut->not_filled;
+          }
+        if (object.open_ends > 0 || object.not_filled > 0) out.push_back(object);
+      });
+  if (!not_closed) return not_closed.error();
+  for (const auto& [o, open_ends, not_filled] : *not_closed) {
+    const auto add = [&, object = o](std::string_view code, const std::string& message) {
       diagnostics.add(Severity::warning, code, message,
-                      object_text(*scene.model, model::ObjectId{o}));
+                      object_text(*scene.model, model::ObjectId{object}));
     };
     if (open_ends > 0)
       add("section-open",
@@ -101,12 +117,24 @@ PointSide side_of(const ViewJob& job, std::uint32_t body) {
 
 }  // namespace
 
-Diagnostics report_eye(const ViewJob& job) {
+Result<Diagnostics> report_eye(const ViewJob& job, const parallel::Context& context) {
   Diagnostics diagnostics;
   if (!job.view.perspective) return diagnostics;
-  for (std::uint32_t b = 0; b < job.scene->bodies.size(); ++b) {
-    const PointSide side = job.opaque[b] ? side_of(job, b) : PointSide::outside;
-    if (side == PointSide::outside) continue;
+  struct Met {
+    std::uint32_t body = 0;
+    PointSide side = PointSide::outside;
+  };
+  // Only shares the work out.
+  constexpr std::size_t kPerBlock = 1024;
+  const auto met = parallel::collect<Met>(
+      context, {.name = "view: eye", .n = job.scene->bodies.size(), .grain = kPerBlock},
+      [&](std::size_t index, std::vector<Met>& out) {
+        const auto b = static_cast<std::uint32_t>(index);
+        const PointSide side = job.opaque[b] ? side_of(job, b) : PointSide::outside;
+        if (side != PointSide::outside) out.push_back({b, side});
+      });
+  if (!met) return met.error();
+  for (const auto& [b, side] : *met) {
     std::string where = object_text(*job.scene->model, job.scene->bodies[b].object);
     if (side == PointSide::inside)
       diagnostics.add(Severity::warning, "eye-in-solid",

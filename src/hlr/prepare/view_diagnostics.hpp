@@ -19,14 +19,16 @@ namespace strake::hlr {
 [[nodiscard]] std::string object_text(const model::Model& model, model::ObjectId id);
 
 /// Reports section planes with all that is drawn on one side, and objects that were cut but not
-/// closed.
-[[nodiscard]] Diagnostics report_sections(const model::Scene& scene, const std::vector<bool>& drawn,
-                                          const SectionedShapes& seen,
-                                          std::span<const SectionPlane> planes);
+/// closed. Errors: cancelled, out of memory.
+[[nodiscard]] Result<Diagnostics> report_sections(const model::Scene& scene,
+                                                  const std::vector<bool>& drawn,
+                                                  const SectionedShapes& seen,
+                                                  std::span<const SectionPlane> planes,
+                                                  const parallel::Context& context);
 
 /// Reports the objects in whose solids the eye of a view in perspective lies, so that they hide all
 /// outside, and those on whose surface it lies, which it does not see. The job must be otherwise
-/// ready.
-[[nodiscard]] Diagnostics report_eye(const ViewJob& job);
+/// ready. Errors: cancelled, out of memory.
+[[nodiscard]] Result<Diagnostics> report_eye(const ViewJob& job, const parallel::Context& context);
 
 }  // namespace strake::hlr

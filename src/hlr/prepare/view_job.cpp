@@ -3,6 +3,7 @@
 #include "hlr/prepare/view_job.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -17,8 +18,12 @@
 #include "hlr/view/projection.hpp"
 #include "hlr/view/view_frustum.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/deal.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/reduce.hpp"
+#include "strake/parallel/slots.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
 namespace {
@@ -27,12 +32,11 @@ using geometry::CutPlane;
 using geometry::Segment;
 using geometry::Vec3l;
 
-void add_crossing(Lines& lines, const model::Scene& scene, const IntersectionLine& crossing,
-                  std::span<const SectionPlane> planes) {
+void add_crossing(std::vector<Line>& lines, const model::Scene& scene,
+                  const IntersectionLine& crossing, std::span<const SectionPlane> planes) {
   const auto push = [&](const Vec3l& a, const Vec3l& b, bool cut_away) {
     if (a != b)
-      lines.all.push_back(
-          {a, b, crossing.body_a, crossing.body_b, EdgeKind::intersection, cut_away});
+      lines.push_back({a, b, crossing.body_a, crossing.body_b, EdgeKind::intersection, cut_away});
   };
   if (planes.empty()) return push(crossing.a, crossing.b, false);
   const Vec3l origin = scene.bodies[crossing.body_a].origin;
@@ -46,50 +50,100 @@ void add_crossing(Lines& lines, const model::Scene& scene, const IntersectionLin
   push(b, crossing.b, true);
 }
 
-void add_section(Lines& lines, const model::Scene& scene, std::uint32_t b, const ShapeCut& cut) {
-  const Vec3l origin = scene.bodies[b].origin;
-  for (const geometry::SectionLine& line : cut.lines)
-    lines.all.push_back({line.at[0] + origin, line.at[1] + origin, b, b, EdgeKind::section, false});
+/// Returns the lines of crossings. Those of a part that is cut with one that is not follow from
+/// what is left of them.
+Result<std::vector<Line>> lines_of_crossings(const ViewJob& job,
+                                             std::span<const IntersectionLine> crossings,
+                                             std::span<const SectionPlane> planes,
+                                             const parallel::Context& context) {
+  constexpr std::size_t kGrain = 4096;
+  return parallel::collect<Line>(
+      context, {.name = "lines of crossings", .n = crossings.size(), .grain = kGrain},
+      [&](std::size_t i, std::vector<Line>& out) {
+        const IntersectionLine& crossing = crossings[i];
+        const bool whole = job.is_uncut(crossing.body_a), other = job.is_uncut(crossing.body_b);
+        if (whole == other)
+          add_crossing(out, *job.scene, crossing, whole ? std::span<const SectionPlane>() : planes);
+      });
 }
 
-/// Sorts the lines by object, stably.
-void put_in_order(Lines& lines, const model::Scene& scene) {
-  if (lines.all.empty()) return;
-  const auto object = [&](const Line& line) {
-    return model::index(scene.bodies[line.body_a].object);
-  };
-  lines.first.resize(scene.model->objects.size() + 1);
-  for (const Line& line : lines.all) ++lines.first[object(line) + 1];
-  for (std::size_t o = 1; o < lines.first.size(); ++o) lines.first[o] += lines.first[o - 1];
-  std::vector<std::size_t> next = lines.first;
-  std::vector<Line> ordered(lines.all.size());
-  for (const Line& line : lines.all) ordered[next[object(line)]++] = line;
-  lines.all = std::move(ordered);
+/// Returns the outlines of cuts.
+Result<std::vector<Line>> lines_of_sections(const ViewJob& job,
+                                            std::span<const SectionPlane> planes,
+                                            const parallel::Context& context) {
+  if (planes.empty()) return std::vector<Line>{};
+  constexpr std::size_t kGrain = 256;
+  return parallel::collect<Line>(
+      context, {.name = "lines of sections", .n = job.scene->bodies.size(), .grain = kGrain},
+      [&](std::size_t index, std::vector<Line>& out) {
+        const auto b = static_cast<std::uint32_t>(index);
+        const ShapeCut* const cut = job.sectioned_shape_of(b).cut.get();
+        if (cut == nullptr) return;
+        const Vec3l origin = job.scene->bodies[b].origin;
+        for (const geometry::SectionLine& line : cut->lines)
+          out.push_back({line.at[0] + origin, line.at[1] + origin, b, b, EdgeKind::section, false});
+      });
+}
+
+/// Lines of several lists, one after the other.
+class ListedLines {
+ public:
+  explicit ListedLines(std::span<const std::span<const Line>> lists) : lists_(lists) {
+    for (const std::span<const Line> list : lists) size_ += list.size();
+  }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const Line& operator[](std::size_t i) const {
+    for (const std::span<const Line> list : lists_) {
+      if (i < list.size()) return list[i];
+      i -= list.size();
+    }
+    return lists_.back().back();
+  }
+
+ private:
+  std::span<const std::span<const Line>> lists_;
+  std::size_t size_ = 0;
+};
+
+/// Sorts lines by object, stably.
+Status put_in_order(const ListedLines& given, const model::Scene& scene, Lines& lines,
+                    const parallel::Context& context) {
+  if (given.size() == 0) return {};
+  auto by_object = parallel::items_by_key(
+      context, "lines by object", given.size(), scene.model->objects.size(), [&](std::size_t i) {
+        return std::size_t{model::index(scene.bodies[given[i].body_a].object)};
+      });
+  if (!by_object) return by_object.error();
+  constexpr std::size_t kGrain = 4096;
+  auto all =
+      parallel::transform(context, {.name = "lines in order", .n = given.size(), .grain = kGrain},
+                          [&](std::size_t i) { return given[by_object->values[i]]; });
+  if (!all) return all.error();
+  lines.all = std::move(*all);
+  lines.first = std::move(by_object->offsets);
+  return {};
 }
 
 }  // namespace
 
 Result<Lines> derive_lines(const ViewJob& job, std::span<const IntersectionLine> crossings,
                            std::span<const SectionPlane> planes, const parallel::Context& context) {
-  const model::Scene& scene = *job.scene;
   Lines lines;
   lines.contact = 1 + static_cast<std::int64_t>(planes.size());
-  for (const IntersectionLine& crossing : crossings) {
-    const bool whole = job.is_uncut(crossing.body_a), other = job.is_uncut(crossing.body_b);
-    // Those of a part that is cut with one that is not follow from what is left of them.
-    if (whole == other)
-      add_crossing(lines, scene, crossing, whole ? std::span<const SectionPlane>() : planes);
-  }
-  const auto crossed = lines_with_uncut(job, context);
+  const auto crossed = lines_of_crossings(job, crossings, planes, context);
   if (!crossed) return crossed.error();
-  for (const IntersectionLine& crossing : *crossed) add_crossing(lines, scene, crossing, {});
-  for (std::uint32_t b = 0; !planes.empty() && b < scene.bodies.size(); ++b)
-    if (const ShapeCut* cut = job.sectioned_shape_of(b).cut.get())
-      add_section(lines, scene, b, *cut);
+  const auto with_uncut = lines_with_uncut(job, context);
+  if (!with_uncut) return with_uncut.error();
+  std::vector<Line> of_uncut;
+  for (const IntersectionLine& crossing : *with_uncut)
+    add_crossing(of_uncut, *job.scene, crossing, {});
+  const auto cuts = lines_of_sections(job, planes, context);
+  if (!cuts) return cuts.error();
   const auto hatch = hatch_lines(job, planes, context);
   if (!hatch) return hatch.error();
-  lines.all.insert(lines.all.end(), hatch->begin(), hatch->end());
-  put_in_order(lines, scene);
+  const std::array<std::span<const Line>, 4> lists{*crossed, of_uncut, *cuts, *hatch};
+  if (const Status ordered = put_in_order(ListedLines(lists), *job.scene, lines, context); !ordered)
+    return ordered.error();
   return lines;
 }
 
@@ -345,10 +399,20 @@ Result<ViewJob> prepare_view(const ViewInput& input, const parallel::Context& co
   auto lines = derive_lines(job, crossings->all, *planes, context);
   if (!lines) return lines.error();
   job.lines = std::move(*lines);
-  if (input.whole == nullptr)
-    job.diagnostics = report_sections(*job.scene, job.drawn, job.seen, *planes);
-  job.diagnostics.append(report_eye(job));
+  if (input.whole == nullptr) {
+    auto of_sections = report_sections(*job.scene, job.drawn, job.seen, *planes, context);
+    if (!of_sections) return of_sections.error();
+    job.diagnostics = std::move(*of_sections);
+  }
+  const Result<Diagnostics> of_eye = report_eye(job, context);
+  if (!of_eye) return of_eye.error();
+  job.diagnostics.append(*of_eye);
   return job;
+}
+
+void take_down(ViewJob& job, const parallel::Context& context) {
+  parallel::clear(job.seen.all, context);
+  if (job.own) parallel::clear(job.own->shapes, context);
 }
 
 Result<WholeSections> prepare_sections(const ViewInput& input, const parallel::Context& context) {
@@ -358,9 +422,10 @@ Result<WholeSections> prepare_sections(const ViewInput& input, const parallel::C
   if (!job) return job.error();
   if (const Status status = cut_bodies(*job, *planes, nullptr, context); !status)
     return status.error();
+  auto diagnostics = report_sections(*job->scene, job->drawn, job->seen, *planes, context);
+  if (!diagnostics) return diagnostics.error();
   return WholeSections{std::move(job->hatches), job->contact_distance_mm,
-                       job->counters.uncut_objects,
-                       report_sections(*job->scene, job->drawn, job->seen, *planes)};
+                       job->counters.uncut_objects, std::move(*diagnostics)};
 }
 
 }  // namespace strake::hlr

@@ -115,6 +115,10 @@ struct ViewJob {
   }
 };
 
+/// Takes the shapes of a job down by all workers, once nobody asks for them any more: in
+/// perspective each body has one of its own.
+void take_down(ViewJob& job, const parallel::Context& context);
+
 /// What the preparation of a part of what is drawn takes from the whole, so that what it says of
 /// the part is what the whole would say. Sections are reported for the whole alone.
 struct WholeView {

@@ -9,6 +9,7 @@
 #include "strake/geometry/part.hpp"
 #include "strake/parallel/distinct.hpp"
 #include "strake/parallel/order.hpp"
+#include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::hlr {
@@ -162,8 +163,11 @@ Result<SectionedShapes> make_sectioned_shapes(const model::Scene& scene,
     return drawn[object] && (uncut.empty() || !uncut[object]);
   };
   if (planes.empty()) {
-    for (const model::GridShape& shape : scene.shapes)
-      seen.all.push_back({&shape, {}, {}, false, nullptr, 0});
+    auto all = parallel::transform(
+        context, {.name = "sections: whole shapes", .n = scene.shapes.size(), .grain = 4096},
+        [&](std::size_t s) { return SectionedShape{&scene.shapes[s], {}, {}, false, nullptr, 0}; });
+    if (!all) return all.error();
+    seen.all = std::move(*all);
     auto of = parallel::transform(
         context, {.name = "sections: none", .n = scene.bodies.size(), .grain = 4096},
         [&](std::size_t b) { return scene.bodies[b].grid_shape; });
@@ -171,7 +175,7 @@ Result<SectionedShapes> make_sectioned_shapes(const model::Scene& scene,
     seen.of = std::move(*of);
     return seen;
   }
-  const auto sights = parallel::transform(
+  auto sights = parallel::transform(
       context, {.name = "sections: planes", .n = scene.bodies.size(), .grain = 1024},
       [&](std::size_t b) {
         return is_cut(b)
@@ -197,6 +201,7 @@ Result<SectionedShapes> make_sectioned_shapes(const model::Scene& scene,
   if (!all) return all.error();
   seen.all = std::move(*all);
   seen.of = std::move(kinds->of);
+  parallel::clear(*sights, context);
   return seen;
 }
 

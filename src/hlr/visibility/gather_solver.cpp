@@ -540,8 +540,7 @@ Status compute_self_occlusion(VisibilityScene& visibility, const parallel::Conte
   }
   counters.shared_shapes =
       static_cast<std::uint64_t>(std::ranges::count(items, 0U, &EdgeRange::first));
-  counters.shared_bodies = static_cast<std::uint64_t>(
-      std::ranges::count(visibility.placed, true, &BodyInstance::shares_self_occlusion));
+  counters.shared_bodies = visibility.sharing;
   return {};
 }
 
@@ -574,6 +573,7 @@ Result<SpeckedObjects> solve_gather(const ViewJob& job, const parallel::Context&
   if (!sum) return sum.error();
   add(drawing.counters, *sum);
   shares.report(sum->own_s, sum->timed_s);
+  made->shapes.clear(context);
   return specked;
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "hlr/edges/element_loop.hpp"
@@ -14,6 +13,7 @@
 #include "strake/hlr/steps.hpp"
 #include "strake/parallel/collect.hpp"
 #include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/deal.hpp"
 #include "strake/parallel/distinct.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/lowest.hpp"
@@ -42,20 +42,28 @@ bool within(const Box3l& inner, const Box3l& outer) {
 }
 
 /// Returns about the least distance before the eye of what is drawn, regardless of the near plane.
-double nearest_depth(const ViewJob& job) {
+Result<double> nearest_depth(const ViewJob& job, const parallel::Context& context) {
   const ViewAxes axes = axes_of(job.view);
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const model::GridBody& body : job.scene->bodies) {
-    const geometry::Box3i& box = job.scene->shapes[body.grid_shape].box;
-    if (!job.drawn[model::index(body.object)] || box.empty()) continue;
-    for (int corner = 0; corner < 8; ++corner) {
-      geometry::Vec3l p = job.offset(body);
-      for (int k = 0; k < 3; ++k) p[k] += (corner >> k & 1) != 0 ? box.hi[k] : box.lo[k];
-      nearest = std::min(nearest, -dot(axes.toward, p.as<double>()));
-    }
-  }
+  const auto nearest = parallel::reduce(
+      context,
+      {.name = "hidden lines: nearest body",
+       .n = job.scene->bodies.size(),
+       .grain = kBodiesPerItem},
+      std::numeric_limits<double>::infinity(),
+      [&](double& least, std::size_t b) {
+        const model::GridBody& body = job.scene->bodies[b];
+        const geometry::Box3i& box = job.scene->shapes[body.grid_shape].box;
+        if (!job.drawn[model::index(body.object)] || box.empty()) return;
+        for (int corner = 0; corner < 8; ++corner) {
+          geometry::Vec3l p = job.offset(body);
+          for (int k = 0; k < 3; ++k) p[k] += (corner >> k & 1) != 0 ? box.hi[k] : box.lo[k];
+          least = std::min(least, -dot(axes.toward, p.as<double>()));
+        }
+      },
+      [](double& into, double least) { into = std::min(into, least); });
+  if (!nearest) return nearest;
   const double near_plane = job.view.perspective->near_mm * geometry::kGridPerMm;
-  return std::isfinite(nearest) ? std::max(nearest, near_plane) : near_plane;
+  return std::isfinite(*nearest) ? std::max(*nearest, near_plane) : near_plane;
 }
 
 /// Projects each shape for all bodies that share it; in perspective, for each body.
@@ -150,20 +158,20 @@ Status make_columns(VisibilityScene& visibility, std::span<const ViewBox> boxes,
   if (!found) return found.error();
   BodyColumns& columns = visibility.columns;
   const std::size_t count = found->first.size();
-  std::vector<std::uint32_t> end(count + 1);
-  for (const std::uint32_t c : found->of) ++end[c + 1];
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<std::uint32_t> all(some.size());
-  std::vector<std::uint32_t> next = end;
-  for (std::size_t i = 0; i < some.size(); ++i) all[next[found->of[i]]++] = some[i];
+  auto by_column =
+      parallel::items_by_key(context, "hidden lines: bodies of columns", some.size(), count,
+                             [&](std::size_t i) { return std::size_t{found->of[i]}; });
+  if (!by_column) return by_column.error();
   std::vector<ViewBox> nearest(count);
   const auto column = [&](std::size_t c) {
-    return std::span(all).subspan(end[c], end[c + 1] - end[c]);
+    const std::vector<std::size_t>& at = by_column->offsets;
+    return std::span(by_column->values).subspan(at[c], at[c + 1] - at[c]);
   };
   const auto stays = [&](std::uint32_t b) { return !visibility.placed[b].repeated; };
   auto kept = parallel::count_fill<std::uint32_t>(
       context, {.name = "hidden lines: columns", .n = count, .grain = kBodiesPerItem},
       [&](std::size_t c) {
+        for (std::uint32_t& b : column(c)) b = some[b];
         std::ranges::sort(column(c), [&](std::uint32_t x, std::uint32_t y) {
           const std::int64_t at_x = visibility.placed[x].at.w, at_y = visibility.placed[y].at.w;
           return at_x != at_y ? at_x > at_y : x < y;
@@ -247,16 +255,25 @@ Status mark_shared_self_occlusion(VisibilityScene& visibility, const parallel::C
   });
   if (!status) return status;
   // The first body of a shape shares with any other, which is not to write to it.
-  status = parallel::for_each(context, bodies, [&](std::size_t b) {
-    BodyInstance& placed = visibility.placed[b];
-    const std::uint32_t one = first[shapes.of[b]];
-    if (one == b || !may_share(placed) || placed.contact != visibility.placed[one].contact) return;
-    placed.shares_self_occlusion = true;
-    shared.set(shapes.of[b]);
-  });
-  if (!status) return status;
+  const auto others = parallel::reduce(
+      context, bodies, std::uint64_t{0},
+      [&](std::uint64_t& count, std::size_t b) {
+        BodyInstance& placed = visibility.placed[b];
+        const std::uint32_t one = first[shapes.of[b]];
+        if (one == b || !may_share(placed) || placed.contact != visibility.placed[one].contact)
+          return;
+        placed.shares_self_occlusion = true;
+        shared.set(shapes.of[b]);
+        ++count;
+      },
+      [](std::uint64_t& into, std::uint64_t count) { into += count; });
+  if (!others) return others.error();
   for (std::size_t s = 0; s < first.size(); ++s)
-    if (shared.is_set(s)) visibility.placed[first[s]].shares_self_occlusion = true;
+    if (shared.is_set(s)) visibility.first_sharing.push_back(first[s]);
+  std::ranges::sort(visibility.first_sharing);
+  for (const std::uint32_t b : visibility.first_sharing)
+    visibility.placed[b].shares_self_occlusion = true;
+  visibility.sharing = *others + visibility.first_sharing.size();
   return {};
 }
 
@@ -325,12 +342,8 @@ Status make_items(VisibilityScene& visibility, const parallel::Context& context)
 }  // namespace
 
 std::vector<EdgeRange> self_occlusion_ranges(const VisibilityScene& visibility) {
-  const SectionedShapes& shapes = visibility.job.seen;
-  std::vector<bool> known(shapes.all.size());
   std::vector<EdgeRange> items;
-  for (std::uint32_t b = 0; b < visibility.placed.size(); ++b) {
-    if (!visibility.placed[b].shares_self_occlusion || known[shapes.of[b]]) continue;
-    known[shapes.of[b]] = true;
+  for (const std::uint32_t b : visibility.first_sharing) {
     const auto edges = static_cast<std::uint32_t>(visibility.placed[b].shape->edges.size());
     parallel::cut_evenly(edges, kEdgesPerItem, [&](std::uint32_t first, std::uint32_t last) {
       items.push_back({.body = b, .first = first, .last = last});
@@ -342,7 +355,11 @@ std::vector<EdgeRange> self_occlusion_ranges(const VisibilityScene& visibility) 
 Result<VisibilityScene> make_visibility_scene(const ViewJob& job,
                                               const parallel::Context& context) {
   VisibilityScene visibility(job);
-  if (job.view.perspective) visibility.perspective_map.emplace(job.view, nearest_depth(job));
+  if (job.view.perspective) {
+    const Result<double> nearest = nearest_depth(job, context);
+    if (!nearest) return nearest.error();
+    visibility.perspective_map.emplace(job.view, *nearest);
+  }
   if (const Status status = project_shapes(visibility, context); !status) return status.error();
   const parallel::StageTimer timer(context.report,
                                    job.options.stage == Stage::global ? kGlobalStep : kLocalStep);

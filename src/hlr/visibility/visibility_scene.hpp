@@ -73,8 +73,10 @@ struct VisibilityScene {
   parallel::Precomputed<ProjectedShape>
       shapes;  ///< shapes of drawn bodies, by sectioned shape or, in perspective, by body
   std::vector<SelfOcclusion>
-      self_occlusion;                ///< per sectioned shape; empty where no two bodies share it
-  std::vector<BodyInstance> placed;  ///< per body
+      self_occlusion;  ///< per sectioned shape; empty where no two bodies share it
+  std::vector<std::uint32_t> first_sharing;  ///< the first body of each such shape, ascending
+  std::uint64_t sharing = 0;                 ///< bodies that share it
+  std::vector<BodyInstance> placed;          ///< per body
   /// The bodies that may hide. Of equal bodies at one place a few are enough, of objects of up to
   /// kFewBodies: what one hides the others hide.
   BodyColumns columns;

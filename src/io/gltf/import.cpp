@@ -78,6 +78,7 @@ class Importer {
   Status load_meshes();
   void note_meshes();
   void note_nodes();
+  [[nodiscard]] std::size_t meshes_outside() const;
   void adopt_meshes();
   Status adopt_features();
   [[nodiscard]] Error refusal(std::string message) const {
@@ -101,9 +102,10 @@ class Importer {
   std::vector<model::Color> materials_;
   NodeTable nodes_;
   std::vector<VisitedNode> visits_;
-  std::vector<std::uint32_t> used_;  ///< meshes that a visited node has, ascending
-  std::vector<LoadedMesh> loaded_;   ///< one per used mesh
-  std::vector<MeshShapes> shapes_;   ///< per mesh of the document
+  std::vector<std::uint32_t> inner_;  ///< visits of nodes with children
+  std::vector<std::uint32_t> used_;   ///< meshes that a visited node has, ascending
+  std::vector<LoadedMesh> loaded_;    ///< one per used mesh
+  std::vector<MeshShapes> shapes_;    ///< per mesh of the document
   model::Model model_;
 };
 
@@ -124,13 +126,15 @@ Status Importer::read_nodes() {
 
 /// Determines which nodes the scene shows, and their meshes.
 Status Importer::visit_nodes() {
-  Result<std::vector<VisitedNode>> order = visit_order(root_, nodes_);
+  Result<Visits> order = visit_order(root_, nodes_, input_.context);
   if (!order) {
     Error error = order.error();
-    error.where = place_text(error.where);
+    if (error.code == ErrorCode::cancelled) return cancelled(input_.file);
+    if (error.code != ErrorCode::memory) error.where = place_text(error.where);
     return error;
   }
-  visits_ = std::move(*order);
+  visits_ = std::move(order->all);
+  inner_ = std::move(order->inner);
   constexpr std::size_t kGrain = 4096;
   parallel::Marks used(meshes_.size());
   const Status marked = parallel::for_each(
@@ -163,6 +167,7 @@ Status Importer::check_amount() const {
     corners += stated_corners(accessors_, meshes_[mesh]);
     if (corners > 64 * bytes + (1U << 20U)) return refuse("vertices");
   }
+  if (nodes_.all_usual()) return {};
   for (const VisitedNode& visit : visits_) {
     if (nodes_.is_usual(visit.node)) continue;
     const GltfNode& node = nodes_[visit.node];
@@ -207,12 +212,12 @@ void Importer::note_meshes() {
 
 /// Notes what of the nodes is not read, though it affects what there is or where.
 void Importer::note_nodes() {
-  std::vector<bool> visited(nodes_.size()), displaced(meshes_.size());
+  std::vector<bool> displaced(meshes_.size());
   for (const std::uint32_t mesh : used_) displaced[mesh] = any_weight(meshes_[mesh]["weights"]);
   const bool any_displaced = std::ranges::count(displaced, true) != 0;
   bool skinned = false, morphed = false;
-  for (const VisitedNode& visit : visits_) {
-    visited[visit.node] = true;
+  const bool all_plain = !any_displaced && nodes_.all_usual();
+  for (const VisitedNode& visit : all_plain ? std::span<const VisitedNode>() : visits_) {
     if (!any_displaced && nodes_.is_usual(visit.node)) continue;
     const GltfNode& node = nodes_[visit.node];
     skinned = skinned || node.skinned;
@@ -229,15 +234,24 @@ void Importer::note_nodes() {
                            "meshes with morph targets are read as they stand, whatever their "
                            "weights are",
                            place_text("/meshes"));
-  std::size_t outside = 0;
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    if (!visited[i] && nodes_.has_mesh(i)) ++outside;
+  const std::size_t outside = meshes_outside();
   if (outside != 0)
     model_.diagnostics.add(
         Severity::warning, "gltf-other-scene",
         fmt::format("nodes with a mesh outside the scene that the file shows are not read: {}",
                     outside),
         place_text("/scenes"));
+}
+
+/// Returns how many nodes with a mesh the scene does not show.
+std::size_t Importer::meshes_outside() const {
+  if (visits_.size() == nodes_.size()) return 0;
+  std::vector<bool> visited(nodes_.size());
+  for (const VisitedNode& visit : visits_) visited[visit.node] = true;
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (!visited[i] && nodes_.has_mesh(i)) ++outside;
+  return outside;
 }
 
 void Importer::adopt_meshes() {
@@ -320,12 +334,12 @@ Result<model::Model> Importer::run() {
   note_nodes();
   adopt_meshes();
   if (const Status bounded = adopt_features(); !bounded) return bounded.error();
-  const PlacingInput placing{
-      visits_,       nodes_, shapes_, accessors_, tables_, frame_, input_.file.path.string(),
-      input_.context};
+  const PlacingInput placing{visits_,       inner_,  nodes_, shapes_,
+                             accessors_,    tables_, frame_, input_.file.path.string(),
+                             input_.context};
   if (const Status placed = place_nodes(placing, model_); !placed) return placed.error();
   if (const Status cleared = nodes_.clear(input_.context); !cleared) return cleared.error();
-  return end_model(input_.file, std::move(model_));
+  return end_model(input_.file, std::move(model_), input_.context);
 }
 
 }  // namespace

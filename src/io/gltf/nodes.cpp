@@ -13,6 +13,9 @@
 #include "io/source/precision.hpp"
 #include "io/source/units_and_axes.hpp"
 #include "strake/parallel/for_each.hpp"
+#include "strake/parallel/lowest.hpp"
+#include "strake/parallel/reduce.hpp"
+#include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::io::gltf {
@@ -181,6 +184,7 @@ void NodeTable::enter(std::size_t node, GltfNode& place) {
   traits_[node] =
       static_cast<std::uint8_t>((place.children.empty() ? 0 : kInner) | (place.mesh ? kMesh : 0) |
                                 (place.skinned || place.unusual ? kUnusual : 0));
+  if (place.skinned || place.unusual) unusual_.set(0);
 }
 
 Result<std::optional<NodeTable>> NodeTable::read(std::span<const ArrayPiece> pieces,
@@ -188,8 +192,12 @@ Result<std::optional<NodeTable>> NodeTable::read(std::span<const ArrayPiece> pie
                                                  const parallel::Context& context) {
   NodeTable table;
   const std::size_t count = pieces.empty() ? 0 : pieces.back().first + pieces.back().count;
-  table.at_.resize(count);
-  table.traits_.resize(count);
+  Result<std::vector<GltfNode*>> at = parallel::unset_slots<GltfNode*>(count);
+  if (!at) return at.error();
+  table.at_ = std::move(*at);
+  Result<std::vector<std::uint8_t>> traits = parallel::unset_slots<std::uint8_t>(count);
+  if (!traits) return traits.error();
+  table.traits_ = std::move(*traits);
   Result<std::vector<std::vector<GltfNode>>> read = parallel::transform(
       context, {.name = "read glTF nodes", .n = pieces.size()}, [&](std::size_t k) {
         std::vector<GltfNode> nodes = parse_nodes(pieces[k], before);
@@ -344,7 +352,12 @@ Error refused(std::string pointer, std::string message,
   return {ErrorCode::input, std::move(message), std::move(pointer), std::move(mend)};
 }
 
-Result<std::vector<std::uint32_t>> parents_of(const NodeTable& nodes) {
+/// Nodes that a worker takes at once where little is done for each.
+constexpr std::size_t kNodesPerRun = 16384;
+
+/// Returns the first fault in document order, where there is one: a child that does not exist, or
+/// that has two parents.
+Status check_children(const NodeTable& nodes) {
   std::vector<std::uint32_t> parents(nodes.size(), kNoParent);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (const std::uint64_t child : nodes.children(i)) {
@@ -355,11 +368,37 @@ Result<std::vector<std::uint32_t>> parents_of(const NodeTable& nodes) {
                        fmt::format("node {} has two parents, {} and {}", child, parents[child], i));
       parents[child] = static_cast<std::uint32_t>(i);
     }
+  return {};
+}
+
+/// Returns the parent of each node, kNoParent where it has none.
+Result<parallel::Lowest> parents_of(const NodeTable& nodes, const parallel::Context& context) {
+  parallel::Lowest parents(nodes.size());
+  const parallel::Region all{
+      .name = "parents of glTF nodes", .n = nodes.size(), .grain = kNodesPerRun};
+  const auto sum = [](std::size_t& into, std::size_t more) { into += more; };
+  const auto children = parallel::reduce(
+      context, all, std::size_t{0},
+      [&](std::size_t& count, std::size_t i) {
+        for (const std::uint64_t child : nodes.children(i)) {
+          ++count;
+          if (child < nodes.size()) parents.offer(child, i);
+        }
+      },
+      sum);
+  if (!children) return children.error();
+  const auto with_parent = parallel::reduce(
+      context, all, std::size_t{0},
+      [&](std::size_t& count, std::size_t i) { count += parents[i] != kNoParent ? 1U : 0U; }, sum);
+  if (!with_parent) return with_parent.error();
+  // A child that does not exist has no parent, and one of two parents only one.
+  if (*children != *with_parent)
+    if (const Status faultless = check_children(nodes); !faultless) return faultless.error();
   return parents;
 }
 
 /// Checks for cycles: with one parent at most for each, nodes that no root leads to form a cycle.
-Status check_cycles(const NodeTable& nodes, const std::vector<std::uint32_t>& parents) {
+Status check_cycles(const NodeTable& nodes, const parallel::Lowest& parents) {
   std::vector<std::uint32_t> open;
   std::vector<bool> reached(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -376,13 +415,13 @@ Status check_cycles(const NodeTable& nodes, const std::vector<std::uint32_t>& pa
   return {};
 }
 
-Result<std::vector<std::uint32_t>> roots_of(const JsonValue& root, const NodeTable& nodes,
-                                            const std::vector<std::uint32_t>& parents) {
-  std::vector<std::uint32_t> roots;
+Result<std::vector<std::uint64_t>> roots_of(const JsonValue& root, const NodeTable& nodes,
+                                            const parallel::Lowest& parents) {
+  std::vector<std::uint64_t> roots;
   const std::vector<JsonValue> scenes = root["scenes"].items();
   if (scenes.empty()) {
     for (std::size_t i = 0; i < nodes.size(); ++i)
-      if (parents[i] == kNoParent) roots.push_back(static_cast<std::uint32_t>(i));
+      if (parents[i] == kNoParent) roots.push_back(i);
     return roots;
   }
   const JsonValue scene_json = root["scene"];
@@ -398,42 +437,55 @@ Result<std::vector<std::uint32_t>> roots_of(const JsonValue& root, const NodeTab
                                           "listed twice",
                                           node));
     listed[node] = true;
-    roots.push_back(static_cast<std::uint32_t>(node));
+    roots.push_back(node);
   }
   return roots;
 }
 
-}  // namespace
-
-Result<std::vector<VisitedNode>> visit_order(const JsonValue& root, const NodeTable& nodes) {
-  const Result<std::vector<std::uint32_t>> parents = parents_of(nodes);
-  if (!parents) return parents.error();
-  if (const Status acyclic = check_cycles(nodes, *parents); !acyclic) return acyclic.error();
-  const Result<std::vector<std::uint32_t>> roots = roots_of(root, nodes, *parents);
-  if (!roots) return roots.error();
-
-  struct OpenNode {
-    VisitedNode visit;
-    std::uint32_t depth = 0;
+/// Visits all that roots lead to. Each node has one parent at most, and a root has none, so that no
+/// node is visited twice. Errors: nodes that are nested too deep.
+Result<Visits> visits_from(std::span<const std::uint64_t> roots, const NodeTable& nodes) {
+  struct Level {
+    std::span<const std::uint64_t> siblings;
+    std::uint32_t parent = kNoParent;  ///< their visit
+    std::size_t next = 0;
   };
-  std::vector<VisitedNode> order;
-  std::vector<OpenNode> open;
-  for (auto node = roots->rbegin(); node != roots->rend(); ++node)
-    open.push_back({{*node, kNoParent}, 0});
+  Visits visits;
+  visits.all.reserve(nodes.size());
+  std::vector<Level> open{{roots}};
   while (!open.empty()) {
-    const OpenNode next = open.back();
-    open.pop_back();
-    if (next.depth == kMaxNodeDepth)
-      return refused(fmt::format("/nodes/{}", next.visit.node),
+    Level& level = open.back();
+    if (level.next == level.siblings.size()) {
+      open.pop_back();
+      continue;
+    }
+    const std::uint64_t node = level.siblings[level.next++];
+    if (open.size() > kMaxNodeDepth)
+      return refused(fmt::format("/nodes/{}", node),
                      fmt::format("nodes are nested more than {} deep", kMaxNodeDepth),
                      "export the model with a flatter hierarchy");
-    const auto self = static_cast<std::uint32_t>(order.size());
-    order.push_back(next.visit);
-    const std::span<const std::uint64_t> children = nodes.children(next.visit.node);
-    for (auto child = children.rbegin(); child != children.rend(); ++child)
-      open.push_back({{static_cast<std::uint32_t>(*child), self}, next.depth + 1});
+    const auto self = static_cast<std::uint32_t>(visits.all.size());
+    visits.all.push_back({static_cast<std::uint32_t>(node), level.parent});
+    const std::span<const std::uint64_t> children = nodes.children(node);
+    if (children.empty()) continue;
+    visits.inner.push_back(self);
+    open.push_back({children, self});
   }
-  return order;
+  return visits;
+}
+
+}  // namespace
+
+Result<Visits> visit_order(const JsonValue& root, const NodeTable& nodes,
+                           const parallel::Context& context) {
+  const Result<parallel::Lowest> parents = parents_of(nodes, context);
+  if (!parents) return parents.error();
+  const Result<std::vector<std::uint64_t>> roots = roots_of(root, nodes, *parents);
+  Result<Visits> visits = roots ? visits_from(*roots, nodes) : Result<Visits>(roots.error());
+  // Where all nodes were visited there are no cycles. They are the first fault to tell of.
+  if (!visits || visits->all.size() < nodes.size())
+    if (const Status acyclic = check_cycles(nodes, *parents); !acyclic) return acyclic.error();
+  return visits;
 }
 
 }  // namespace strake::io::gltf

@@ -14,6 +14,8 @@
 #include "io/gltf/json/json.hpp"
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
+#include "strake/parallel/lowest.hpp"
+#include "strake/parallel/marks.hpp"
 
 /// The nodes of a glTF document, their instances and the order in which they are visited.
 namespace strake::io::gltf {
@@ -84,6 +86,8 @@ class NodeTable {
   [[nodiscard]] bool has_mesh(std::size_t node) const { return (traits_[node] & kMesh) != 0; }
   /// Whether the node has neither a skin nor anything unusual.
   [[nodiscard]] bool is_usual(std::size_t node) const { return (traits_[node] & kUnusual) == 0; }
+  /// Whether that holds for all nodes.
+  [[nodiscard]] bool all_usual() const { return unusual_.count() == 0; }
   [[nodiscard]] const GltfNode& operator[](std::size_t node) const { return *at_[node]; }
   [[nodiscard]] GltfNode& operator[](std::size_t node) { return *at_[node]; }
 
@@ -99,6 +103,7 @@ class NodeTable {
   std::vector<GltfNode*> at_;
   /// What loops over all nodes ask of each: the nodes themselves are hundreds of megabytes.
   std::vector<std::uint8_t> traits_;
+  parallel::Marks unusual_{1};  ///< set where any node is
 };
 
 /// The instances of a node, in the node's frame.
@@ -139,15 +144,21 @@ struct VisitedNode {
   std::uint32_t parent = 0;  ///< index of a visit; kNoParent for roots
 };
 
-inline constexpr std::uint32_t kNoParent = 0xffffffffU;
+inline constexpr std::uint32_t kNoParent = parallel::Lowest::kNone;
 
 /// The deepest nesting of nodes.
 inline constexpr std::uint32_t kMaxNodeDepth = 1000;
 
-/// Returns the nodes of the default scene, else of the first one, else all, in document order depth
-/// first. Nodes with two parents, cycles, and references to nodes that do not exist are errors,
-/// whose `where` is the JSON pointer alone.
-[[nodiscard]] Result<std::vector<VisitedNode>> visit_order(const JsonValue& root,
-                                                           const NodeTable& nodes);
+/// The nodes that a scene shows, in document order depth first.
+struct Visits {
+  std::vector<VisitedNode> all;
+  std::vector<std::uint32_t> inner;  ///< of those that have children: indices of `all`, ascending
+};
+
+/// Returns the nodes of the default scene, else of the first one, else all. Nodes with two parents,
+/// cycles, and references to nodes that do not exist are errors, whose `where` is the JSON pointer
+/// alone. Other errors: cancelled, out of memory.
+[[nodiscard]] Result<Visits> visit_order(const JsonValue& root, const NodeTable& nodes,
+                                         const parallel::Context& context);
 
 }  // namespace strake::io::gltf

@@ -16,6 +16,7 @@
 #include "strake/core/hash.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/slots.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::io::gltf {
 namespace {
@@ -54,7 +55,18 @@ struct Amount {
   bool instances = false;
   bool nameless = false;  ///< an object gets its id from its path
   bool noted = false;     ///< a diagnostic belongs to it
+
+  void add(const Amount& more) {
+    objects += more.objects;
+    bodies += more.bodies;
+    instances = instances || more.instances;
+    nameless = nameless || more.nameless;
+    noted = noted || more.noted;
+  }
 };
+
+/// Visits that a worker takes at once where little is done for each.
+constexpr std::size_t kVisitsPerRun = 16384;
 
 /// Returns half the spacing of the numbers of a node, in the unit of the file. They are decimals,
 /// but many writers write such as float32 has.
@@ -106,8 +118,9 @@ class Placer {
   template <class Visit>
   void check_bounds(Element element, Visit&& visit) const;
 
-  void place_inner_nodes();
+  Status place_inner_nodes();
   [[nodiscard]] Amount amount_of(std::size_t visit) const;
+  Status count_all();
   Status number_all();
   void add_groups();
   void make_paths();
@@ -115,6 +128,14 @@ class Placer {
   void add_features(const MeshShapes* mesh, model::Object& object) const;
   void write_bodies(const Element& element, std::size_t first);
   void note(std::size_t visit);
+  /// The visits in runs.
+  [[nodiscard]] parallel::Region runs(std::string_view name) const {
+    return {.name = name, .n = (amounts_.size() + kVisitsPerRun - 1) / kVisitsPerRun};
+  }
+  [[nodiscard]] std::span<Amount> amounts_of(std::size_t r) {
+    const std::size_t first = r * kVisitsPerRun;
+    return std::span(amounts_).subspan(first, std::min(kVisitsPerRun, amounts_.size() - first));
+  }
   [[nodiscard]] std::string path_id(model::GroupId parent, const std::string& name) const;
   [[nodiscard]] model::GroupId parent_of(std::size_t visit) const {
     return amounts_[visit].instances ? instance_groups_[visit] : above(visit).group;
@@ -125,6 +146,8 @@ class Placer {
   std::vector<std::uint32_t> inner_of_;  ///< per visit; kLeaf: it has no children
   std::vector<NodePlace> inner_;
   std::vector<Amount> amounts_;                  ///< per visit
+  std::vector<Amount> of_runs_;                  ///< what the visits of each run become
+  Amount all_;                                   ///< what all become
   std::vector<model::GroupId> instance_groups_;  ///< per visit, if there are any
   std::vector<std::string> paths_;               ///< per group, '/' at the end, if needed
 };
@@ -146,13 +169,22 @@ NodePlace Placer::place_of(std::size_t visit) const {
   return inner_of_[visit] == kLeaf ? compute_place(visit) : inner_[inner_of_[visit]];
 }
 
-void Placer::place_inner_nodes() {
-  inner_of_.assign(input_.visits.size(), kLeaf);
-  for (std::size_t visit = 0; visit < input_.visits.size(); ++visit) {
-    if (input_.nodes.children(input_.visits[visit].node).empty()) continue;
+Status Placer::place_inner_nodes() {
+  const std::size_t visits = input_.visits.size();
+  Result<std::vector<std::uint32_t>> leaves = parallel::unset_slots<std::uint32_t>(visits);
+  if (!leaves) return leaves.error();
+  inner_of_ = std::move(*leaves);
+  if (Status made = parallel::for_each(input_.context,
+                                       {.name = "glTF leaves", .n = visits, .grain = kVisitsPerRun},
+                                       [&](std::size_t visit) { inner_of_[visit] = kLeaf; });
+      !made)
+    return made;
+  inner_.reserve(input_.inner.size());
+  for (const std::uint32_t visit : input_.inner) {
     inner_.push_back(compute_place(visit));
     inner_of_[visit] = static_cast<std::uint32_t>(inner_.size() - 1);
   }
+  return {};
 }
 
 /// Returns why a node with a mesh is no usable object, if so.
@@ -243,16 +275,51 @@ Amount Placer::amount_of(std::size_t visit) const {
   return amount;
 }
 
+/// Determines what each visited node becomes, and what all of them do.
+Status Placer::count_all() {
+  Result<std::vector<Amount>> amounts =
+      parallel::unset_slots<Amount>(input_.visits.size(), input_.context);
+  if (!amounts) return amounts.error();
+  amounts_ = std::move(*amounts);
+  if (Status counted = parallel::for_each(
+          input_.context, {.name = "count glTF objects", .n = amounts_.size(), .grain = 256},
+          [&](std::size_t i) { amounts_[i] = amount_of(i); });
+      !counted)
+    return counted;
+  Result<std::vector<Amount>> sums =
+      parallel::transform(input_.context, runs("sum up glTF objects"), [&](std::size_t r) {
+        Amount sum;
+        for (const Amount& amount : amounts_of(r)) sum.add(amount);
+        return sum;
+      });
+  if (!sums) return sums.error();
+  of_runs_ = std::move(*sums);
+  for (const Amount& sum : of_runs_) all_.add(sum);
+  return {};
+}
+
 /// Makes of each amount where in the model it begins; the model gets its objects and bodies.
 Status Placer::number_all() {
-  std::size_t objects = 0, bodies = 0;
-  for (Amount& amount : amounts_) {
-    objects += std::exchange(amount.objects, objects);
-    bodies += std::exchange(amount.bodies, bodies);
-  }
+  const std::size_t objects = all_.objects, bodies = all_.bodies;
   if (std::max(objects, bodies) > std::numeric_limits<std::uint32_t>::max())
     return Error{ErrorCode::input, "has more bodies than can be numbered", input_.file,
                  "split the model"};
+  std::size_t object = 0, body = 0;
+  for (Amount& sum : of_runs_) {
+    object += std::exchange(sum.objects, object);
+    body += std::exchange(sum.bodies, body);
+  }
+  if (Status numbered = parallel::for_each(input_.context, runs("number glTF objects"),
+                                           [&](std::size_t r) {
+                                             std::size_t o = of_runs_[r].objects;
+                                             std::size_t b = of_runs_[r].bodies;
+                                             for (Amount& amount : amounts_of(r)) {
+                                               o += std::exchange(amount.objects, o);
+                                               b += std::exchange(amount.bodies, b);
+                                             }
+                                           });
+      !numbered)
+    return numbered;
   auto empty_objects = parallel::slots<model::Object>(objects, input_.context);
   if (!empty_objects) return empty_objects.error();
   auto empty_bodies = parallel::slots<model::Body>(bodies, input_.context);
@@ -269,25 +336,30 @@ void Placer::add_groups() {
     model_.groups.push_back({node_of(visit).name, above(visit).group});
     return group;
   };
-  if (std::ranges::any_of(amounts_, &Amount::instances)) instance_groups_.resize(amounts_.size());
-  for (std::size_t visit = 0; visit < amounts_.size(); ++visit) {
+  const auto add_inner = [&](std::size_t visit) {
     GltfNode& node = node_of(visit);
-    if (inner_of_[visit] != kLeaf) {
-      const model::GroupId group = add(visit);
-      inner_[inner_of_[visit]].group = group;
-      model_.set_attributes(group, node.mesh ? node.attributes : std::move(node.attributes));
-    }
+    const model::GroupId group = add(visit);
+    inner_[inner_of_[visit]].group = group;
+    model_.set_attributes(group, node.mesh ? node.attributes : std::move(node.attributes));
+  };
+  if (!all_.instances) {
+    for (const std::uint32_t visit : input_.inner) add_inner(visit);
+    return;
+  }
+  instance_groups_.resize(amounts_.size());
+  for (std::size_t visit = 0; visit < amounts_.size(); ++visit) {
+    if (inner_of_[visit] != kLeaf) add_inner(visit);
     if (!amounts_[visit].instances) continue;
     instance_groups_[visit] = add(visit);
     if (inner_of_[visit] == kLeaf)
-      model_.set_attributes(instance_groups_[visit], std::move(node.attributes));
+      model_.set_attributes(instance_groups_[visit], std::move(node_of(visit).attributes));
   }
 }
 
 /// Makes the path of each group: names from the root, with '/' behind each. One that is too long
 /// for the many objects of a deep tree keeps its end behind a hash of the whole.
 void Placer::make_paths() {
-  if (std::ranges::none_of(amounts_, &Amount::nameless)) return;
+  if (!all_.nameless) return;
   paths_.resize(model_.groups.size());
   for (std::size_t g = 0; g < paths_.size(); ++g) {
     const model::Group& group = model_.groups[g];
@@ -370,24 +442,21 @@ void Placer::note(std::size_t visit) {
 }
 
 Status Placer::run() {
-  const std::size_t visits = input_.visits.size();
-  place_inner_nodes();
-  amounts_.resize(visits);
-  if (Status counted = parallel::for_each(input_.context,
-                                          {.name = "count glTF objects", .n = visits, .grain = 256},
-                                          [&](std::size_t i) { amounts_[i] = amount_of(i); });
-      !counted)
-    return counted;
+  if (Status placed = place_inner_nodes(); !placed) return placed;
+  if (Status counted = count_all(); !counted) return counted;
   add_groups();
   make_paths();
   if (Status numbered = number_all(); !numbered) return numbered;
-  if (Status placed = parallel::for_each(input_.context,
-                                         {.name = "place glTF objects", .n = visits, .grain = 256},
-                                         [&](std::size_t i) { write(i); });
+  if (Status placed = parallel::for_each(
+          input_.context, {.name = "place glTF objects", .n = amounts_.size(), .grain = 256},
+          [&](std::size_t i) { write(i); });
       !placed)
     return placed;
-  for (std::size_t i = 0; i < visits; ++i)
-    if (amounts_[i].noted) note(i);
+  for (std::size_t r = 0; r < of_runs_.size(); ++r) {
+    if (!of_runs_[r].noted) continue;
+    for (std::size_t i = 0; i < amounts_of(r).size(); ++i)
+      if (amounts_of(r)[i].noted) note(r * kVisitsPerRun + i);
+  }
   return {};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -34,7 +35,8 @@ struct MeshShapes {
 
 struct PlacingInput {
   const std::vector<VisitedNode>& visits;
-  NodeTable& nodes;  ///< names and attributes of the visited ones are taken
+  const std::vector<std::uint32_t>& inner;  ///< visits of nodes with children, ascending
+  NodeTable& nodes;                         ///< names and attributes of the visited ones are taken
   const std::vector<MeshShapes>& meshes;
   const Accessors& accessors;
   const PropertyTables& tables;

@@ -223,7 +223,7 @@ Result<model::Model> ObjReading::read() {
   std::vector<obj::BuiltObject> built;
   if (const Status done = build(built, colors); !done) return done.error();
   for (std::size_t i = 0; i < built.size(); ++i) add(assembly_.entries[i], std::move(built[i]));
-  return end_model(file_, std::move(model_));
+  return end_model(file_, std::move(model_), context_);
 }
 
 /// Returns the share of a text's lines that OBJ could hold, estimated from its start.

@@ -310,7 +310,7 @@ class PlyReader final : public Reader {
     Result<PlyContent> content = PlyParser(file, *header, context).parse(model);
     if (!content) return content.error();
     PlyObject(file, std::move(*content), choose_frame(options, kPlyFrame)).add_to(model);
-    return end_model(file, std::move(model));
+    return end_model(file, std::move(model), context);
   }
 };
 

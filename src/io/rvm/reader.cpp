@@ -191,7 +191,7 @@ Result<model::Model> RvmReader::read(const FileBytes& file, const ReadOptions& o
   auto built = builder.build(context);
   if (!built) return built.error();
   built->model.diagnostics = std::move(diagnostics);
-  if (built->model.bodies.empty()) return end_model(file, std::move(built->model));
+  if (built->model.bodies.empty()) return end_model(file, std::move(built->model), context);
   model::Model started =
       start_model(file, text ? "RVM text" : fmt::format("RVM {}", head.version), options, kFrame);
   built->model.files = std::move(started.files);
@@ -199,7 +199,7 @@ Result<model::Model> RvmReader::read(const FileBytes& file, const ReadOptions& o
   add_attributes(*built, file, decoder);
   state_date(built->model, head.date);
   assign_ids(*built);
-  return end_model(file, std::move(built->model));
+  return end_model(file, std::move(built->model), context);
 }
 
 }  // namespace

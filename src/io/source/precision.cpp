@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/reduce.hpp"
 
 namespace strake::io {
 
@@ -50,22 +51,47 @@ double scale_of(const geometry::Mat3d& linear) {
   return std::sqrt(largest);
 }
 
-void settle_precision(const FileBytes& file, model::Model& model) {
-  constexpr float kCoarseUm = 250;  // half a spacing; a contact distance is two whole ones
-  constexpr double kMmPerUm = 1e-3;
-  float worst = 0;
-  std::size_t coarse = 0;
-  const model::Object* example = nullptr;
-  for (const model::Object& object : model.objects) {
-    float own = 0;
-    for (std::uint32_t b = 0; b < object.body_count; ++b)
-      own = std::max(own, model.bodies[object.first_body + b].precision_um);
-    if (own > kCoarseUm) ++coarse;
-    if (own > worst) example = &object;
-    worst = std::max(worst, own);
+namespace {
+
+constexpr float kCoarseUm = 250;  // half a spacing; a contact distance is two whole ones
+
+/// The worst precision of objects, in half spacings, the first object that has it, and how many
+/// have coarse ones.
+struct WorstPrecision {
+  float um = 0;
+  std::size_t object = 0, coarse = 0;
+
+  void add(const WorstPrecision& later) {
+    if (later.um > um) {
+      um = later.um;
+      object = later.object;
+    }
+    coarse += later.coarse;
   }
+};
+
+}  // namespace
+
+Status settle_precision(const FileBytes& file, model::Model& model,
+                        const parallel::Context& context) {
+  constexpr double kMmPerUm = 1e-3;
+  constexpr std::size_t kGrain = 4096;
+  const auto found = parallel::reduce(
+      context, {.name = "precision of objects", .n = model.objects.size(), .grain = kGrain},
+      WorstPrecision{},
+      [&](WorstPrecision& of_block, std::size_t o) {
+        const model::Object& object = model.objects[o];
+        WorstPrecision own{.object = o};
+        for (std::uint32_t b = 0; b < object.body_count; ++b)
+          own.um = std::max(own.um, model.bodies[object.first_body + b].precision_um);
+        if (own.um > kCoarseUm) own.coarse = 1;
+        of_block.add(own);
+      },
+      [](WorstPrecision& into, const WorstPrecision& of_block) { into.add(of_block); });
+  if (!found) return found.error();
+  const auto [worst, example, coarse] = *found;
   model.files.front().precision_mm = static_cast<double>(worst) / 1000;
-  if (coarse == 0) return;
+  if (coarse == 0) return {};
   model.diagnostics.add(
       Severity::warning, "coarse-coordinates",
       fmt::format("the coordinates of {} are so large for the file's numbers that these "
@@ -73,7 +99,8 @@ void settle_precision(const FileBytes& file, model::Model& model) {
                   "export nearer to the origin, or with more digits",
                   coarse == 1 ? "1 object" : std::to_string(coarse) + " objects",
                   2 * static_cast<double>(worst) * kMmPerUm),
-      fmt::format("{}, '{}'", file.path.string(), example->name));
+      fmt::format("{}, '{}'", file.path.string(), model.objects[example].name));
+  return {};
 }
 
 }  // namespace strake::io

@@ -5,8 +5,10 @@
 
 #include <span>
 
+#include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
 #include "strake/io/reader.hpp"
+#include "strake/parallel/context.hpp"
 
 namespace strake::io {
 
@@ -25,7 +27,9 @@ namespace strake::io {
 [[nodiscard]] double scale_of(const geometry::Mat3d& linear);
 
 /// Gives the model's only file the worst precision of its bodies, and warns once where that makes
-/// objects count as touching that are more than a millimetre apart.
-void settle_precision(const FileBytes& file, model::Model& model);
+/// objects count as touching that are more than a millimetre apart. Errors: cancelled, out of
+/// memory.
+[[nodiscard]] Status settle_precision(const FileBytes& file, model::Model& model,
+                                      const parallel::Context& context);
 
 }  // namespace strake::io

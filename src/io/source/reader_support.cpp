@@ -43,9 +43,11 @@ model::Model start_model(const FileBytes& file, std::string format, const ReadOp
   return model;
 }
 
-Result<model::Model> end_model(const FileBytes& file, model::Model&& model) {
+Result<model::Model> end_model(const FileBytes& file, model::Model&& model,
+                               const parallel::Context& context) {
   if (!model.bodies.empty()) {
-    settle_precision(file, model);
+    if (const Status settled = settle_precision(file, model, context); !settled)
+      return settled.error().code == ErrorCode::cancelled ? cancelled(file) : settled.error();
     return std::move(model);
   }
   const auto& kept = model.diagnostics.kept();

@@ -16,8 +16,9 @@ namespace strake::io {
                                        const ReadOptions& options, const FrameDefault& fallback);
 
 /// Returns what every reader ends with: the model and what its numbers can carry, or an error when
-/// no object is left of the file.
-[[nodiscard]] Result<model::Model> end_model(const FileBytes& file, model::Model&& model);
+/// no object is left of the file. Other errors: cancelled, out of memory.
+[[nodiscard]] Result<model::Model> end_model(const FileBytes& file, model::Model&& model,
+                                             const parallel::Context& context);
 
 [[nodiscard]] Error cancelled(const FileBytes& file);
 

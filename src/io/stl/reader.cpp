@@ -128,7 +128,7 @@ Result<model::Model> read_binary(const FileBytes& file, const ReadOptions& optio
   if (facets != 0)
     add_object(model, file.path.stem().string(), std::move(mesh),
                frame.unit_mm * float32_half_spacing(largest), lacks);
-  return end_model(file, std::move(model));
+  return end_model(file, std::move(model), context);
 }
 
 /// Reports a solid that does not end; returns true when it is not known what else it held.
@@ -179,7 +179,7 @@ Result<model::Model> read_ascii(const FileBytes& file, const ReadOptions& option
     if (cut_off) model.objects.back().incomplete = true;
   }
   if (!solids->empty() && solids->back().cut_off) model.files.front().ends_early = true;
-  return end_model(file, std::move(model));
+  return end_model(file, std::move(model), context);
 }
 
 Error truncated(const FileBytes& file) {

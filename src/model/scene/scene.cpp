@@ -11,12 +11,18 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/seeded_hash.hpp"
 #include "model/scene/grid_shape.hpp"
 #include "model/scene/instancing.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/count_fill.hpp"
+#include "strake/parallel/distinct.hpp"
+#include "strake/parallel/marks.hpp"
 #include "strake/parallel/order.hpp"
+#include "strake/parallel/reduce.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::model {
@@ -39,13 +45,40 @@ geometry::Seams seams_of(const Model& model, const Body& body, const SceneOption
   return {within, std::min(own, within)};
 }
 
+// Only shares the work out. Blocks of objects are about as long.
+constexpr std::size_t kBodiesPerBlock = 4096;
+
 /// A shape under one linear part, with its seams closed alike, and the first body that uses it.
 /// There are few precisions: steps of float32 and of decimals.
 struct Use {
   ShapeId shape{};
   geometry::Seams seams;
   std::uint32_t body = 0;
-  std::uint32_t bodies = 0;
+  std::uint32_t listed = 0;  ///< its number among those listed
+};
+
+/// The uses of the bodies listed, in order of first appearance.
+struct Uses {
+  std::vector<Use> all;
+  std::vector<std::uint32_t> of;  ///< by body
+};
+
+/// How many bodies have a use, counted once somebody asks, as few shapes have anything to report.
+class BodyCounts {
+ public:
+  explicit BodyCounts(const Uses& uses) : uses_(uses) {}
+
+  std::uint32_t of(std::size_t use) {
+    if (counts_.empty()) {
+      counts_.resize(uses_.all.size());
+      for (const std::uint32_t of_body : uses_.of) ++counts_[of_body];
+    }
+    return counts_[use];
+  }
+
+ private:
+  const Uses& uses_;
+  std::vector<std::uint32_t> counts_;
 };
 
 /// Returns the bits of a number, with negative zero as zero: the two place alike.
@@ -66,43 +99,6 @@ bool same_linear(const Mat3d& a, const Mat3d& b) {
       if (bits(a.row[i][k]) != bits(b.row[i][k])) return false;
   return true;
 }
-
-/// Numbers the distinct (shape, linear part, seams) in order of first appearance.
-class UseTable {
- public:
-  UseTable(const Model& model, const SceneOptions& options, std::size_t bodies)
-      : model_(model), options_(options) {
-    slots_.assign(std::bit_ceil(bodies * 2 + 2), kEmpty);
-  }
-
-  std::uint32_t number(std::uint32_t body) {
-    const Body& b = model_.bodies[body];
-    const geometry::Seams seams = seams_of(model_, b, options_);
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t slot = hash_of(hash_, b, seams) & mask;; slot = (slot + 1) & mask) {
-      if (slots_[slot] == kEmpty) {
-        slots_[slot] = static_cast<std::uint32_t>(uses_.size());
-        uses_.push_back({b.shape, seams, body, 1});
-        return slots_[slot];
-      }
-      Use& use = uses_[slots_[slot]];
-      if (use.shape == b.shape && use.seams == seams &&
-          same_linear(model_.bodies[use.body].placement.linear, b.placement.linear)) {
-        ++use.bodies;
-        return slots_[slot];
-      }
-    }
-  }
-  [[nodiscard]] std::vector<Use> take() && { return std::move(uses_); }
-
- private:
-  static constexpr std::uint32_t kEmpty = 0xffffffffU;
-  const Model& model_;
-  const SceneOptions& options_;
-  SeededHash hash_;
-  std::vector<std::uint32_t> slots_;
-  std::vector<Use> uses_;
-};
 
 bool wanted(Category category, const SceneOptions& options) {
   switch (category) {
@@ -155,14 +151,16 @@ void report_weld(const geometry::RepairCounts& findings, const Counted& counted)
 }
 
 /// Reports what is notable about a shape, for the first object that uses it, with the number of
-/// further bodies that use it.
-void report_findings(const GridShapeResult& made, std::uint32_t bodies, const Model& model,
+/// further bodies that use it: `count_bodies()` returns how many do.
+template <class Count>
+void report_findings(const GridShapeResult& made, Count&& count_bodies, const Model& model,
                      ObjectId id, Diagnostics& diagnostics) {
   const auto counted = [&](Severity severity, std::string_view code, std::uint64_t count,
                            std::string_view one, std::string_view many) {
     if (count != 0)
       report(diagnostics, severity, code, model, id, [&] {
         std::string text = fmt::format(fmt::runtime(count == 1 ? one : many), count);
+        const std::uint32_t bodies = count_bodies();
         if (bodies > 1)
           text += fmt::format("; likewise in {} more {} of the same shape", bodies - 1,
                               bodies == 2 ? "body" : "bodies");
@@ -219,32 +217,105 @@ struct SceneAssembly {
   Scene scene;
 };
 
-/// Lists the wanted bodies object by object, each with the number of its use.
-std::vector<Use> list_bodies(SceneAssembly& assembly) {
+bool has_shape(const Model& model, std::uint32_t body) {
+  return body < model.bodies.size() && index(model.bodies[body].shape) < model.shapes.size();
+}
+
+/// Notes what the model itself lacks.
+void note_lacking(SceneAssembly& assembly) {
   const Model& model = assembly.model;
   Scene& scene = assembly.scene;
-  UseTable table(model, assembly.options, model.bodies.size());
-  scene.bodies.reserve(model.bodies.size());
   for (std::uint32_t o = 0; o < model.objects.size(); ++o) {
     const Object& object = model.objects[o];
     if (object.incomplete)
       scene.lacking.push_back(
           {ObjectId{o}, object.body_count == 0 ? "object-skipped" : "object-incomplete"});
     for (std::uint32_t b = object.first_body; b - object.first_body < object.body_count; ++b) {
-      if (b >= model.bodies.size() || index(model.bodies[b].shape) >= model.shapes.size()) {
-        report(scene.diagnostics, Severity::skipped, "body-without-shape", model, ObjectId{o},
-               [] { return std::string("a body refers to a shape that does not exist"); });
-        scene.lacking.push_back({ObjectId{o}, "body-without-shape"});
-        continue;
-      }
-      if (!wanted(model.bodies[b].category, assembly.options)) {
-        ++scene.left_out;
-        continue;
-      }
-      scene.bodies.push_back({table.number(b), b, ObjectId{o}, {}});
+      if (has_shape(model, b)) continue;
+      report(scene.diagnostics, Severity::skipped, "body-without-shape", model, ObjectId{o},
+             [] { return std::string("a body refers to a shape that does not exist"); });
+      scene.lacking.push_back({ObjectId{o}, "body-without-shape"});
     }
   }
-  return std::move(table).take();
+}
+
+/// Lists the wanted bodies object by object, and where those of each object begin.
+Status list_bodies(SceneAssembly& assembly, const parallel::Context& context) {
+  const Model& model = assembly.model;
+  Scene& scene = assembly.scene;
+  parallel::Marks lacking(1), unwanted(1);
+  // Calls take(body) for each wanted body of an object, and other(body) for those that are not.
+  const auto each = [&](std::size_t o, auto&& take, auto&& other) {
+    const Object& object = model.objects[o];
+    for (std::uint32_t b = object.first_body; b - object.first_body < object.body_count; ++b) {
+      if (!has_shape(model, b))
+        lacking.set(0);
+      else if (wanted(model.bodies[b].category, assembly.options))
+        take(b);
+      else
+        other(b);
+    }
+  };
+  const parallel::Region objects{
+      .name = "list bodies", .n = model.objects.size(), .grain = kBodiesPerBlock};
+  auto listed = parallel::count_fill<GridBody>(
+      context, objects,
+      [&](std::size_t o) {
+        std::size_t count = 0;
+        each(o, [&](std::uint32_t) { ++count; }, [&](std::uint32_t) { unwanted.set(0); });
+        if (model.objects[o].incomplete) lacking.set(0);
+        return count;
+      },
+      [&](std::size_t o, std::span<GridBody> out) {
+        const ObjectId object{static_cast<std::uint32_t>(o)};
+        std::size_t at = 0;
+        each(o, [&](std::uint32_t b) { out[at++] = {0, b, object, {}}; }, [](std::uint32_t) {});
+      });
+  if (!listed) return listed.error();
+  if (lacking.is_set(0)) note_lacking(assembly);
+  if (unwanted.is_set(0)) {
+    const auto left_out = parallel::reduce(
+        context, objects, std::uint64_t{0},
+        [&](std::uint64_t& count, std::size_t o) {
+          each(o, [](std::uint32_t) {}, [&](std::uint32_t) { ++count; });
+        },
+        [](std::uint64_t& into, std::uint64_t count) { into += count; });
+    if (!left_out) return left_out.error();
+    scene.left_out = *left_out;
+  }
+  scene.bodies = std::move(listed->values);
+  auto first = parallel::transform(
+      context, {.name = "first bodies", .n = listed->offsets.size(), .grain = kBodiesPerBlock},
+      [&](std::size_t o) { return static_cast<std::uint32_t>(listed->offsets[o]); });
+  if (!first) return first.error();
+  scene.first_body = std::move(*first);
+  return {};
+}
+
+/// Numbers the distinct (shape, linear part, seams) of the listed bodies in order of first
+/// appearance.
+Result<Uses> number_uses(const SceneAssembly& assembly, const parallel::Context& context) {
+  const Model& model = assembly.model;
+  const std::vector<GridBody>& bodies = assembly.scene.bodies;
+  const auto body = [&](std::size_t i) -> const Body& { return model.bodies[bodies[i].body]; };
+  const auto seams = [&](std::size_t i) { return seams_of(model, body(i), assembly.options); };
+  const SeededHash hash;
+  auto kinds = parallel::distinct(
+      context, "shapes under linear parts", bodies.size(),
+      [&](std::size_t i) -> std::uint64_t { return hash_of(hash, body(i), seams(i)); },
+      [&](std::size_t i, std::size_t j) {
+        return body(i).shape == body(j).shape && seams(i) == seams(j) &&
+               same_linear(body(i).placement.linear, body(j).placement.linear);
+      });
+  if (!kinds) return kinds.error();
+  auto uses = parallel::transform(
+      context, {.name = "uses", .n = kinds->first.size(), .grain = kBodiesPerBlock},
+      [&](std::size_t k) {
+        const std::uint32_t i = kinds->first[k];
+        return Use{body(i).shape, seams(i), bodies[i].body, i};
+      });
+  if (!uses) return uses.error();
+  return Uses{std::move(*uses), std::move(kinds->of)};
 }
 
 /// Returns a rough number of triangles, by which the heaviest shapes are known.
@@ -281,51 +352,95 @@ Result<std::vector<GridShapeResult>> make_shapes(const SceneAssembly& assembly,
       });
 }
 
-/// Places the bodies of the shapes that were made, each with the first that is equal; the others
-/// and the unplaceable are reported.
-void place_bodies(SceneAssembly& assembly, const std::vector<Use>& uses,
-                  const std::vector<GridShapeResult>& made, const parallel::Distinct& kinds) {
+/// A body of which something is to be said, by its number among those listed.
+struct OddBody {
+  std::uint32_t listed = 0;
+  std::uint32_t use = 0;
+  bool has_place = false;
+};
+
+/// Notes what a body lacks for the faults of its shape or its place.
+void note_odd(SceneAssembly& assembly, const OddBody& odd, const GridShapeResult& shape) {
   const Model& model = assembly.model;
   Scene& scene = assembly.scene;
-  std::vector<bool> reported(made.size(), false);
+  const ObjectId object = scene.bodies[odd.listed].object;
+  if (shape.bad_triangles > 0) scene.lacking.push_back({object, "mesh-bad-triangle"});
+  if (shape.bad_points > 0) scene.lacking.push_back({object, "polyline-bad-point"});
+  if (odd.has_place) return;
+  const std::string_view code = shape.fault.empty() ? "body-unplaceable"
+                                : shape.vanished    ? kVanished
+                                                    : "shape-unplaceable";
+  scene.lacking.push_back({object, code});
+  report(scene.diagnostics, Severity::skipped, code, model, object, [&] {
+    return shape.fault.empty()
+               ? std::string(
+                     "a body has no place: its translation is not finite or beyond a million "
+                     "kilometres")
+               : fmt::format("a body has no place: {}", shape.fault);
+  });
+}
+
+/// Takes bodies without a place out.
+void leave_out(Scene& scene, std::span<const OddBody> odd) {
+  if (std::ranges::all_of(odd, &OddBody::has_place)) return;
   std::size_t kept = 0;
-  scene.first_body.assign(model.objects.size() + 1, 0);
-  for (const GridBody& candidate : scene.bodies) {
-    GridBody body = candidate;
-    const GridShapeResult& shape = made[body.grid_shape];
-    if (!reported[body.grid_shape])
-      report_findings(shape, uses[body.grid_shape].bodies, model, body.object, scene.diagnostics);
-    reported[body.grid_shape] = true;
-    const auto origin = geometry::snap(model.bodies[body.body].placement.translation);
-    if (shape.bad_triangles > 0) scene.lacking.push_back({body.object, "mesh-bad-triangle"});
-    if (shape.bad_points > 0) scene.lacking.push_back({body.object, "polyline-bad-point"});
-    if (!shape.fault.empty() || !origin) {
-      const std::string_view code = shape.fault.empty() ? "body-unplaceable"
-                                    : shape.vanished    ? kVanished
-                                                        : "shape-unplaceable";
-      scene.lacking.push_back({body.object, code});
-      report(scene.diagnostics, Severity::skipped, code, model, body.object, [&] {
-        return shape.fault.empty() ? std::string(
-                                         "a body has no place: its translation is not finite or "
-                                         "beyond a million kilometres")
-                                   : fmt::format("a body has no place: {}", shape.fault);
-      });
-      continue;
-    }
-    body.grid_shape = kinds.of[candidate.grid_shape];
-    body.origin = *origin + shape.shape.base;
-    const std::uint32_t first = kinds.first[body.grid_shape];
-    if (first != candidate.grid_shape)
-      body.origin = body.origin + translation_between(made[first].shape, shape.shape);
-    scene.bodies[kept++] = body;
-    ++scene.first_body[index(body.object) + 1];
+  auto next = odd.begin();
+  std::ranges::fill(scene.first_body, 0U);
+  for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+    while (next != odd.end() && next->listed < i) ++next;
+    if (next != odd.end() && next->listed == i && !next->has_place) continue;
+    scene.bodies[kept++] = scene.bodies[i];
+    ++scene.first_body[index(scene.bodies[i].object) + 1];
   }
   scene.bodies.resize(kept);
   for (std::size_t o = 1; o < scene.first_body.size(); ++o)
     scene.first_body[o] += scene.first_body[o - 1];
+}
+
+/// Places the bodies of the shapes that were made, each with the first that is equal; the others
+/// and the unplaceable are reported.
+Status place_bodies(SceneAssembly& assembly, const Uses& uses,
+                    const std::vector<GridShapeResult>& made, const parallel::Distinct& kinds,
+                    const parallel::Context& context) {
+  const Model& model = assembly.model;
+  Scene& scene = assembly.scene;
+  const auto odd = parallel::collect<OddBody>(
+      context, {.name = "place bodies", .n = scene.bodies.size(), .grain = kBodiesPerBlock},
+      [&](std::size_t i, std::vector<OddBody>& out) {
+        GridBody& body = scene.bodies[i];
+        const std::uint32_t use = uses.of[i];
+        const GridShapeResult& shape = made[use];
+        const auto origin = geometry::snap(model.bodies[body.body].placement.translation);
+        const bool has_place = shape.fault.empty() && origin;
+        if (!has_place || shape.bad_triangles > 0 || shape.bad_points > 0)
+          out.push_back({static_cast<std::uint32_t>(i), use, has_place});
+        if (!has_place) return;
+        body.grid_shape = kinds.of[use];
+        body.origin = *origin + shape.shape.base;
+        const std::uint32_t first = kinds.first[body.grid_shape];
+        if (first != use)
+          body.origin = body.origin + translation_between(made[first].shape, shape.shape);
+      });
+  if (!odd) return odd.error();
+  BodyCounts counts(uses);
+  auto next = odd->begin();
+  const auto note_until = [&](std::size_t listed) {
+    for (; next != odd->end() && next->listed < listed; ++next)
+      note_odd(assembly, *next, made[next->use]);
+  };
+  for (std::size_t use = 0; use < uses.all.size(); ++use) {
+    const std::uint32_t listed = uses.all[use].listed;
+    note_until(listed);
+    report_findings(
+        made[use], [&] { return counts.of(use); }, model, scene.bodies[listed].object,
+        scene.diagnostics);
+  }
+  note_until(scene.bodies.size());
+  leave_out(scene, *odd);
   std::ranges::sort(scene.lacking);
   const auto repeated = std::ranges::unique(scene.lacking);
   scene.lacking.erase(repeated.begin(), repeated.end());
+  return {};
 }
 
 }  // namespace
@@ -344,13 +459,16 @@ Result<Scene> make_scene(const Model& model, const SceneOptions& options,
     return Error{ErrorCode::usage, "the weld distance must be a length up to a metre", "",
                  "leave it out to have it derived from the sources"};
   SceneAssembly assembly{model, options, {}};
-  const std::vector<Use> uses = list_bodies(assembly);
-  Result<std::vector<GridShapeResult>> shapes = make_shapes(assembly, uses, context);
+  if (const Status listed = list_bodies(assembly, context); !listed) return listed.error();
+  const Result<Uses> uses = number_uses(assembly, context);
+  if (!uses) return uses.error();
+  Result<std::vector<GridShapeResult>> shapes = make_shapes(assembly, uses->all, context);
   if (!shapes) return shapes.error();
   std::vector<GridShapeResult>& made = *shapes;
   const Result<parallel::Distinct> kinds = find_equal_shapes(made, context);
   if (!kinds) return kinds.error();
-  place_bodies(assembly, uses, made, *kinds);
+  if (const Status placed = place_bodies(assembly, *uses, made, *kinds, context); !placed)
+    return placed.error();
   Scene& scene = assembly.scene;
   scene.model = &model;
   scene.sag_mm = options.sag_mm;

@@ -4,18 +4,24 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <utility>
 #include <variant>
 
 #include "model/scene/grid_shape.hpp"
 #include "strake/geometry/grid.hpp"
+#include "strake/parallel/collect.hpp"
+#include "strake/parallel/distinct.hpp"
+#include "strake/parallel/find.hpp"
+#include "strake/parallel/for_each.hpp"
+#include "strake/parallel/lowest.hpp"
+#include "strake/parallel/marks.hpp"
+#include "strake/parallel/slots.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::model {
 namespace {
 
-constexpr std::uint32_t kNone = 0xffffffffU;
+constexpr std::uint32_t kNone = parallel::Lowest::kNone;
 
 /// Which shape each body of a view has: one of the scene's, or behind those one of its own.
 struct ShapesOfView {
@@ -29,23 +35,35 @@ const geometry::Primitive* primitive_of(const Scene& scene, std::uint32_t shape)
   return std::get_if<geometry::Primitive>(&scene.model->shapes[index(scene.shapes[shape].shape)]);
 }
 
+// Only shares the work out.
+constexpr std::size_t kBodiesPerRun = 4096;
+
 /// Returns by shape whether it is to be finer than in the scene: so is that of a body which may be
 /// seen.
-std::vector<bool> finer_shapes(const Scene& scene, const std::vector<bool>& drawn,
-                               const ViewTessellationOptions& seen_by) {
-  if (!(seen_by.sag_mm > 0 && seen_by.sag_mm < scene.sag_mm)) return {};
-  std::vector<bool> finer(scene.shapes.size()), curved(scene.shapes.size());
+Result<std::vector<bool>> finer_shapes(const Scene& scene, const std::vector<bool>& drawn,
+                                       const ViewTessellationOptions& seen_by,
+                                       const parallel::Context& context) {
+  std::vector<bool> finer;
+  if (!(seen_by.sag_mm > 0 && seen_by.sag_mm < scene.sag_mm)) return finer;
+  std::vector<bool> curved(scene.shapes.size());
   for (std::uint32_t s = 0; s < curved.size(); ++s) {
     const geometry::Primitive* const primitive = primitive_of(scene, s);
     curved[s] = primitive != nullptr && geometry::is_curved(*primitive);
   }
-  for (const GridBody& body : scene.bodies) {
-    if (!curved[body.grid_shape] || finer[body.grid_shape] ||
-        (!drawn.empty() && !drawn[index(body.object)]))
-      continue;
-    const geometry::Box3l box = body.box(scene.shapes[body.grid_shape]);
-    finer[body.grid_shape] = !box.empty() && (!seen_by.shows || seen_by.shows(box));
-  }
+  parallel::Marks seen(scene.shapes.size());
+  const Status looked = parallel::for_each(
+      context, {.name = "shapes that are seen", .n = scene.bodies.size(), .grain = kBodiesPerRun},
+      [&](std::size_t b) {
+        const GridBody& body = scene.bodies[b];
+        if (!curved[body.grid_shape] || seen.is_set(body.grid_shape) ||
+            (!drawn.empty() && !drawn[index(body.object)]))
+          return;
+        const geometry::Box3l box = body.box(scene.shapes[body.grid_shape]);
+        if (!box.empty() && (!seen_by.shows || seen_by.shows(box))) seen.set(body.grid_shape);
+      });
+  if (!looked) return looked.error();
+  finer.resize(scene.shapes.size());
+  for (std::size_t s = 0; s < finer.size(); ++s) finer[s] = seen.is_set(s);
   return finer;
 }
 
@@ -60,30 +78,47 @@ bool is_seen_from_eye(const Scene& scene, const GridBody& body,
 }
 
 /// Equal shapes at one place, as of objects that are in a model twice, stay one.
-ShapesOfView shapes_of_view(const Scene& scene, const std::vector<bool>& drawn,
-                            const ViewTessellationOptions& seen_by) {
+Result<ShapesOfView> shapes_of_view(const Scene& scene, const std::vector<bool>& drawn,
+                                    const ViewTessellationOptions& seen_by,
+                                    const parallel::Context& context) {
   ShapesOfView shapes;
-  shapes.of.reserve(scene.bodies.size());
-  shapes.first.assign(scene.shapes.size(), kNone);
-  const auto place = [&](std::uint32_t b) {
-    const GridBody& body = scene.bodies[b];
-    return std::tuple(body.grid_shape, body.origin.x, body.origin.y, body.origin.z);
-  };
-  std::vector<std::uint32_t> own;
-  for (std::uint32_t b = 0; b < scene.bodies.size(); ++b) {
-    const GridBody& body = scene.bodies[b];
-    shapes.of.push_back(body.grid_shape);
-    if (!drawn.empty() && !drawn[index(body.object)]) continue;
-    if (is_seen_from_eye(scene, body, seen_by))
-      own.push_back(b);
-    else if (shapes.first[body.grid_shape] == kNone)
-      shapes.first[body.grid_shape] = b;
-  }
-  std::ranges::sort(own, {}, [&](std::uint32_t b) { return std::pair(place(b), b); });
-  for (std::size_t i = 0; i < own.size(); ++i) {
-    if (i == 0 || place(own[i]) != place(own[i - 1])) shapes.first.push_back(own[i]);
-    shapes.of[own[i]] = static_cast<std::uint32_t>(shapes.first.size() - 1);
-  }
+  auto of = parallel::unset_slots<std::uint32_t>(scene.bodies.size());
+  if (!of) return of.error();
+  shapes.of = std::move(*of);
+  parallel::Lowest shared(scene.shapes.size());
+  const auto own = parallel::collect<std::uint32_t>(
+      context, {.name = "shapes of bodies", .n = scene.bodies.size(), .grain = kBodiesPerRun},
+      [&](std::size_t b, std::vector<std::uint32_t>& out) {
+        const GridBody& body = scene.bodies[b];
+        shapes.of[b] = body.grid_shape;
+        if (!drawn.empty() && !drawn[index(body.object)]) return;
+        if (is_seen_from_eye(scene, body, seen_by))
+          out.push_back(static_cast<std::uint32_t>(b));
+        else
+          shared.offer(body.grid_shape, b);
+      });
+  if (!own) return own.error();
+  const auto body = [&](std::size_t i) -> const GridBody& { return scene.bodies[(*own)[i]]; };
+  const auto kinds = parallel::distinct(
+      context, "shapes of their own", own->size(),
+      [&](std::size_t i) {
+        std::uint64_t hash = parallel::mixed(0, body(i).grid_shape);
+        for (int k = 0; k < 3; ++k)
+          hash = parallel::mixed(hash, static_cast<std::uint64_t>(body(i).origin[k]));
+        return hash;
+      },
+      [&](std::size_t i, std::size_t j) {
+        return body(i).grid_shape == body(j).grid_shape && body(i).origin == body(j).origin;
+      });
+  if (!kinds) return kinds.error();
+  shapes.first.reserve(scene.shapes.size() + kinds->first.size());
+  for (std::size_t s = 0; s < scene.shapes.size(); ++s) shapes.first.push_back(shared[s]);
+  for (const std::uint32_t i : kinds->first) shapes.first.push_back((*own)[i]);
+  const auto shared_shapes = static_cast<std::uint32_t>(scene.shapes.size());
+  const Status numbered = parallel::for_each(
+      context, {.name = "bodies with their own", .n = own->size(), .grain = kBodiesPerRun},
+      [&](std::size_t i) { shapes.of[(*own)[i]] = shared_shapes + kinds->of[i]; });
+  if (!numbered) return numbered.error();
   return shapes;
 }
 
@@ -107,25 +142,33 @@ GridShape made_for(const Scene& scene, std::uint32_t shape, const geometry::Mat3
 
 }  // namespace
 
-ViewTessellation plan_view_tessellation(const Scene& scene, const std::vector<bool>& drawn,
-                                        const ViewTessellationOptions& seen_by) {
+Result<ViewTessellation> plan_view_tessellation(const Scene& scene, const std::vector<bool>& drawn,
+                                                const ViewTessellationOptions& seen_by,
+                                                const parallel::Context& context) {
   ViewTessellation plan;
   if (scene.model == nullptr || !(scene.sag_mm > 0)) return plan;
-  plan.finer = finer_shapes(scene, drawn, seen_by);
-  for (const GridBody& body : scene.bodies) {
-    if (!drawn.empty() && !drawn[index(body.object)]) continue;
-    plan.any =
-        changes(scene, body.grid_shape, seen_by, plan) || is_seen_from_eye(scene, body, seen_by);
-    if (plan.any) break;
-  }
+  auto finer = finer_shapes(scene, drawn, seen_by, context);
+  if (!finer) return finer.error();
+  plan.finer = std::move(*finer);
+  const auto changed = parallel::find_first(
+      context, {.name = "shapes that change", .n = scene.bodies.size(), .grain = kBodiesPerRun},
+      [&](std::size_t b) {
+        const GridBody& body = scene.bodies[b];
+        return (drawn.empty() || drawn[index(body.object)]) &&
+               (changes(scene, body.grid_shape, seen_by, plan) ||
+                is_seen_from_eye(scene, body, seen_by));
+      });
+  if (!changed) return changed.error();
+  plan.any = changed->has_value();
   return plan;
 }
 
 Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::vector<bool>& drawn,
                                                  const ViewTessellationOptions& seen_by,
                                                  const parallel::Context& context) {
-  return tessellate_for_view(scene, drawn, seen_by, plan_view_tessellation(scene, drawn, seen_by),
-                             context);
+  const Result<ViewTessellation> plan = plan_view_tessellation(scene, drawn, seen_by, context);
+  if (!plan) return plan.error();
+  return tessellate_for_view(scene, drawn, seen_by, *plan, context);
 }
 
 Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::vector<bool>& drawn,
@@ -133,7 +176,9 @@ Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::
                                                  const ViewTessellation& plan,
                                                  const parallel::Context& context) {
   if (!plan.any) return std::optional<Scene>();
-  const ShapesOfView view = shapes_of_view(scene, drawn, seen_by);
+  const Result<ShapesOfView> shapes_of = shapes_of_view(scene, drawn, seen_by, context);
+  if (!shapes_of) return shapes_of.error();
+  const ShapesOfView& view = *shapes_of;
   // Only shares the work out: between 4 and 64 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 16;
   auto shapes = parallel::transform_with(
@@ -160,7 +205,6 @@ Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::
   if (!shapes) return shapes.error();
   Scene seen;
   seen.model = scene.model;
-  seen.bodies = scene.bodies;
   seen.first_body = scene.first_body;
   seen.left_out = scene.left_out;
   seen.diagnostics = scene.diagnostics;
@@ -168,11 +212,16 @@ Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::
   seen.sag_mm = scene.sag_mm;
   if (seen_by.sag_mm > 0) seen.sag_mm = std::min(seen.sag_mm, seen_by.sag_mm);
   seen.weld_mm = scene.weld_mm;
-  for (std::size_t b = 0; b < seen.bodies.size(); ++b) {
-    GridBody& body = seen.bodies[b];
-    body.origin = body.origin - scene.shapes[body.grid_shape].base + (*shapes)[view.of[b]].base;
-    body.grid_shape = view.of[b];
-  }
+  auto bodies = parallel::transform(
+      context, {.name = "bodies of the view", .n = scene.bodies.size(), .grain = kBodiesPerRun},
+      [&](std::size_t b) {
+        GridBody body = scene.bodies[b];
+        body.origin = body.origin - scene.shapes[body.grid_shape].base + (*shapes)[view.of[b]].base;
+        body.grid_shape = view.of[b];
+        return body;
+      });
+  if (!bodies) return bodies.error();
+  seen.bodies = std::move(*bodies);
   seen.shapes = std::move(*shapes);
   return std::optional<Scene>(std::move(seen));
 }

@@ -39,10 +39,11 @@ struct ViewTessellation {
   [[nodiscard]] bool is_finer(std::uint32_t shape) const { return !finer.empty() && finer[shape]; }
 };
 
-/// Returns what tessellate_for_view() makes anew.
-[[nodiscard]] ViewTessellation plan_view_tessellation(const Scene& scene,
-                                                      const std::vector<bool>& drawn,
-                                                      const ViewTessellationOptions& seen_by);
+/// Returns what tessellate_for_view() makes anew. `shows` is called by all workers. Errors:
+/// cancelled, out of memory.
+[[nodiscard]] Result<ViewTessellation> plan_view_tessellation(
+    const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& seen_by,
+    const parallel::Context& context);
 
 /// Returns a scene as a view sees it: its primitives are tessellated anew where that changes them,
 /// once per shape and rotation as in `scene`; for an eye once per shape and place, of bodies that

@@ -275,7 +275,7 @@ Status write_clash_head(const ClashContents& contents, Sink sink,
   BufferedWriter buffer(sink);
   std::string& out = buffer.text();
   begin_document(out, contents);
-  append_test_list(out, contents.findings);
+  if (Status s = append_test_list(out, contents.findings); !s) return s;
   if (Status s = middle_of_document(buffer, contents, context); !s) return s;
   if (contents.grouping != nullptr) {
     out += ",\n";

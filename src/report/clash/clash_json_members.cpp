@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,69 +16,15 @@
 #include "clash/results/required_clearance.hpp"
 #include "clash/rules/tolerance_lengths.hpp"
 #include "core/text_encoding.hpp"
+#include "report/clash/attribute_columns.hpp"
 #include "report/clash/contents.hpp"
+#include "report/json/element_hashes.hpp"
 #include "report/json/json_writer.hpp"
 #include "report/text/formatting.hpp"
+#include "strake/parallel/find.hpp"
 #include "strake/parallel/for_each.hpp"
-#include "strake/parallel/transform.hpp"
 
 namespace strake::report {
-
-Result<ElementHashes> ElementHashes::of(const model::Model& model,
-                                        const parallel::Context& context) {
-  constexpr std::size_t kGrain = 1024, kBuckets = 256;
-  const auto bucket_of = [](const HashedElement& e) { return std::size_t{e.hash >> 56U}; };
-  const auto hashed = parallel::transform(
-      context, {.name = "hashes of elements", .n = model.objects.size(), .grain = kGrain},
-      [&](std::size_t i) {
-        const auto o = static_cast<std::uint32_t>(i);
-        return HashedElement{clash::element_hash(model, model::ObjectId{o}), o};
-      });
-  if (!hashed) return hashed.error();
-  // Hashes are spread evenly: buckets by their first byte are about equally long.
-  std::array<std::size_t, kBuckets + 1> begin{};
-  for (const HashedElement& e : *hashed) ++begin[bucket_of(e) + 1];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  ElementHashes all;
-  all.elements_.resize(hashed->size());
-  std::array<std::size_t, kBuckets + 1> next = begin;
-  for (const HashedElement& e : *hashed) all.elements_[next[bucket_of(e)]++] = e;
-  const Status sorted =
-      parallel::for_each(context, {.name = "sort elements", .n = kBuckets}, [&](std::size_t b) {
-        const auto bucket = std::span(all.elements_).subspan(begin[b], begin[b + 1] - begin[b]);
-        std::ranges::sort(bucket, [](const HashedElement& x, const HashedElement& y) {
-          return x.hash != y.hash ? x.hash < y.hash : x.object < y.object;
-        });
-      });
-  if (!sorted) return sorted.error();
-  return all;
-}
-
-void ElementHashes::append_list(std::string& out) const {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(elements_.size() * 8);
-  for (const HashedElement& e : elements_)
-    for (unsigned shift = 0; shift < 64; shift += 8)
-      bytes.push_back(static_cast<std::uint8_t>((e.hash >> shift) & 255U));
-  append_base64(out, bytes);
-}
-
-void ElementHashes::append_members(std::string& out, const std::vector<bool>& member) const {
-  std::vector<std::uint8_t> bytes((elements_.size() + 7) / 8, 0);
-  for (std::size_t i = 0; i < elements_.size(); ++i)
-    if (elements_[i].object < member.size() && member[elements_[i].object])
-      bytes[i / 8] = static_cast<std::uint8_t>(bytes[i / 8] | (1U << (i % 8)));
-  append_base64(out, bytes);
-}
-
-void ElementHashes::append_bytes(std::string& out,
-                                 const std::vector<std::uint8_t>& of_object) const {
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(elements_.size());
-  for (const HashedElement& e : elements_)
-    bytes.push_back(e.object < of_object.size() ? of_object[e.object] : std::uint8_t{0});
-  append_base64(out, bytes);
-}
 
 namespace {
 
@@ -479,13 +424,15 @@ void matrix(std::string& out, const Report& report) {
 
 /// Appends which objects were compared with which, so that a later run can tell what is gone from
 /// what was not checked.
-void tested(std::string& out, const Report& report, const ElementHashes& elements) {
+Status tested(std::string& out, const Report& report, const ElementHashes& elements,
+              const parallel::Context& context) {
   out += "\"tested\": {\"a\": \"";
-  elements.append_members(out, report.in_a);
+  if (Status s = elements.append_members(out, report.in_a, context); !s) return s;
   out += "\", \"b\": \"";
-  elements.append_members(out, report.in_b);
+  if (Status s = elements.append_members(out, report.in_b, context); !s) return s;
   out += "\", \"within_files\": ";
   out += report.within_files ? "true}" : "false}";
+  return {};
 }
 
 /// Returns what Report::sheets of any test says of each object: each has those of its own sets.
@@ -499,17 +446,31 @@ std::vector<std::uint8_t> sheets(const clash::Findings& findings) {
 }
 
 /// Returns which objects have positional ids; empty if none has.
-std::vector<bool> positional_ids(const model::Model& model) {
-  const auto positional = [](const model::Object& o) { return o.positional_id; };
-  if (std::ranges::none_of(model.objects, positional)) return {};
+Result<std::vector<bool>> positional_ids(const model::Model& model,
+                                         const parallel::Context& context) {
+  // Blocks have whole words of bits to themselves.
+  const parallel::Region objects{
+      .name = "positional ids", .n = model.objects.size(), .grain = 16384};
+  const auto any = parallel::find_first(
+      context, objects, [&](std::size_t i) { return model.objects[i].positional_id; });
+  if (!any) return any.error();
   std::vector<bool> ids;
-  ids.reserve(model.objects.size());
-  for (const model::Object& o : model.objects) ids.push_back(positional(o));
+  if (!*any) return ids;
+  ids.resize(model.objects.size());
+  const Status status = parallel::for_each(
+      context, objects, [&](std::size_t i) { ids[i] = model.objects[i].positional_id; });
+  if (!status) return status.error();
   return ids;
 }
 
+/// What tests name objects by, where they do.
+struct NamedElements {
+  const ElementHashes& hashes;
+  const parallel::Context& context;
+};
+
 /// `elements` is null where the test is told without what was compared with what.
-void test(std::string& out, const Report& report, const ElementHashes* elements) {
+Status test(std::string& out, const Report& report, const NamedElements* elements) {
   out += "{\"name\": ";
   append_json(out, report.name);
   out += ", ";
@@ -531,40 +492,51 @@ void test(std::string& out, const Report& report, const ElementHashes* elements)
   }
   if (elements != nullptr) {
     out += ", ";
-    tested(out, report, *elements);
+    if (Status s = tested(out, report, elements->hashes, elements->context); !s) return s;
   }
   out += ", \"hash\": ";
   append_json(out, report.hash);
   out += "}";
+  return {};
+}
+
+/// Appends the member `tests`.
+Status test_list(std::string& out, const clash::Findings& findings, const NamedElements* elements) {
+  Status all;
+  append_list(
+      out, "tests", findings.tests,
+      [&](const Report& report) {
+        Status status = all ? test(out, report, elements) : Status{};
+        if (!status) all = std::move(status);
+      },
+      "\n  ");
+  return all;
 }
 
 }  // namespace
 
 Status append_tests(std::string& out, const clash::Findings& findings, const model::Model& model,
                     const parallel::Context& context) {
-  const Result<ElementHashes> hashes = ElementHashes::of(model, context);
-  if (!hashes) return hashes.error();
-  const ElementHashes& elements = *hashes;
+  const Result<ElementHashes> elements = ElementHashes::of(model, context);
+  if (!elements) return elements.error();
   out += "\"elements\": \"";
-  elements.append_list(out);
+  if (Status s = elements->append_list(out, context); !s) return s;
   out += "\",\n\"sheets\": \"";
-  elements.append_bytes(out, sheets(findings));
+  if (Status s = elements->append_bytes(out, sheets(findings), context); !s) return s;
   out += "\",\n";
-  if (const std::vector<bool> ids = positional_ids(model); !ids.empty()) {
+  const Result<std::vector<bool>> ids = positional_ids(model, context);
+  if (!ids) return ids.error();
+  if (!ids->empty()) {
     out += "\"positional_ids\": \"";
-    elements.append_members(out, ids);
+    if (Status s = elements->append_members(out, *ids, context); !s) return s;
     out += "\",\n";
   }
-  append_list(
-      out, "tests", findings.tests, [&](const Report& report) { test(out, report, &elements); },
-      "\n  ");
-  return {};
+  const NamedElements named{*elements, context};
+  return test_list(out, findings, &named);
 }
 
-void append_test_list(std::string& out, const clash::Findings& findings) {
-  append_list(
-      out, "tests", findings.tests, [&](const Report& report) { test(out, report, nullptr); },
-      "\n  ");
+Status append_test_list(std::string& out, const clash::Findings& findings) {
+  return test_list(out, findings, nullptr);
 }
 
 }  // namespace strake::report

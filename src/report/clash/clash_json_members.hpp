@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "strake/clash/clash.hpp"
 #include "strake/clash/group.hpp"
@@ -17,29 +16,6 @@
 
 /// Writes the members of a clash document.
 namespace strake::report {
-
-/// The objects of a model as a document lists them, so that a later run can be compared with it:
-/// 64-bit hashes in ascending order.
-class ElementHashes {
- public:
-  /// Errors: cancelled, out of memory.
-  [[nodiscard]] static Result<ElementHashes> of(const model::Model& model,
-                                                const parallel::Context& context);
-
-  /// Appends the hashes, little endian, as base64.
-  void append_list(std::string& out) const;
-  /// Appends a bit for each hash in that order, the lowest of a byte first, as base64.
-  void append_members(std::string& out, const std::vector<bool>& member) const;
-  /// Appends a byte for each hash in that order, as base64; 0 beyond the end of `of_object`.
-  void append_bytes(std::string& out, const std::vector<std::uint8_t>& of_object) const;
-
- private:
-  struct HashedElement {
-    std::uint64_t hash = 0;
-    std::uint32_t object = 0;
-  };
-  std::vector<HashedElement> elements_;
-};
 
 // These functions append the items of the clash document's lists; `test` is the number of their
 // test.
@@ -60,7 +36,7 @@ void append_not_compared(std::string& out, const ClashContents& contents, std::s
                          const clash::NotCompared& what);
 
 /// Appends the member `tests` without what of it names objects by their places in `elements`.
-void append_test_list(std::string& out, const clash::Findings& findings);
+[[nodiscard]] Status append_test_list(std::string& out, const clash::Findings& findings);
 
 /// Appends the members `elements` and `tests` of the clash document: what was checked, by which
 /// rules and tolerances, and how much was found. Errors: cancelled, out of memory.

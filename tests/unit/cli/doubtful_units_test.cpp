@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/run/load.hpp"
+#include "strake/parallel/team.hpp"
 #include "support/meshes.hpp"
 
 namespace strake::cli {
@@ -36,7 +37,7 @@ Diagnostics told(const std::vector<File>& files, const Vec3d& at = {}) {
     model.bodies.push_back(body);
   }
   model::Scene scene = model::make_scene(model, {}, {}).value();
-  note_doubtful_units(scene);
+  EXPECT_TRUE(note_doubtful_units(scene, {}));
   return scene.diagnostics;
 }
 
@@ -121,6 +122,35 @@ TEST(DoubtfulUnits, WhatTheGridMakesFlatIsAlikeAndALineSaysNothing) {
   EXPECT_EQ(doubts({{{200, 100, 0.4}}, {{0.2, 0.1, 0.0004}}}), 1U);
   EXPECT_EQ(doubts({{{200, 100, 30}}, {{0.2, 0.1, 0}}}), 0U);
   EXPECT_EQ(doubts({{{200, 0.4, 0.4}}, {{0.2, 0.002, 0.002}}}), 0U);
+}
+
+// Blocks of bodies have boxes of their own: the extents are those of all.
+TEST(DoubtfulUnits, FilesOfManyBodiesAreToldForAnyTeam) {
+  constexpr std::uint32_t kMany = 10'000;
+  model::Model model;
+  for (const double scale : {1.0, 0.001}) {
+    const auto file = static_cast<std::uint32_t>(model.files.size());
+    model.files.push_back({std::to_string(file) + ".stl", "STL", "mm (assumed)", "z", 1, 0});
+    model.shapes.emplace_back(test::box_mesh({}, scaled(kPart, scale)));
+    for (std::uint32_t i = 0; i < kMany; ++i) {
+      model::Object object;
+      object.id = std::to_string(i);
+      object.file = file;
+      object.first_body = static_cast<std::uint32_t>(model.bodies.size());
+      object.body_count = 1;
+      model.objects.push_back(object);
+      model::Body body;
+      body.shape = model::ShapeId{file};
+      body.placement.translation = scaled({i * 50.0, i * 20.0, i * 30.0}, scale);
+      model.bodies.push_back(body);
+    }
+  }
+  for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+    parallel::Team team(threads);
+    model::Scene scene = model::make_scene(model, {}, {.team = &team}).value();
+    ASSERT_TRUE(note_doubtful_units(scene, {.team = &team}));
+    EXPECT_EQ(scene.diagnostics.count("unit-doubtful"), 1U) << threads;
+  }
 }
 
 TEST(DoubtfulUnits, EachPairOfFilesIsTold) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stop_token>
 #include <vector>
 
 #include "strake/parallel/team.hpp"
@@ -135,6 +136,12 @@ TEST(Ink, CirclesGoOrStayByWholeLines) {
   EXPECT_GE(ink_of(from_top(alone)).lines.size(), 36U);
 }
 
+Pens pens_of(const NeutralDrawing& drawing, const parallel::Context& context = {}) {
+  const auto pens = choose_pens(drawing, context);
+  EXPECT_TRUE(pens);
+  return pens ? *pens : Pens{};
+}
+
 TEST(Ink, PensFollowTheDensityWhereTheLinesAre) {
   const auto stripes = [](double step) {
     std::vector<Line> lines{line({0, 290}, {400, 290}, kVisible)};  // and much white
@@ -152,7 +159,7 @@ TEST(Ink, PensFollowTheDensityWhereTheLinesAre) {
 // At 100000:1 a view reaches many kilometres beyond its sheet.
 TEST(Ink, WhatLiesOffTheSheetIsNotDense) {
   NeutralDrawing drawing = from_top({line({0, 290}, {400, 290}, kVisible)});
-  const double edge = choose_pens(drawing).edge;
+  const double edge = pens_of(drawing).edge;
   const double far = 5e8;
   for (int i = 0; i < 200; ++i) {
     const double y = 10 + i * 0.001;
@@ -160,11 +167,11 @@ TEST(Ink, WhatLiesOffTheSheetIsNotDense) {
     drawing.lines.push_back(line({-far, y - 20}, {far, y - 20}, kVisible));
     drawing.lines.push_back(line({-far, -far}, {-1, far}, kVisible));
   }
-  EXPECT_DOUBLE_EQ(choose_pens(drawing).edge, edge);
+  EXPECT_DOUBLE_EQ(pens_of(drawing).edge, edge);
   // What runs across it counts there alone.
   for (int i = 0; i < 60; ++i)
     drawing.lines.push_back(line({10 + i * 0.6, -far}, {10 + i * 0.6, far}, kVisible));
-  EXPECT_DOUBLE_EQ(choose_pens(drawing).edge, 0.18);
+  EXPECT_DOUBLE_EQ(pens_of(drawing).edge, 0.18);
 }
 
 TEST(Ink, PensAreALineGroupOfTheStandard) {
@@ -173,7 +180,7 @@ TEST(Ink, PensAreALineGroupOfTheStandard) {
     for (double x = 0; x < 40; x += step) drawing.lines.push_back(line({x, 0}, {x, 40}, kVisible));
     drawing.sheet.width_mm = width_mm;
     drawing.sheet.height_mm = height_mm;
-    return choose_pens(drawing);
+    return pens_of(drawing);
   };
   EXPECT_DOUBLE_EQ(pens_on(841, 594, 10).edge, 0.7);  // A1
   EXPECT_DOUBLE_EQ(pens_on(594, 420, 10).edge, 0.5);  // A2
@@ -186,6 +193,31 @@ TEST(Ink, PensAreALineGroupOfTheStandard) {
       EXPECT_NEAR(pens.edge / pens.thin, 2, 0.08);
       EXPECT_GT(pens.section, pens.edge);
     }
+}
+
+// Lines in pieces are as dense as whole ones, and no block of them is left out.
+TEST(Ink, PensAreThoseOfAllLinesForAnyTeam) {
+  std::vector<Line> lines{line({0, 290}, {400, 290}, kVisible)};
+  constexpr int kPieces = 1000;
+  const auto at = [](double x, int i) { return PaperPoint{x, 40.0 * i / kPieces}; };
+  for (int stripe = 0; stripe < 50; ++stripe)
+    for (int i = 0; i < kPieces; ++i)
+      lines.push_back(line(at(stripe * 0.8, i), at(stripe * 0.8, i + 1), kVisible));
+  const NeutralDrawing drawing = from_top(lines);
+  EXPECT_DOUBLE_EQ(pens_of(drawing).edge, 0.25);
+  for (const unsigned threads : {1U, 2U, 3U, 8U, 64U}) {
+    parallel::Team team(threads);
+    EXPECT_DOUBLE_EQ(pens_of(drawing, {.team = &team}).edge, 0.25) << threads;
+  }
+}
+
+TEST(Ink, ChoosingPensCanBeCancelled) {
+  std::stop_source stop;
+  stop.request_stop();
+  const auto pens =
+      choose_pens(from_top({line({0, 0}, {1, 0}, kVisible)}), {.stop = stop.get_token()});
+  ASSERT_FALSE(pens);
+  EXPECT_EQ(pens.error().code, ErrorCode::cancelled);
 }
 
 TEST(Ink, IsTheSameForAnyTeam) {

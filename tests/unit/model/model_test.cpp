@@ -92,6 +92,7 @@ TEST(Model, FinishKeepsBodiesWithTheirObjects) {
 TEST(Model, FinishIsTheSameForAnyTeam) {
   constexpr std::uint32_t kMany = 100'000;
   Model source;
+  source.files.push_back({"b.obj", "OBJ", "mm", "z", 1, 0});
   source.files.push_back({"a.obj", "OBJ", "mm", "z", 1, 0});
   source.bodies.resize(2 * kMany);
   for (std::uint32_t b = 0; b < source.bodies.size(); ++b)
@@ -103,24 +104,58 @@ TEST(Model, FinishIsTheSameForAnyTeam) {
     // From none to two bodies, those of one object before those of another that comes after it.
     o.first_body = 2 * (kMany - 1 - i);
     o.body_count = i % 3;
+    o.file = i % 7 == 0 ? 1 : 0;
+    o.positional_id = i % 1000 == 0;
     source.objects.push_back(o);
   }
   Model alone = source;
   finish(alone);
-  ASSERT_TRUE(std::ranges::is_sorted(alone.objects, {}, &Object::id));
+  ASSERT_TRUE(std::ranges::is_sorted(alone.objects, {},
+                                     [](const Object& o) { return std::tie(o.file, o.id); }));
+  EXPECT_EQ(alone.diagnostics.kept().size(), 2U);
   for (const unsigned workers : {2U, 3U, 8U}) {
     parallel::Team team(workers);
     Model shared = source;
     ASSERT_TRUE(finish(shared, {.team = &team}));
     ASSERT_EQ(shared.bodies.size(), alone.bodies.size());
+    ASSERT_EQ(shared.diagnostics.kept().size(), alone.diagnostics.kept().size());
+    for (std::size_t d = 0; d < alone.diagnostics.kept().size(); ++d)
+      ASSERT_EQ(shared.diagnostics.kept()[d].message, alone.diagnostics.kept()[d].message);
     for (std::size_t i = 0; i < alone.objects.size(); ++i) {
       const Object &x = shared.objects[i], &y = alone.objects[i];
-      ASSERT_EQ(std::tie(x.id, x.name, x.place, x.first_body, x.body_count),
-                std::tie(y.id, y.name, y.place, y.first_body, y.body_count));
+      ASSERT_EQ(std::tie(x.file, x.id, x.name, x.place, x.first_body, x.body_count),
+                std::tie(y.file, y.id, y.name, y.place, y.first_body, y.body_count));
       for (std::uint32_t b = x.first_body; b < x.first_body + x.body_count; ++b)
         ASSERT_EQ(shared.bodies[b].placement.translation, alone.bodies[b].placement.translation);
     }
   }
+}
+
+TEST(Model, IsEmptyOnceItIsClearedByAnyTeam) {
+  for (const unsigned workers : {1U, 2U, 3U, 8U}) {
+    parallel::Team team(workers);
+    Model m =
+        one_file("a.obj", std::vector<std::string>(50'000, "an id that is too long to be short"));
+    m.set_attributes(GroupId{1}, {{"AREA", "1"}});
+    m.diagnostics.add(Severity::note, "told", "of it", "here");
+    clear(m, {.team = &team});
+    EXPECT_TRUE(m.files.empty() && m.groups.empty() && m.group_attributes.empty() &&
+                m.shapes.empty() && m.objects.empty() && m.bodies.empty());
+    EXPECT_TRUE(m.diagnostics.kept().empty());
+    append(m, one_file("b.obj", {"x"}));
+    EXPECT_EQ(keys(m), std::vector<std::string>{"b.obj:x"});
+  }
+}
+
+TEST(Model, WhatIsInOrderStaysWhereItIs) {
+  Model m = one_file("a.obj", {"a", "b", "c"});
+  const Object* const objects = m.objects.data();
+  finish(m);
+  EXPECT_EQ(m.objects.data(), objects);
+  // A body that no object has goes.
+  m.bodies.emplace_back();
+  finish(m);
+  EXPECT_EQ(m.bodies.size(), 3U);
 }
 
 TEST(Model, RepeatedIdsGainNumbersThatAreFree) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory that a team provides, offsets that it sums up, and the lowest item of each key.
+// Memory that a team provides and takes down, offsets that it sums up, items that it deals out, and
+// the lowest item of each key.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,10 +8,13 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "strake/parallel/deal.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/lowest.hpp"
 #include "strake/parallel/slots.hpp"
@@ -97,6 +101,39 @@ TEST(Slots, OfMoreThanThereIsMemoryAreAnError) {
   }
 }
 
+/// A value that counts where it lies how often it was ended.
+struct Ended {
+  std::uint8_t* times = nullptr;
+  Ended() = default;
+  Ended(const Ended&) = delete;
+  Ended& operator=(const Ended&) = delete;
+  Ended(Ended&&) = delete;
+  Ended& operator=(Ended&&) = delete;
+  ~Ended() {
+    if (times != nullptr) ++*times;
+  }
+};
+
+TEST(Slots, AreTakenDownOnceEachWhoeverTakesPart) {
+  for (const std::size_t n : {0U, 1U, 1000U, 300'001U})
+    for (const unsigned workers : kTeams) {
+      Team team(workers);
+      std::stop_source stop;
+      stop.request_stop();
+      for (const Context& context :
+           {Context{.team = &team}, Context{.team = &team, .stop = stop.get_token()}, Context{}}) {
+        std::vector<std::uint8_t> times(n);
+        std::vector<Ended> values(n);
+        for (std::size_t i = 0; i < n; ++i) values[i].times = &times[i];
+        clear(values, context);
+        EXPECT_TRUE(values.empty());
+        EXPECT_EQ(std::ranges::count(times, 1), static_cast<std::ptrdiff_t>(n));
+        values = std::vector<Ended>(3);
+        EXPECT_EQ(values.size(), 3U);
+      }
+    }
+}
+
 TEST(Offsets, AreTheSumsForAnyTeam) {
   for (const std::size_t n : {1U, 2U, 16'383U, 16'384U, 16'385U, 100'000U}) {
     std::vector<std::size_t> lengths(n);
@@ -132,6 +169,61 @@ TEST(Offsets, ThatCannotBeCountedAreAnErrorForAnyTeam) {
       }
     }
   }
+}
+
+TEST(Deal, IsByLotsInTheOrderOfTheItemsForAnyTeam) {
+  constexpr std::size_t kLots = 5;
+  const auto lot_of = [](std::size_t i) { return i * i % 7 % (kLots + 1); };  // some in none
+  for (const std::size_t n : {0U, 1U, 1000U, 100'003U}) {
+    std::array<std::vector<std::uint64_t>, kLots> expected;
+    for (std::size_t i = 0; i < n; ++i)
+      if (lot_of(i) < kLots) expected.at(lot_of(i)).push_back(3 * i);
+    for (const unsigned workers : kTeams) {
+      Team team(workers);
+      const auto dealt = deal<std::uint64_t, kLots>({.team = &team}, "dealt", n, lot_of,
+                                                    [](std::size_t i) { return 3 * i; });
+      ASSERT_TRUE(dealt);
+      for (std::size_t lot = 0; lot < kLots; ++lot)
+        EXPECT_TRUE(std::ranges::equal((*dealt)[lot], expected.at(lot))) << n << ", " << lot;
+    }
+  }
+}
+
+TEST(ItemsByKey, AreListsInTheOrderOfTheItemsForAnyTeam) {
+  for (const std::size_t keys : {1U, 63U, 64U, 65U, 5000U})
+    for (const std::size_t n : {0U, 1U, 1000U, 60'001U}) {
+      const auto key_of = [&](std::size_t i) { return i * i % 10'007 % keys; };
+      std::vector<std::vector<std::uint32_t>> expected(keys);
+      for (std::size_t i = 0; i < n; ++i)
+        expected[key_of(i)].push_back(static_cast<std::uint32_t>(i));
+      for (const unsigned workers : kTeams) {
+        Team team(workers);
+        const auto lists = items_by_key({.team = &team}, "lists", n, keys, key_of);
+        ASSERT_TRUE(lists);
+        ASSERT_EQ(lists->size(), keys);
+        for (std::size_t key = 0; key < keys; ++key)
+          ASSERT_TRUE(std::ranges::equal((*lists)[key], expected[key])) << n << ", " << key;
+      }
+    }
+}
+
+TEST(ItemsByKey, OfNoKeysAreNone) {
+  const auto lists = items_by_key({}, "lists", 0, 0, [](std::size_t) { return std::size_t{0}; });
+  ASSERT_TRUE(lists);
+  EXPECT_EQ(lists->size(), 0U);
+}
+
+TEST(Deal, TellsOfTheLowestItemThatFails) {
+  Team team(3);
+  const auto dealt = deal<std::size_t, 2>(
+      {.team = &team}, "dealt", 100'000,
+      [](std::size_t i) -> std::size_t {
+        if (i >= 20'000) throw std::runtime_error("no lot");
+        return 0;
+      },
+      [](std::size_t i) { return i; });
+  ASSERT_FALSE(dealt);
+  EXPECT_EQ(dealt.error().message, "no lot");
 }
 
 TEST(Lowest, IsTheLowestItemOfEachKeyForAnyTeam) {

@@ -6,8 +6,11 @@
 #include <atomic>
 #include <limits>
 #include <memory>
+#include <numeric>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "strake/parallel/team.hpp"
 
@@ -66,6 +69,26 @@ TEST(Precomputed, nothing_can_be_found_of_a_fill_that_failed) {
       table.fill({.team = &team}, {.name = "again"}, second, [](std::size_t) { return 7; }));
   EXPECT_EQ(*table.find(2), 5);
   EXPECT_EQ(*table.find(4), 7);
+}
+
+TEST(Precomputed, is_empty_once_it_is_cleared_and_can_be_filled_again) {
+  for (const unsigned threads : {1U, 2U, 3U, 8U}) {
+    Team team(threads);
+    const Context context{.team = &team};
+    constexpr std::uint32_t kKeys = 100'000;
+    Precomputed<std::string> table(kKeys);
+    std::vector<std::uint32_t> wanted(kKeys);
+    std::iota(wanted.begin(), wanted.end(), 0U);
+    const auto make = [](std::size_t key) { return "the value of " + std::to_string(key); };
+    ASSERT_TRUE(table.fill(context, {.name = "fill"}, wanted, make));
+    table.clear(context);
+    EXPECT_EQ(table.size(), kKeys);
+    EXPECT_EQ(table.find(7), nullptr);
+    ASSERT_TRUE(table.fill(context, {.name = "again"}, std::span(wanted).first(10), make));
+    ASSERT_NE(table.find(7), nullptr);
+    EXPECT_EQ(*table.find(7), "the value of 7");
+    EXPECT_EQ(table.find(10), nullptr);
+  }
 }
 
 TEST(Precomputed, takes_makers_that_may_fail) {

@@ -26,7 +26,7 @@ class VectorEnd : std::vector<T> {
 
 /// Says that the first `size` elements are there: somebody has begun their lifetimes, or they are
 /// of a kind that has begun with the memory and is written before it is read. The vector is empty
-/// and has room for them.
+/// and has room for them, or somebody has ended all their lifetimes and `size` is 0.
 template <class T>
 void set_size_unset(std::vector<T>& values, std::size_t size) {
   VectorEnd<T>::set(values, size);

@@ -294,7 +294,7 @@ Result<model::Model> NeutralImporter::run() {
   for (model::Object& object : model_.objects)
     object.incomplete = object.incomplete || object.body_count == 0;
   model_.files.front().ends_early = input_.scene["ends_early"].boolean().value_or(false);
-  return end_model(input_.file, std::move(model_));
+  return end_model(input_.file, std::move(model_), input_.context);
 }
 
 }  // namespace
