@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "io/importer/map_place.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/io/reader.hpp"
@@ -33,6 +34,7 @@ struct FileToStore {
   /// or, where none is, it comes behind all others.
   std::optional<std::int64_t> replaces = {};
   std::string given = {};  ///< the path that diagnostics name
+  std::optional<io::MapPlace> map = {};  ///< where its importer says that it lies
 };
 
 /// Reads a model file, whose content is known to be what the model was made of. Errors: those of
