@@ -16,7 +16,8 @@
 
 namespace strake::test {
 
-/// Reads files and stores them in a project, in one transaction; the first lies on a map as is said.
+/// Reads files and stores them in a project, in one transaction; the first lies on a map as is
+/// said.
 [[nodiscard]] inline Status store(project::Project& project,
                                   std::span<const std::filesystem::path> paths,
                                   const parallel::Context& context = {},

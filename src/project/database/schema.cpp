@@ -57,16 +57,14 @@ Result<std::unique_ptr<Database>> empty_tables() {
 }  // namespace
 
 std::string all_tables() {
-  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", kModelTables, kRevisionTables,
-                     kResultTables, kViewTables, kHistoryTables, kExchangeTables, kSnapshotTables,
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", kModelTables, kRevisionTables, kResultTables,
+                     kViewTables, kHistoryTables, kExchangeTables, kSnapshotTables,
                      kMapAndDrawingTables);
 }
 
 std::span<const MigrationStep> migration_steps() {
-  static constexpr std::array<MigrationStep, 4> kSteps{{{1, kHistoryTables},
-                                                        {2, kExchangeTables},
-                                                        {3, kSnapshotTables},
-                                                        {4, kMapAndDrawingTables}}};
+  static constexpr std::array<MigrationStep, 4> kSteps{
+      {{1, kHistoryTables}, {2, kExchangeTables}, {3, kSnapshotTables}, {4, kMapAndDrawingTables}}};
   return kSteps;
 }
 

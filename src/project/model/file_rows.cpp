@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "model/file_labels.hpp"
-#include "project/model/map_places.hpp"
+#include "project/database/map_places.hpp"
 
 namespace strake::project {
 namespace {

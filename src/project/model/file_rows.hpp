@@ -22,7 +22,7 @@ struct FileRow {
   std::int64_t position = 0;
   std::string name;  ///< its label where it is alone
   std::uint64_t shapes = 0, groups = 0, group_attributes = 0;
-  Hash128 blocks;  ///< of what is in its blocks
+  Hash128 blocks;                        ///< of what is in its blocks
   std::optional<io::MapPlace> map = {};  ///< where it lies on a map, if it says so
 };
 

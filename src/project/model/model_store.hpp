@@ -33,7 +33,7 @@ struct FileToStore {
   /// The stored file whose place it takes, which has another path; nothing: the one of its path,
   /// or, where none is, it comes behind all others.
   std::optional<std::int64_t> replaces = {};
-  std::string given = {};  ///< the path that diagnostics name
+  std::string given = {};                ///< the path that diagnostics name
   std::optional<io::MapPlace> map = {};  ///< where its importer says that it lies
 };
 

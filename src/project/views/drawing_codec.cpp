@@ -326,8 +326,8 @@ Status write_lines(BlobWriter& out, const hlr::Drawing& drawing, ObjectRange obj
 Result<hlr::Drawing> read_drawing(BlobReader& in, const parallel::Context& context) {
   ReadHead head = read_head(in);
   if (head.form != kFormOfOne && head.form != kFormWithoutHatches) in.refuse(kUnknownForm);
-  const ReadLines lines = read_lines(in, {0, head.drawing.account.fates.size()},
-                                     head.form == kFormOfOne);
+  const ReadLines lines =
+      read_lines(in, {0, head.drawing.account.fates.size()}, head.form == kFormOfOne);
   if (const Status status = join(std::span(&lines, 1), in, head.drawing, context); !status)
     return status.error();
   return std::move(head.drawing);
@@ -352,8 +352,7 @@ Result<hlr::Drawing> read_parts_of_drawing(BlobReader& in,
   std::vector<ReadLines> ranges;
   ranges.reserve(opened->size());
   for (OpenedPart& part : *opened) ranges.push_back(std::move(part.lines));
-  if (const Status status = join(ranges, in, head.drawing, context); !status)
-    return status.error();
+  if (const Status status = join(ranges, in, head.drawing, context); !status) return status.error();
   return std::move(head.drawing);
 }
 

@@ -126,7 +126,8 @@ Result<std::vector<PartRow>> read_part_rows(Database& database, std::int64_t vie
 }
 
 /// Returns what was written in one row, as versions of the tables before 5 did.
-Result<DrawnState> decode_state_of_one_row(std::span<const std::byte> bytes, const std::string& what) {
+Result<DrawnState> decode_state_of_one_row(std::span<const std::byte> bytes,
+                                           const std::string& what) {
   Result<BlobReader> in = BlobReader::open(bytes, what);
   if (!in) return in.error();
   DrawnState state;
@@ -174,8 +175,8 @@ Result<DrawnState> decode_state(const StateHead& head, std::span<const std::byte
   state.made_from.identities.resize(objects);
   state.made_from.signatures.resize(objects);
   state.boxes.resize(objects);
-  const Status status = parallel::for_each(
-      context, {.name = "stored state", .n = parts.size()}, [&](std::size_t k) {
+  const Status status =
+      parallel::for_each(context, {.name = "stored state", .n = parts.size()}, [&](std::size_t k) {
         return decode_state_part(parts[k].made_from, objects_of_drawing_part(k, objects), what,
                                  state);
       });
@@ -213,9 +214,8 @@ Result<hlr::Drawing> decode_lines(const DrawingRows& rows, std::size_t objects,
   std::vector<std::span<const std::byte>> parts;
   parts.reserve(rows.parts.size());
   for (const PartRow& row : rows.parts) parts.emplace_back(row.lines);
-  Result<hlr::Drawing> drawing = parts.empty()
-                                     ? read_drawing(*in, context)
-                                     : read_parts_of_drawing(*in, parts, what, context);
+  Result<hlr::Drawing> drawing =
+      parts.empty() ? read_drawing(*in, context) : read_parts_of_drawing(*in, parts, what, context);
   if (!drawing) return drawing;
   if (!in->failed() && drawing->account.fates.size() != objects)
     in->refuse("it is of another number of objects than its state");
@@ -239,7 +239,8 @@ Result<EncodedDrawingPart> encode_part(const DrawingToStore& to_store, std::size
     bool stands = same(stored->made_from.identities, to_store.made_from.identities) &&
                   same(stored->made_from.signatures, to_store.made_from.signatures) &&
                   same(stored->boxes, to_store.boxes);
-    for (std::size_t o = range.first; stands && o < range.last; ++o) stands = !(*to_store.touched)[o];
+    for (std::size_t o = range.first; stands && o < range.last; ++o)
+      stands = !(*to_store.touched)[o];
     if (stands) return EncodedDrawingPart{stored->parts.hashes[part], {}, {}};
   }
   BlobWriter lines;
@@ -294,15 +295,15 @@ Result<EncodedDrawing> encode_drawing(const DrawingToStore& to_store,
   const auto lacks = [&](std::size_t size) { return size != 0 && size != objects; };
   if (made_from.identities.size() != objects || made_from.signatures.size() != objects ||
       to_store.boxes.size() != objects || to_store.drawing.counted.size() != objects ||
-      (to_store.touched != nullptr && lacks(to_store.touched->size())) || lacks(to_store.drawing.left_out.size()) ||
-      lacks(to_store.drawing.hatches.size()))
+      (to_store.touched != nullptr && lacks(to_store.touched->size())) ||
+      lacks(to_store.drawing.left_out.size()) || lacks(to_store.drawing.hatches.size()))
     return Error{ErrorCode::internal,
                  "a drawing and what it was solved from are not of the same objects",
                  {},
                  {}};
-  Result<std::vector<EncodedDrawingPart>> parts = parallel::transform(
-      context, {.name = "encode lines", .n = count_drawing_parts(objects)},
-      [&](std::size_t k) { return encode_part(to_store, k); });
+  Result<std::vector<EncodedDrawingPart>> parts =
+      parallel::transform(context, {.name = "encode lines", .n = count_drawing_parts(objects)},
+                          [&](std::size_t k) { return encode_part(to_store, k); });
   if (!parts) return parts.error();
   StateHead head{made_from.whole, made_from.names, objects, {}};
   for (const EncodedDrawingPart& part : *parts) head.parts.push_back(part.hashes);
@@ -360,8 +361,7 @@ Result<std::vector<std::int64_t>> views_with_drawings(Database& database) {
 }
 
 Status write_state_of_all(Database& database, std::int64_t view, BlobWriter state) {
-  Result<Statement> update =
-      database.prepare("UPDATE drawing SET made_from = ?2 WHERE view = ?1");
+  Result<Statement> update = database.prepare("UPDATE drawing SET made_from = ?2 WHERE view = ?1");
   if (!update) return update.error();
   const Result<Bytes> bytes = state.finish();
   if (!bytes) return bytes.error();
@@ -395,8 +395,7 @@ Status unless_damaged(const Error& error) {
 
 Status rename_objects_of(Database& database, std::int64_t view, const NewIdentities& renamed) {
   const std::string what = "the state of a drawing";
-  const Result<std::optional<DrawingRows>> found =
-      read_rows_of(database, view, std::nullopt, what);
+  const Result<std::optional<DrawingRows>> found = read_rows_of(database, view, std::nullopt, what);
   if (!found) return unless_damaged(found.error());
   if (!*found) return {};
   const DrawingRows& rows = **found;

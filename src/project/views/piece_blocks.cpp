@@ -179,8 +179,7 @@ Result<std::vector<EdgePiece>> read_pieces(std::span<const PieceBlocks> ranges, 
   const std::size_t count = blocks.empty() ? 0 : blocks.back().begin + blocks.back().size;
   // There is room for the pieces that a change adds, so that hlr::draw_changes() leaves the others
   // where they are.
-  Result<std::vector<EdgePiece>> pieces =
-      parallel::slots<EdgePiece>(count + count / 64, context);
+  Result<std::vector<EdgePiece>> pieces = parallel::slots<EdgePiece>(count + count / 64, context);
   if (!pieces) return pieces;
   pieces->resize(count);
   const std::span<EdgePiece> slot = *pieces;
@@ -195,8 +194,7 @@ Result<std::vector<EdgePiece>> read_pieces(std::span<const PieceBlocks> ranges, 
   if (!is_sound) return is_sound.error();
   bool sound = std::ranges::count(*is_sound, std::uint8_t{0}) == 0;
   for (const PlacedBlock& block : blocks)
-    sound = sound &&
-            (block.begin == 0 || !is_before(slot[block.begin], slot[block.begin - 1]));
+    sound = sound && (block.begin == 0 || !is_before(slot[block.begin], slot[block.begin - 1]));
   if (sound) return pieces;
   in.refuse("a line cannot be one of a drawing");
   return std::vector<EdgePiece>{};

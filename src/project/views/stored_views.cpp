@@ -37,9 +37,7 @@ StoredView view_of(const Statement& row) {
   return view;
 }
 
-std::string of_view(std::string_view name) {
-  return " of the view '" + std::string(name) + "'";
-}
+std::string of_view(std::string_view name) { return " of the view '" + std::string(name) + "'"; }
 
 constexpr std::string_view kSaveSettings =
     "INSERT INTO view (name, settings, created, changed) VALUES (?1, ?2, "

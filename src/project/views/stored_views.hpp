@@ -74,7 +74,8 @@ struct ViewToStore {
   std::span<const model::ObjectId> far_objects = {};
   std::uint64_t edges_solved = 0;
   double seconds = 0;
-  /// DrawingToStore::stored and DrawingToStore::touched: only what may be another is looked at then.
+  /// DrawingToStore::stored and DrawingToStore::touched: only what may be another is looked at
+  /// then.
   const StoredDrawing* stored = nullptr;
   const std::vector<bool>* touched = nullptr;
 };

@@ -44,8 +44,8 @@ struct ProjectSeed {
   auto drawing = hlr::draw(*scene, {}, {}, {}, {});
   if (!drawing) stop("no drawing");
   const std::size_t objects = model.objects.size();
-  project::Snapshot made_from{{1, 2}, std::vector<std::uint64_t>(objects),
-                              std::vector<Hash128>(objects)};
+  project::Snapshot made_from{
+      {1, 2}, std::vector<std::uint64_t>(objects), std::vector<Hash128>(objects)};
   for (std::size_t o = 0; o < objects; ++o) made_from.signatures[o] = {o, o * o};
   const std::vector<geometry::Box3l> boxes(objects, {{0, 0, 0}, {1, 1, 1}});
   const project::ViewToStore view{.name = "iso",
@@ -60,7 +60,7 @@ struct ProjectSeed {
 
 [[nodiscard]] inline ProjectSeed project_seed() {
   const TemporaryFolder folder;
-  const auto ship = generate::generate_ship({.objects = 300}, {});
+  const auto ship = generate::generate_ship({.objects = 100}, {});
   const std::array paths{folder.path() / "ship.glb",
                          folder.write("plate.obj", obj_seeds()[1].bytes)};
   if (!ship || !io::write_glb(ship->model, paths[0], {}, {})) stop("no ship");

@@ -284,7 +284,8 @@ TEST_F(ModelStoreTest, APlaceOnAMapThatNobodyStoredIsDamage) {
   for (const char* const damage :
        {"DELETE FROM map_place", "UPDATE map_place SET crs = 'EPSG:1'",
         "UPDATE map_place SET crs = char(27) || '[2J'", "UPDATE map_place SET to_map = x''",
-        "UPDATE map_place SET to_map = zeroblob(128)", "UPDATE map_place SET to_map = randomblob(128)",
+        "UPDATE map_place SET to_map = zeroblob(128)",
+        "UPDATE map_place SET to_map = randomblob(128)",
         "UPDATE map_place SET crs = hex(zeroblob(5000))"}) {
     auto transaction = Transaction::begin(project.database());
     ASSERT_TRUE(transaction);

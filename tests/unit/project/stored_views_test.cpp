@@ -430,16 +430,17 @@ TEST_F(StoredViews, RenamedObjectsWriteTheirPartsAlone) {
 
 TEST_F(StoredViews, DamagedPartsAreTold) {
   take_ship();
-  for (const char* const damage :
-       {"DELETE FROM drawing_part WHERE part = 1", "DELETE FROM drawing_part WHERE part = 2",
-        "DELETE FROM drawing_part", "UPDATE drawing_part SET part = 3 WHERE part = 2",
-        "UPDATE drawing_part SET lines = x'' WHERE part = 0",
-        "UPDATE drawing_part SET made_from = lines",
-        "UPDATE drawing_part SET made_from = (SELECT made_from FROM drawing_part WHERE part = 1)",
-        "UPDATE drawing_part SET lines = (SELECT lines FROM drawing_part WHERE part = 1)",
-        "INSERT INTO drawing_part SELECT view, 3, lines, made_from FROM drawing_part WHERE part = 0",
-        "UPDATE drawing_part SET lines = CAST(substr(lines, 1, length(lines) - 1) || x'00' AS BLOB)",
-        "UPDATE drawing SET lines = made_from", "UPDATE drawing SET made_from = lines"}) {
+  for (
+      const char* const damage :
+      {"DELETE FROM drawing_part WHERE part = 1", "DELETE FROM drawing_part WHERE part = 2",
+       "DELETE FROM drawing_part", "UPDATE drawing_part SET part = 3 WHERE part = 2",
+       "UPDATE drawing_part SET lines = x'' WHERE part = 0",
+       "UPDATE drawing_part SET made_from = lines",
+       "UPDATE drawing_part SET made_from = (SELECT made_from FROM drawing_part WHERE part = 1)",
+       "UPDATE drawing_part SET lines = (SELECT lines FROM drawing_part WHERE part = 1)",
+       "INSERT INTO drawing_part SELECT view, 3, lines, made_from FROM drawing_part WHERE part = 0",
+       "UPDATE drawing_part SET lines = CAST(substr(lines, 1, length(lines) - 1) || x'00' AS BLOB)",
+       "UPDATE drawing SET lines = made_from", "UPDATE drawing SET made_from = lines"}) {
     ASSERT_TRUE(store("deck", "{}")) << damage;
     expect_stored("deck");
     ASSERT_TRUE(database().execute(damage)) << damage;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "project/model/map_places.hpp"
+#include "project/database/map_places.hpp"
 
 #include <algorithm>
 #include <array>
