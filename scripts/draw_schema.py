@@ -9,11 +9,11 @@ import sys
 from pathlib import Path
 
 # What stands below each other, and what the columns of the picture are about.
-COLUMNS = [('The model', ['file', 'file_block', 'shape_pack', 'model_seal']),
+COLUMNS = [('The model', ['file', 'map_place', 'file_block', 'shape_pack', 'model_seal']),
            ('What became of it', ['revision', 'changed_file', 'changed_object']),
             ('Tests', ['test', 'report', 'report_part', 'snapshot_part', 'test_objects', 'run', 'run_test', 'run_report', 'run_result']),
             ('Clashes', ['clash', 'event', 'said', 'former', 'unseen']),
-           ('Views', ['view', 'drawing', 'drawing_objects'])]
+           ('Views', ['view', 'drawing', 'drawing_part', 'drawing_objects'])]
 WIDTH, BETWEEN, LINE, MARGIN = 176, 52, 15, 16
 STYLE = """text { font: 11px sans-serif; fill: #222 } .table { font-weight: bold } .part { font-size: 13px; fill: #555 }
 .box { fill: #fff; stroke: #888 } .head { fill: #dde7f0; stroke: #888 } .type { fill: #888; text-anchor: end }

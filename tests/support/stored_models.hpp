@@ -3,25 +3,30 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/importer/map_place.hpp"
 #include "project/database/database.hpp"
 #include "project/model/model_store.hpp"
 #include "strake/project/project.hpp"
 
 namespace strake::test {
 
-/// Reads files and stores them in a project, in one transaction.
+/// Reads files and stores them in a project, in one transaction; the first lies on a map as is
+/// said.
 [[nodiscard]] inline Status store(project::Project& project,
                                   std::span<const std::filesystem::path> paths,
-                                  const parallel::Context& context = {}) {
+                                  const parallel::Context& context = {},
+                                  std::optional<io::MapPlace> map = {}) {
   std::vector<project::FileToStore> files;
   for (const std::filesystem::path& path : paths) {
     Result<project::FileToStore> file = project::read_file({path, {}}, context);
     if (!file) return file.error();
+    if (map) file->map = std::exchange(map, std::nullopt);
     files.push_back(std::move(*file));
   }
   Result<project::Transaction> transaction = project::Transaction::begin(project.database());

@@ -44,6 +44,7 @@ struct ViewOfProject {
 struct SolvedView {
   hlr::Drawing drawing;
   ViewWork work;
+  std::vector<bool> touched = {};  ///< hlr::Redrawn::touched, of the drawing that was stored
 };
 
 /// Seconds of the steps of hidden lines, from when it was made.
@@ -147,10 +148,10 @@ std::size_t count_changed(const std::vector<std::uint32_t>& now_of, std::size_t 
   return std::max(gone, objects_now - std::min(objects_now, kept));
 }
 
-/// Finds the lines by what changed since they were stored.
+/// Finds the lines by what changed since they were stored, which it takes.
 Result<SolvedView> solve_changes(Session& session, const DrawRequest& request,
                                  const PreparedView& prepared, const model::Scene& scene,
-                                 project::StoredDrawing stored, const project::Snapshot& now) {
+                                 project::StoredDrawing& stored, const project::Snapshot& now) {
   SolvedView solved{.drawing = {}, .work = {.run = ViewRun::unchanged}};
   // Reports have names of objects, which signatures do not see.
   if (stored.made_from == now && stored.drawing.diagnostics.counts().empty()) {
@@ -179,6 +180,7 @@ Result<SolvedView> solve_changes(Session& session, const DrawRequest& request,
   solved.work.edges_solved = redrawn->edges_solved;
   solved.work.objects_solved = redrawn->objects_solved;
   solved.work.why = redrawn->why;
+  solved.touched = std::move(redrawn->touched);
   if (redrawn->in_full)
     solved.work.run = ViewRun::in_full;
   else if (solved.work.objects_changed > 0 || redrawn->objects_solved > 0)
@@ -209,7 +211,7 @@ Status remember(Session& session, const DrawOptions& given, const project::ViewT
   const Status status = [&]() -> Status {
     Result<OpenedProject> opened = open_project(session, given.project, project::Access::write);
     if (!opened) return opened.error();
-    return project::store_view(opened->project.database(), view);
+    return project::store_view(opened->project.database(), view, session.context());
   }();
   if (status || !given.save.empty() || status.error().code == ErrorCode::cancelled) return status;
   session.console().note(fmt::format("the lines of view '{}' are not remembered: {}", view.name,
@@ -245,6 +247,7 @@ class StoredRun {
     if (!now) return now.error();
     const double signatures_s = lap.seconds();
     now_ = std::move(*now);
+    now_.snapshot.names = loaded_.names;
     Result<SolvedView> solved = solved_view(opened);
     if (!solved) return solved.error();
     solved_ = std::move(*solved);
@@ -283,6 +286,8 @@ class StoredRun {
       view.far_objects = prepared_.layout.far_left_out;
       view.edges_solved = solved_.work.edges_solved;
       view.seconds = solved_.work.solve_s;
+      if (stored_) view.stored = &*stored_;
+      view.touched = &solved_.touched;
     }
     return view.settings || view.drawing != nullptr ? remember(session_, given_, view) : Status{};
   }
@@ -297,14 +302,14 @@ class StoredRun {
     const Stopwatch lap;
     auto stored = remembered(session_, opened, view_.name, now_.snapshot);
     if (!stored) return stored.error();
+    stored_ = std::move(*stored);
     const double read_s = lap.seconds();
     Result<SolvedView> solved = [&] {
-      if (!*stored)
+      if (!stored_)
         return solve_in_full(session_, request_, prepared_, loaded_.scene, ViewRun::made,
                              "nothing is remembered of it that holds now");
-      kept_ = (*stored)->made_from == now_.snapshot;
-      return solve_changes(session_, request_, prepared_, loaded_.scene, std::move(**stored),
-                           now_.snapshot);
+      kept_ = stored_->made_from == now_.snapshot;
+      return solve_changes(session_, request_, prepared_, loaded_.scene, *stored_, now_.snapshot);
     }();
     if (solved) solved->work.read_s = read_s;
     return solved;
@@ -343,6 +348,9 @@ class StoredRun {
   PreparedView prepared_;
   ViewState now_;
   SolvedView solved_;
+  /// What the project has of the view, but for the lines, which `solved_` took; none: nothing that
+  /// may serve.
+  std::optional<project::StoredDrawing> stored_;
   bool kept_ = false;     ///< the lines are those that are stored
   bool differs_ = false;  ///< from the drawing in full
 };

@@ -55,6 +55,9 @@ struct Redrawn {
   std::uint64_t objects_solved = 0;  ///< objects with such edges
   bool in_full = false;              ///< everything was found anew, as `why` says
   std::string_view why = {};         ///< a literal; empty unless `in_full`
+  /// Of each object, whether what the drawing says of it may differ from what the earlier drawing
+  /// says of the object of that number; empty: it may of any.
+  std::vector<bool> touched = {};
 };
 
 /// Returns the drawing that draw() returns, but finds anew only the lines of objects that changed

@@ -109,8 +109,17 @@ Redrawn draw_nothing(const RedrawRequest& request, Drawing earlier) {
   drawing.counters = {.seams = drawing.counters.seams,
                       .uncut_objects = drawing.counters.uncut_objects};
   drawing.diagnostics = {};
+  redrawn.touched.assign(request.scene.model->objects.size(), false);
   fill_head(request, drawing);
   return redrawn;
+}
+
+/// Returns the objects whose lines were found anew, and those that may have lost theirs.
+std::vector<bool> touched_objects(const ChangedView& changed, const Reach& reach) {
+  std::vector<bool> touched = reach.asked;
+  for (std::size_t o = 0; o < touched.size(); ++o)
+    touched[o] = touched[o] || changed.comparison.before[o] == model::kNoObject;
+  return touched;
 }
 
 /// Puts the part that was solved into the earlier drawing.
@@ -128,6 +137,7 @@ Result<Redrawn> put_together(const ChangedView& changed, const ChangeReach& reac
     return s.error();
   redrawn.edges_solved = part.counters.feature_edges;
   redrawn.objects_solved = static_cast<std::uint64_t>(std::ranges::count(reach.asked, true));
+  if (changed.comparison.same_numbers) redrawn.touched = touched_objects(changed, reach);
   drawing.counters = part.counters;
   drawing.diagnostics = changed.sections ? changed.sections->diagnostics : Diagnostics();
   drawing.diagnostics.append(part.diagnostics);

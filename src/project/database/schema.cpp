@@ -12,7 +12,9 @@
 
 #include "project/database/exchange_tables.hpp"
 #include "project/database/history_tables.hpp"
+#include "project/database/map_and_drawing_tables.hpp"
 #include "project/database/model_tables.hpp"
+#include "project/database/opening.hpp"
 #include "project/database/result_tables.hpp"
 #include "project/database/revision_tables.hpp"
 #include "project/database/snapshot_tables.hpp"
@@ -55,13 +57,14 @@ Result<std::unique_ptr<Database>> empty_tables() {
 }  // namespace
 
 std::string all_tables() {
-  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}", kModelTables, kRevisionTables, kResultTables,
-                     kViewTables, kHistoryTables, kExchangeTables, kSnapshotTables);
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", kModelTables, kRevisionTables, kResultTables,
+                     kViewTables, kHistoryTables, kExchangeTables, kSnapshotTables,
+                     kMapAndDrawingTables);
 }
 
 std::span<const MigrationStep> migration_steps() {
-  static constexpr std::array<MigrationStep, 3> kSteps{
-      {{1, kHistoryTables}, {2, kExchangeTables}, {3, kSnapshotTables}}};
+  static constexpr std::array<MigrationStep, 4> kSteps{
+      {{1, kHistoryTables}, {2, kExchangeTables}, {3, kSnapshotTables}, {4, kMapAndDrawingTables}}};
   return kSteps;
 }
 
@@ -74,7 +77,8 @@ Result<std::int64_t> schema_version(Database& database) {
 }
 
 Status migrate(Database& database, std::int64_t to, std::span<const MigrationStep> steps) {
-  Result<Transaction> transaction = Transaction::begin(database);
+  // Whoever opens a project waits for another process that does the same for it.
+  Result<Transaction> transaction = Transaction::begin(database, kRecoveryMs);
   if (!transaction) return transaction.error();
   // It is asked again: another process may have come first.
   Result<std::int64_t> version = schema_version(database);

@@ -13,7 +13,7 @@ namespace strake::project {
 
 inline constexpr std::uint32_t kApplicationId = 0x5354524B;  ///< "STRK"
 /// The version of the tables; every change of them is a new one, with a step that leads there.
-inline constexpr std::int64_t kSchemaVersion = 4;
+inline constexpr std::int64_t kSchemaVersion = 5;
 
 /// Returns the statements that make all tables.
 [[nodiscard]] std::string all_tables();
@@ -27,8 +27,9 @@ struct MigrationStep {
 /// Returns the steps from the first version to this one.
 [[nodiscard]] std::span<const MigrationStep> migration_steps();
 
-/// Brings the tables to version `to`, in one transaction. Errors: those of the database; input for
-/// a version that no step starts from.
+/// Brings the tables to version `to`, in one transaction, for which it waits up to kRecoveryMs
+/// where another process writes. Errors: those of the database; input for a version that no step
+/// starts from.
 [[nodiscard]] Status migrate(Database& database, std::int64_t to,
                              std::span<const MigrationStep> steps);
 

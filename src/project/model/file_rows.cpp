@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "model/file_labels.hpp"
+#include "project/database/map_places.hpp"
 
 namespace strake::project {
 namespace {
@@ -51,6 +52,12 @@ std::optional<io::UpAxis> axis_of(std::string_view name) {
   return std::nullopt;
 }
 
+constexpr std::string_view kColumns =
+    "position, path, given, name, label, format, unit, up_axis, bytes, precision_mm, folders, "
+    "ends_early, option_unit_mm, option_up_axis, option_encoding, content, objects, bodies, "
+    "shapes, groups, group_attributes, blocks";
+constexpr int kColumnCount = 22;
+
 /// Returns nothing where a value cannot be.
 std::optional<FileRow> row_of(const Statement& statement) {
   RowReader in(statement);
@@ -87,15 +94,13 @@ std::optional<FileRow> row_of(const Statement& statement) {
   const auto blocks = in.hash();
   if (!blocks) in.refuse();
   row.blocks = blocks.value_or(Hash128());
+  if (!statement.is_null(kColumnCount + 1)) {
+    row.map = map_place_of(statement.text(kColumnCount + 1), statement.bytes(kColumnCount + 2));
+    if (!row.map) in.refuse();
+  }
   if (!in.sound()) return std::nullopt;
   return row;
 }
-
-constexpr std::string_view kColumns =
-    "position, path, given, name, label, format, unit, up_axis, bytes, precision_mm, folders, "
-    "ends_early, option_unit_mm, option_up_axis, option_encoding, content, objects, bodies, "
-    "shapes, groups, group_attributes, blocks";
-constexpr int kColumnCount = 22;
 
 /// Binds the values of a row to parameters 1, 2, … `path` must last until the statement has run.
 void bind_row(Statement& out, const FileRow& row, std::string_view path) {
@@ -151,6 +156,8 @@ Hash128 seal_of(const std::vector<FileRow>& rows) {
     for (const std::uint64_t count :
          {row.file.objects, row.file.bodies, row.shapes, row.groups, row.group_attributes})
       hasher.add(count);
+    // Versions of the tables before 5 knew of no places: their seals hold.
+    if (row.map) add_to(hasher, *row.map);
   }
   return hasher.value();
 }
@@ -159,7 +166,9 @@ Hash128 seal_of(const std::vector<FileRow>& rows) {
 
 Result<std::vector<FileRow>> read_rows(Database& database) {
   Result<Statement> statement =
-      database.prepare(fmt::format("SELECT id, {} FROM file ORDER BY position", kColumns));
+      database.prepare(fmt::format("SELECT id, {}, crs, to_map FROM file LEFT JOIN map_place ON "
+                                   "map_place.file = id ORDER BY position",
+                                   kColumns));
   if (!statement) return statement.error();
   std::vector<FileRow> rows;
   for (;;) {
@@ -207,7 +216,7 @@ Status write_row(Database& database, FileRow& row) {
   if (!is_new) statement->bind(kColumnCount + 1, row.file.id);
   if (const Status status = statement->run(); !status) return status;
   if (is_new) row.file.id = database.last_insert_id();
-  return {};
+  return write_map_place(database, row.file.id, row.map);
 }
 
 LabelledFiles labelled(const std::vector<FileRow>& rows) {

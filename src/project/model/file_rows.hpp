@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "io/importer/map_place.hpp"
 #include "project/database/database.hpp"
 #include "project/model/blocks.hpp"
 #include "strake/core/hash.hpp"
@@ -20,7 +22,8 @@ struct FileRow {
   std::int64_t position = 0;
   std::string name;  ///< its label where it is alone
   std::uint64_t shapes = 0, groups = 0, group_attributes = 0;
-  Hash128 blocks;  ///< of what is in its blocks
+  Hash128 blocks;                        ///< of what is in its blocks
+  std::optional<io::MapPlace> map = {};  ///< where it lies on a map, if it says so
 };
 
 /// Returns all files, in the order in which they are read. Errors: input for a row that cannot be.

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "io/importer/map_place.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/io/reader.hpp"
@@ -32,7 +33,8 @@ struct FileToStore {
   /// The stored file whose place it takes, which has another path; nothing: the one of its path,
   /// or, where none is, it comes behind all others.
   std::optional<std::int64_t> replaces = {};
-  std::string given = {};  ///< the path that diagnostics name
+  std::string given = {};                ///< the path that diagnostics name
+  std::optional<io::MapPlace> map = {};  ///< where its importer says that it lies
 };
 
 /// Reads a model file, whose content is known to be what the model was made of. Errors: those of

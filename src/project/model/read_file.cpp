@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
+#include "io/read_file.hpp"
+
 #include <new>
 #include <utility>
 
 #include "io/source/input_file.hpp"
 #include "project/model/model_store.hpp"
+#include "strake/io/importer.hpp"
 
 namespace strake::project {
 namespace {
@@ -28,14 +30,15 @@ Result<Hash128> hash_of_file(const std::filesystem::path& path, const parallel::
 Result<FileToStore> read_one(const io::FileToRead& file, const parallel::Context& context) {
   const Result<Hash128> before = hash_of_file(file.path, context);
   if (!before) return before.error();
-  Result<model::Model> model = io::read_models(std::array{file}, context);
-  if (!model) return model.error();
+  Result<io::ReadFile> read = io::read_file(file, io::import_settings_of_environment(), context);
+  if (!read) return read.error();
   const Result<Hash128> after = hash_of_file(file.path, context);
   if (!after) return after.error();
   if (*before != *after)
     return Error{ErrorCode::input, "is being written while it is read", file.path.string(),
                  "try again when it is whole"};
-  return FileToStore{file.path, file.options, *after, std::move(*model), {}, file.path.string()};
+  return FileToStore{file.path,          file.options,        *after, std::move(read->model), {},
+                     file.path.string(), std::move(read->map)};
 }
 
 }  // namespace

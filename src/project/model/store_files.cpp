@@ -186,6 +186,7 @@ Status FileStore::store(const FileToStore& file, FileRow& row, ShapePacks& packs
   row.shapes = model.shapes.size();
   row.groups = model.groups.size();
   row.group_attributes = model.group_attributes.size();
+  row.map = file.map;
   Result<std::vector<KindOfBlocks>> all = pack_all(model, *places);
   if (!all) return all.error();
   std::vector<Hash128> hashes;

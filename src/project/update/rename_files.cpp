@@ -18,7 +18,7 @@
 #include "project/results/stored_tests.hpp"
 #include "project/snapshot/object_names.hpp"
 #include "project/snapshot/snapshot.hpp"
-#include "project/views/stored_views.hpp"
+#include "project/views/drawing_rows.hpp"
 
 namespace strake::project {
 namespace {
@@ -192,7 +192,7 @@ Status rename_files(Database& database, const model::Model& before,
     return status;
   if (const Status status = rename_named(database, labels, "drawing_objects", "view"); !status)
     return status;
-  return rename_objects_of_views(database, identities);
+  return rename_objects_of_drawings(database, identities);
 }
 
 }  // namespace strake::project

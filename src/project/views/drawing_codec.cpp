@@ -7,18 +7,26 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "project/views/number_columns.hpp"
 #include "project/views/piece_blocks.hpp"
 #include "project/views/view_codec.hpp"
+#include "strake/parallel/transform.hpp"
 
 namespace strake::project {
 
 namespace {
 
-constexpr std::uint64_t kDrawingForm = 2, kFormWithoutHatches = 1;
+/// Forms of a drawing: all in one blob, at first without hatches, and with its lines in parts.
+constexpr std::uint64_t kFormWithoutHatches = 1, kFormOfOne = 2, kFormInParts = 3;
+
+/// How many objects have their lines in one part: enough that a part is compressed well, and few
+/// enough that lines which a change reaches all over a drawing write little of it.
+constexpr std::size_t kObjectsPerDrawingPart = 256;
 constexpr std::size_t kMostOf32Bits = std::size_t{1} << 32U;
 
 /// Appends the numbers that `get` takes from each item, `each` to an item.
@@ -31,27 +39,76 @@ void write_column(BlobWriter& out, std::span<const Item> items, std::size_t each
   write_numbers(out, values);
 }
 
-void write_curves(BlobWriter& out, const hlr::Curves& curves) {
+/// What a drawing says of a range of objects, where it lies.
+struct LinesOfObjects {
+  std::span<const std::uint32_t> left_out;
+  std::span<const hlr::LineCount> counted;
+  std::span<const hlr::Hatch> hatches;
+  std::span<const hlr::Curve> curves;
+  std::span<const hlr::CurvedEdge> edges;
+  std::uint32_t first_curve = 0;  ///< number of the first of the curves
+  std::span<const hlr::EdgePiece> pieces;
+};
+
+/// Returns the lines of a range out of those that are sorted by object.
+template <class T>
+std::span<const T> lines_of(const std::vector<T>& sorted, ObjectRange objects) {
+  const auto at = [&](std::size_t object) {
+    return std::ranges::lower_bound(sorted, object, {},
+                                    [](const T& line) { return model::index(line.object); });
+  };
+  return {at(objects.first), at(objects.last)};
+}
+
+/// Returns the entries of a range out of those by object, if there are any.
+template <class T>
+std::span<const T> entries_of(const std::vector<T>& by_object, ObjectRange objects) {
+  if (by_object.empty()) return {};
+  return std::span(by_object).subspan(objects.first, objects.size());
+}
+
+/// Curves are in the order of the objects whose edges lie on them.
+LinesOfObjects lines_of(const hlr::Drawing& drawing, ObjectRange objects) {
+  const hlr::Curves& curves = drawing.curves;
+  LinesOfObjects lines{.left_out = entries_of(drawing.left_out, objects),
+                       .counted = entries_of(drawing.counted, objects),
+                       .hatches = entries_of(drawing.hatches, objects),
+                       .curves = {},
+                       .edges = lines_of(curves.edges, objects),
+                       .pieces = lines_of(drawing.pieces, objects)};
+  if (lines.edges.empty()) return lines;
+  const std::span<const hlr::CurvedEdge> after =
+      lines_of(curves.edges, {objects.last, drawing.account.fates.size()});
+  const std::size_t first = lines.edges.front().curve;
+  const std::size_t last = after.empty() ? curves.all.size() : after.front().curve;
+  lines.first_curve = static_cast<std::uint32_t>(first);
+  if (first <= last && last <= curves.all.size())
+    lines.curves = std::span(curves.all).subspan(first, last - first);
+  return lines;
+}
+
+void write_curves(BlobWriter& out, const LinesOfObjects& lines) {
   std::vector<double> sizes;
-  sizes.reserve(curves.all.size() * 9);
-  for (const hlr::Curve& curve : curves.all)
+  sizes.reserve(lines.curves.size() * 9);
+  for (const hlr::Curve& curve : lines.curves)
     for (const geometry::Vec3d& v : {curve.at.centre, curve.at.u, curve.at.v})
       for (int k = 0; k < 3; ++k) sizes.push_back(v[k]);
   out.reals(sizes);
   for (int axis = 0; axis < 3; ++axis)
-    write_column(out, std::span<const hlr::Curve>(curves.all), 1,
+    write_column(out, lines.curves, 1,
                  [axis](const hlr::Curve& curve, std::size_t /*k*/) { return curve.origin[axis]; });
   std::vector<std::uint32_t> edges;
-  edges.reserve(curves.edges.size() * 3);
-  for (const hlr::CurvedEdge& edge : curves.edges) {
+  edges.reserve(lines.edges.size() * 3);
+  for (const hlr::CurvedEdge& edge : lines.edges) {
     edges.push_back(model::index(edge.object));
     edges.push_back(edge.edge);
-    edges.push_back(edge.curve);
+    edges.push_back(edge.curve - lines.first_curve);
   }
   out.column(std::span<const std::uint32_t>(edges));
 }
 
-hlr::Curves read_curves(BlobReader& in, std::size_t objects) {
+/// Curves are numbered from the first of the range.
+hlr::Curves read_curves(BlobReader& in, ObjectRange objects) {
   const std::vector<double> sizes = in.column<double>();
   if (sizes.size() % 9 != 0 ||
       !std::ranges::all_of(sizes, [](double size) { return std::isfinite(size); }))
@@ -72,7 +129,8 @@ hlr::Curves read_curves(BlobReader& in, std::size_t objects) {
       if (!is_on_grid(column[c])) in.refuse("a curve lies outside what can be placed");
   }
   for (std::size_t e = 0; e < edges.size(); e += 3) {
-    if (edges[e] >= objects || edges[e + 2] >= count) in.refuse("an edge has no curve");
+    if (edges[e] < objects.first || edges[e] >= objects.last || edges[e + 2] >= count)
+      in.refuse("an edge has no curve");
     curves.edges.push_back({model::ObjectId{edges[e]}, edges[e + 1], edges[e + 2]});
   }
   const auto key = [](const hlr::CurvedEdge& e) { return std::pair(e.object, e.edge); };
@@ -80,15 +138,24 @@ hlr::Curves read_curves(BlobReader& in, std::size_t objects) {
   return curves;
 }
 
-void write_lines(BlobWriter& out, const hlr::Drawing& drawing) {
-  out.column(std::span<const std::uint32_t>(drawing.left_out));
-  const std::span<const hlr::LineCount> counted = drawing.counted;
-  write_column(out, counted, 2, [](const hlr::LineCount& count, std::size_t k) {
+void write(BlobWriter& out, const LinesOfObjects& lines) {
+  out.column(lines.left_out);
+  write_column(out, lines.counted, 2, [](const hlr::LineCount& count, std::size_t k) {
     return static_cast<std::int64_t>(k == 0 ? count.edges : count.specks);
   });
-  write(out, std::span<const hlr::Hatch>(drawing.hatches));
-  write_curves(out, drawing.curves);
-  write_pieces(out, drawing.pieces);
+  write(out, lines.hatches);
+  write_curves(out, lines);
+  write_pieces(out, lines.pieces);
+}
+
+/// Appends all lines, as they are.
+void write_all_lines(BlobWriter& out, const hlr::Drawing& drawing) {
+  write(out, LinesOfObjects{.left_out = drawing.left_out,
+                            .counted = drawing.counted,
+                            .hatches = drawing.hatches,
+                            .curves = drawing.curves.all,
+                            .edges = drawing.curves.edges,
+                            .pieces = drawing.pieces});
 }
 
 std::vector<hlr::LineCount> read_line_counts(BlobReader& in, std::size_t objects) {
@@ -106,10 +173,71 @@ std::vector<hlr::LineCount> read_line_counts(BlobReader& in, std::size_t objects
   return counts;
 }
 
-}  // namespace
+/// What was written of a range of objects; its pieces lie in the reader still.
+struct ReadLines {
+  std::vector<std::uint32_t> left_out;
+  std::vector<hlr::LineCount> counted;
+  std::vector<hlr::Hatch> hatches;
+  hlr::Curves curves;  ///< numbered from the first of the range
+  PieceBlocks pieces;
+};
 
-void write(BlobWriter& out, const hlr::Drawing& drawing) {
-  out.number(kDrawingForm);
+ReadLines read_lines(BlobReader& in, ObjectRange objects, bool with_hatches) {
+  ReadLines lines;
+  lines.left_out = in.column<std::uint32_t>();
+  if (!lines.left_out.empty() && lines.left_out.size() != objects.size())
+    in.refuse("columns are not of one length");
+  lines.counted = read_line_counts(in, objects.size());
+  if (with_hatches) lines.hatches = read_hatches(in);
+  if (!lines.hatches.empty() && lines.hatches.size() != objects.size())
+    in.refuse("columns are not of one length");
+  lines.curves = read_curves(in, objects);
+  lines.pieces = take_pieces(in, objects);
+  return lines;
+}
+
+template <class T>
+void append(std::vector<T>& all, const std::vector<T>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Puts the lines of all ranges, in order, into a drawing whose head is there. A fault is that of
+/// `in`.
+Status join(std::span<const ReadLines> ranges, BlobReader& in, hlr::Drawing& drawing,
+            const parallel::Context& context) {
+  std::vector<PieceBlocks> blocks;
+  blocks.reserve(ranges.size());
+  std::size_t curves = 0, edges = 0;
+  for (const ReadLines& lines : ranges) {
+    curves += lines.curves.all.size();
+    edges += lines.curves.edges.size();
+  }
+  drawing.curves.all.reserve(curves);
+  drawing.curves.edges.reserve(edges);
+  for (const ReadLines& lines : ranges) {
+    append(drawing.left_out, lines.left_out);
+    append(drawing.counted, lines.counted);
+    append(drawing.hatches, lines.hatches);
+    const auto before = static_cast<std::uint32_t>(drawing.curves.all.size());
+    append(drawing.curves.all, lines.curves.all);
+    for (hlr::CurvedEdge edge : lines.curves.edges) {
+      edge.curve += before;
+      drawing.curves.edges.push_back(edge);
+    }
+    blocks.push_back(lines.pieces);
+  }
+  const std::size_t objects = drawing.account.fates.size();
+  for (const std::size_t size : {drawing.left_out.size(), drawing.hatches.size()})
+    if (size != 0 && size != objects) in.refuse("columns are not of one length");
+  if (in.failed()) return {};
+  Result<std::vector<hlr::EdgePiece>> pieces = read_pieces(blocks, objects, in, context);
+  if (!pieces) return pieces.error();
+  drawing.pieces = std::move(*pieces);
+  return {};
+}
+
+void write_head(BlobWriter& out, const hlr::Drawing& drawing, std::uint64_t form) {
+  out.number(form);
   write(out, drawing.view);
   write(out, drawing.options);
   out.real(drawing.contact_distance_mm);
@@ -119,14 +247,18 @@ void write(BlobWriter& out, const hlr::Drawing& drawing) {
   write(out, drawing.counters);
   write(out, drawing.account);
   write(out, drawing.diagnostics);
-  write_lines(out, drawing);
 }
 
-Result<hlr::Drawing> read_drawing(BlobReader& in, const parallel::Context& context) {
+/// What comes before lines, and in which form they follow.
+struct ReadHead {
   hlr::Drawing drawing;
-  const std::uint64_t form = in.number();
-  if (form != kDrawingForm && form != kFormWithoutHatches)
-    in.refuse("a drawing is of a form that this version cannot read");
+  std::uint64_t form = 0;
+};
+
+ReadHead read_head(BlobReader& in) {
+  ReadHead head;
+  hlr::Drawing& drawing = head.drawing;
+  head.form = in.number();
   drawing.view = read_view(in);
   drawing.options = read_options(in);
   for (double* const value : {&drawing.contact_distance_mm, &drawing.weld_mm, &drawing.sag_mm}) {
@@ -137,19 +269,91 @@ Result<hlr::Drawing> read_drawing(BlobReader& in, const parallel::Context& conte
   drawing.counters = read_counters(in);
   drawing.account = read_account(in);
   drawing.diagnostics = read_diagnostics(in);
-  const std::size_t objects = drawing.account.fates.size();
-  drawing.left_out = in.column<std::uint32_t>();
-  if (!drawing.left_out.empty() && drawing.left_out.size() != objects)
-    in.refuse("columns are not of one length");
-  drawing.counted = read_line_counts(in, objects);
-  if (form == kDrawingForm) drawing.hatches = read_hatches(in);
-  if (!drawing.hatches.empty() && drawing.hatches.size() != objects)
-    in.refuse("columns are not of one length");
-  drawing.curves = read_curves(in, objects);
-  Result<std::vector<hlr::EdgePiece>> pieces = read_pieces(in, objects, context);
-  if (!pieces) return pieces.error();
-  drawing.pieces = std::move(*pieces);
-  return drawing;
+  return head;
+}
+
+constexpr std::string_view kUnknownForm = "a drawing is of a form that this version cannot read";
+
+/// A part that is unpacked.
+struct OpenedPart {
+  BlobReader in;
+  ReadLines lines;
+};
+
+Result<OpenedPart> open_part(std::span<const std::byte> blob, ObjectRange objects,
+                             const std::string& what) {
+  Result<BlobReader> in = BlobReader::open(blob, what);
+  if (!in) return in.error();
+  OpenedPart part{std::move(*in), {}};
+  part.lines = read_lines(part.in, objects, true);
+  if (const Status status = part.in.finish(); !status) return status.error();
+  return part;
+}
+
+}  // namespace
+
+std::size_t count_drawing_parts(std::size_t objects) {
+  // No number is too large for it: it may come out of a file.
+  const std::size_t rest = objects % kObjectsPerDrawingPart == 0 ? 0 : 1;
+  return std::max<std::size_t>(1, objects / kObjectsPerDrawingPart + rest);
+}
+
+ObjectRange objects_of_drawing_part(std::size_t part, std::size_t objects) {
+  return {std::min(objects, part * kObjectsPerDrawingPart),
+          std::min(objects, (part + 1) * kObjectsPerDrawingPart)};
+}
+
+void write(BlobWriter& out, const hlr::Drawing& drawing) {
+  write_head(out, drawing, kFormOfOne);
+  write_all_lines(out, drawing);
+}
+
+void write_head(BlobWriter& out, const hlr::Drawing& drawing) {
+  write_head(out, drawing, kFormInParts);
+}
+
+Status write_lines(BlobWriter& out, const hlr::Drawing& drawing, ObjectRange objects) {
+  const LinesOfObjects lines = lines_of(drawing, objects);
+  const auto is_of_range = [&](const hlr::CurvedEdge& edge) {
+    return edge.curve >= lines.first_curve && edge.curve - lines.first_curve < lines.curves.size();
+  };
+  if (!std::ranges::all_of(lines.edges, is_of_range))
+    return Error{ErrorCode::internal, "curves are not in the order of objects", {}, {}};
+  write(out, lines);
+  return {};
+}
+
+Result<hlr::Drawing> read_drawing(BlobReader& in, const parallel::Context& context) {
+  ReadHead head = read_head(in);
+  if (head.form != kFormOfOne && head.form != kFormWithoutHatches) in.refuse(kUnknownForm);
+  const ReadLines lines =
+      read_lines(in, {0, head.drawing.account.fates.size()}, head.form == kFormOfOne);
+  if (const Status status = join(std::span(&lines, 1), in, head.drawing, context); !status)
+    return status.error();
+  return std::move(head.drawing);
+}
+
+Result<hlr::Drawing> read_parts_of_drawing(BlobReader& in,
+                                           std::span<const std::span<const std::byte>> parts,
+                                           const std::string& what,
+                                           const parallel::Context& context) {
+  ReadHead head = read_head(in);
+  const std::size_t objects = head.drawing.account.fates.size();
+  if (head.form != kFormInParts) in.refuse(kUnknownForm);
+  if (parts.size() != count_drawing_parts(objects))
+    in.refuse("it has not the parts that it should have");
+  if (in.failed()) return hlr::Drawing{};
+  Result<std::vector<OpenedPart>> opened =
+      parallel::transform(context, {.name = "unpack stored lines", .n = parts.size()},
+                          [&](std::size_t k) -> Result<OpenedPart> {
+                            return open_part(parts[k], objects_of_drawing_part(k, objects), what);
+                          });
+  if (!opened) return opened.error();
+  std::vector<ReadLines> ranges;
+  ranges.reserve(opened->size());
+  for (OpenedPart& part : *opened) ranges.push_back(std::move(part.lines));
+  if (const Status status = join(ranges, in, head.drawing, context); !status) return status.error();
+  return std::move(head.drawing);
 }
 
 namespace {
@@ -170,7 +374,7 @@ Result<std::vector<std::byte>> bytes_of_result(const hlr::Drawing& drawing) {
   write(out, drawing.origin);
   write(out, drawing.account);
   write(out, drawing.diagnostics);
-  write_lines(out, drawing);
+  write_all_lines(out, drawing);
   return out.finish();
 }
 

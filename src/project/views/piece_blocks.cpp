@@ -68,8 +68,8 @@ class BlockReader {
  public:
   explicit BlockReader(std::size_t objects) : objects_(objects) {}
 
-  /// Returns false where the bytes are no block of so many pieces.
-  bool read(std::span<const std::uint8_t> bytes, std::span<EdgePiece> pieces) {
+  /// Returns false where the bytes are no block of so many pieces of these objects.
+  bool read(std::span<const std::uint8_t> bytes, ObjectRange range, std::span<EdgePiece> pieces) {
     const std::size_t n = pieces.size();
     if (bytes.size() < 2 * n) return false;
     for (std::size_t i = 0; i < n; ++i) {
@@ -81,7 +81,9 @@ class BlockReader {
     }
     bytes = bytes.subspan(2 * n);
     return take_ends(bytes, pieces) && take_objects(bytes, pieces) && bytes.empty() &&
-           std::ranges::is_sorted(pieces, is_before);
+           std::ranges::is_sorted(pieces, is_before) &&
+           (pieces.empty() || (model::index(pieces.front().object) >= range.first &&
+                               model::index(pieces.back().object) < range.last));
   }
 
  private:
@@ -130,39 +132,69 @@ void write_pieces(BlobWriter& out, std::span<const EdgePiece> pieces) {
         block_of(pieces.subspan(begin, std::min(kBlock, pieces.size() - begin)))));
 }
 
-Result<std::vector<EdgePiece>> read_pieces(BlobReader& in, std::size_t objects,
-                                           const parallel::Context& context) {
-  const std::uint64_t count = in.number();
-  std::vector<std::span<const std::uint8_t>> blocks;
-  std::uint64_t pieces_there = 0;
-  while (!in.failed() && pieces_there < count) {
-    blocks.push_back(in.bytes());
-    const std::uint64_t here = std::min<std::uint64_t>(kBlock, count - pieces_there);
+PieceBlocks take_pieces(BlobReader& in, ObjectRange objects) {
+  PieceBlocks pieces{objects, in.number(), {}};
+  std::uint64_t there = 0;
+  while (!in.failed() && there < pieces.count) {
+    pieces.blocks.push_back(in.bytes());
+    const std::uint64_t here = std::min<std::uint64_t>(kBlock, pieces.count - there);
     // A piece has two bytes at least, so that a count claims no more memory than there are bytes.
-    if (!in.failed() && blocks.back().size() < 2 * here) in.refuse("a block of lines is too short");
-    pieces_there += here;
+    if (!in.failed() && pieces.blocks.back().size() < 2 * here)
+      in.refuse("a block of lines is too short");
+    there += here;
   }
-  if (in.failed()) return std::vector<EdgePiece>{};
+  if (in.failed()) return {};
+  return pieces;
+}
+
+namespace {
+
+/// A block, and where its pieces come to lie.
+struct PlacedBlock {
+  std::span<const std::uint8_t> bytes;
+  ObjectRange objects;
+  std::size_t begin = 0, size = 0;
+};
+
+std::vector<PlacedBlock> placed(std::span<const PieceBlocks> ranges) {
+  std::vector<PlacedBlock> blocks;
+  std::size_t begin = 0;
+  for (const PieceBlocks& range : ranges) {
+    std::uint64_t left = range.count;
+    for (const std::span<const std::uint8_t> bytes : range.blocks) {
+      const auto size = static_cast<std::size_t>(std::min<std::uint64_t>(kBlock, left));
+      blocks.push_back({bytes, range.objects, begin, size});
+      begin += size;
+      left -= size;
+    }
+  }
+  return blocks;
+}
+
+}  // namespace
+
+Result<std::vector<EdgePiece>> read_pieces(std::span<const PieceBlocks> ranges, std::size_t objects,
+                                           BlobReader& in, const parallel::Context& context) {
+  const std::vector<PlacedBlock> blocks = placed(ranges);
+  const std::size_t count = blocks.empty() ? 0 : blocks.back().begin + blocks.back().size;
   // There is room for the pieces that a change adds, so that hlr::draw_changes() leaves the others
   // where they are.
-  const std::uint64_t room = pieces_there + pieces_there / 64;
-  Result<std::vector<EdgePiece>> pieces = parallel::slots<EdgePiece>(room, context);
+  Result<std::vector<EdgePiece>> pieces = parallel::slots<EdgePiece>(count + count / 64, context);
   if (!pieces) return pieces;
-  pieces->resize(pieces_there);
+  pieces->resize(count);
   const std::span<EdgePiece> slot = *pieces;
   const auto is_sound = parallel::transform_with(
       context, {.name = "stored lines", .n = blocks.size()},
       [objects] { return std::make_unique<BlockReader>(objects); },
       [&](std::unique_ptr<BlockReader>& reader, std::size_t b) -> std::uint8_t {
-        const std::size_t begin = b * kBlock;
-        return reader->read(blocks[b], slot.subspan(begin, std::min(kBlock, slot.size() - begin)))
-                   ? 1
-                   : 0;
+        const PlacedBlock& block = blocks[b];
+        return reader->read(block.bytes, block.objects, slot.subspan(block.begin, block.size)) ? 1
+                                                                                               : 0;
       });
   if (!is_sound) return is_sound.error();
   bool sound = std::ranges::count(*is_sound, std::uint8_t{0}) == 0;
-  for (std::size_t begin = kBlock; begin < slot.size(); begin += kBlock)
-    sound = sound && !is_before(slot[begin], slot[begin - 1]);
+  for (const PlacedBlock& block : blocks)
+    sound = sound && (block.begin == 0 || !is_before(slot[block.begin], slot[block.begin - 1]));
   if (sound) return pieces;
   in.refuse("a line cannot be one of a drawing");
   return std::vector<EdgePiece>{};

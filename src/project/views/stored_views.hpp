@@ -10,6 +10,7 @@
 
 #include "project/database/database.hpp"
 #include "project/snapshot/snapshot.hpp"
+#include "project/views/drawing_rows.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/core/result.hpp"
 #include "strake/geometry/vec.hpp"
@@ -42,13 +43,6 @@ struct StoredView {
 /// Returns one view. Errors: usage where there is none of that name; it lists those that are there.
 [[nodiscard]] Result<StoredView> find_view(Database& database, std::string_view name);
 
-/// A drawing and what it was solved from.
-struct StoredDrawing {
-  hlr::Drawing drawing;
-  Snapshot made_from;
-  std::vector<geometry::Box3l> boxes;  ///< hlr::Signatures::boxes then
-};
-
 /// Returns the drawing of a view that was solved under the signature `whole` by this version of the
 /// program; nothing where there is none. Errors: input where it is damaged, cancelled.
 [[nodiscard]] Result<std::optional<StoredDrawing>> load_drawing(Database& database,
@@ -80,14 +74,15 @@ struct ViewToStore {
   std::span<const model::ObjectId> far_objects = {};
   std::uint64_t edges_solved = 0;
   double seconds = 0;
+  /// DrawingToStore::stored and DrawingToStore::touched: only what may be another is looked at
+  /// then.
+  const StoredDrawing* stored = nullptr;
+  const std::vector<bool>* touched = nullptr;
 };
 
 /// Stores a view, its drawing or both, wholly or not at all. Errors: those of Transaction::begin().
-[[nodiscard]] Status store_view(Database& database, const ViewToStore& view);
-
-/// Gives the objects of all drawings the identities of today, within a transaction of the caller.
-/// What is damaged stays as it is: it serves nobody.
-[[nodiscard]] Status rename_objects_of_views(Database& database, const NewIdentities& renamed);
+[[nodiscard]] Status store_view(Database& database, const ViewToStore& view,
+                                const parallel::Context& context);
 
 /// A drawing that cannot be right.
 struct DamagedView {

@@ -9,6 +9,7 @@
 #include "project/model/blocks.hpp"
 #include "project/model/shape_block.hpp"
 #include "project/model/stored_diagnostics.hpp"
+#include "project/views/drawing_codec.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace strake;
@@ -38,5 +39,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static_cast<void>(project::unpack_shapes(*blob, "fuzz", shapes));
   static_cast<void>(project::unpack_meshes(*blob, {}, "fuzz"));
   static_cast<void>(project::unpack_diagnostics(*blob, "fuzz"));
+  // A drawing, whole and as the head of parts, which are other bytes.
+  auto drawing = project::BlobReader::open(*blob, "fuzz");
+  if (drawing) static_cast<void>(project::read_drawing(*drawing, {}));
+  auto head = project::BlobReader::open(*blob, "fuzz");
+  const std::vector<std::span<const std::byte>> parts{*blob};
+  if (head) static_cast<void>(project::read_parts_of_drawing(*head, parts, "fuzz", {}));
   return 0;
 }

@@ -10,7 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "project/views/drawing_codec.hpp"
+#include "project/views/stored_views.hpp"
 #include "strake/generate/ship.hpp"
+#include "strake/hlr/hlr.hpp"
 #include "strake/io/reader.hpp"
 #include "strake/io/writer.hpp"
 #include "strake/project/project.hpp"
@@ -26,11 +29,34 @@ namespace strake::test {
   std::abort();
 }
 
-/// A small project of an OBJ and a GLB file, and its model.
+/// A small project of an OBJ and a GLB file, of which one lies on a map, its model, and the drawing
+/// of its view 'iso'.
 struct ProjectSeed {
   Seed file;
   model::Model model;
+  hlr::Drawing drawing;
 };
+
+/// Stores the view of a model. What it was solved from is made up: nobody asks whether it holds.
+[[nodiscard]] inline hlr::Drawing store_iso(project::Project& project, const model::Model& model) {
+  const auto scene = model::make_scene(model, {}, {});
+  if (!scene) stop("no scene");
+  auto drawing = hlr::draw(*scene, {}, {}, {}, {});
+  if (!drawing) stop("no drawing");
+  const std::size_t objects = model.objects.size();
+  project::Snapshot made_from{
+      {1, 2}, std::vector<std::uint64_t>(objects), std::vector<Hash128>(objects)};
+  for (std::size_t o = 0; o < objects; ++o) made_from.signatures[o] = {o, o * o};
+  const std::vector<geometry::Box3l> boxes(objects, {{0, 0, 0}, {1, 1, 1}});
+  const project::ViewToStore view{.name = "iso",
+                                  .settings = "{}",
+                                  .drawing = &*drawing,
+                                  .made_from = &made_from,
+                                  .boxes = &boxes,
+                                  .model = &model};
+  if (!project::store_view(project.database(), view, {})) stop("no view");
+  return std::move(*drawing);
+}
 
 [[nodiscard]] inline ProjectSeed project_seed() {
   const TemporaryFolder folder;
@@ -42,9 +68,11 @@ struct ProjectSeed {
   ProjectSeed seed;
   {
     auto project = project::Project::create(path);
-    if (!project || !store(*project, paths)) stop("no project");
+    if (!project || !store(*project, paths, {}, io::MapPlace{.crs = "EPSG:25832", .to_map = {}}))
+      stop("no project");
     auto model = project->model({});
     if (!model) stop("no model");
+    seed.drawing = store_iso(*project, *model);
     seed.model = std::move(*model);
   }
   std::ifstream in(path, std::ios::binary);
@@ -56,10 +84,10 @@ struct ProjectSeed {
 /// What became of bytes that were read as a project.
 enum class Fed { refused, read };
 
-/// Any bytes as a project: an error that names the file, or a model. `expected` is the one it must
-/// be then; null: any.
+/// Any bytes as a project: an error that names the file, or a model and a drawing. `expected` has
+/// those that they must be then; null: any.
 inline Fed feed_project(const std::string& bytes, const std::filesystem::path& folder,
-                        const model::Model* expected = nullptr) {
+                        const ProjectSeed* expected = nullptr) {
   const std::filesystem::path path = folder / "fuzz.strake";
   std::ofstream(path, std::ios::binary) << bytes;
   const auto refused = [](const Error& error) {
@@ -72,8 +100,13 @@ inline Fed feed_project(const std::string& bytes, const std::filesystem::path& f
   const auto model = project->model({});
   if (!model) return refused(model.error());
   if (expected != nullptr)
-    if (const std::string found = model_difference(*expected, *model); !found.empty())
+    if (const std::string found = model_difference(expected->model, *model); !found.empty())
       stop("damage that nobody saw: " + found);
+  const auto former = project::former_drawing(project->database(), "iso", {});
+  // An error of a row names the view, and who asks knows the file.
+  if (!former) return Fed::refused;
+  if (expected != nullptr && !project::are_equal(expected->drawing, former->drawing).value())
+    stop("damage of a drawing that nobody saw");
   return Fed::read;
 }
 

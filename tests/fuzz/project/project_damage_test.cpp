@@ -16,7 +16,7 @@ namespace {
 class ProjectDamage : public ::testing::Test {
  protected:
   test::Fed feed(const std::string& bytes) const {
-    return test::feed_project(bytes, folder_.path(), &seed_.model);
+    return test::feed_project(bytes, folder_.path(), &seed_);
   }
   /// How many damaged files a test tries.
   [[nodiscard]] static int tries(int few) {

@@ -166,6 +166,16 @@ class Importers(Scenario):
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn('--georeference', done.stderr)
 
+        self.text('project', 'new', 'two.strake', 'model.boxes', 'far.boxes')
+        for words in (('two.strake',), ('-p', 'two.strake')):
+            done = self.clashes(*words)
+            self.assertEqual([row['key'] for row in json.loads(done.stdout)['results']],
+                             [row['key'] for row in json.loads(local.stdout)['results']])
+            self.assertEqual([line for line in done.stderr.splitlines() if 'map-place-differs' in line],
+                             [line for line in local.stderr.splitlines() if 'map-place-differs' in line])
+        self.text('project', 'remove', 'two.strake', 'far.boxes')
+        self.assertNotIn('map-place-differs', self.clashes('two.strake').stderr)
+
     def test_a_project_takes_such_files(self):
         self.text('project', 'new', 'x.strake', 'model.boxes')
         self.write('more.boxes', 'c 400 0 0 50 50 50\n')

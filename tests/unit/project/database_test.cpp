@@ -12,7 +12,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include "project/database/schema.hpp"
 #include "strake/project/check.hpp"
@@ -219,6 +222,32 @@ TEST_F(ProjectFileTest, ASecondWriterIsTold) {
                  "another program");
   }
   EXPECT_TRUE(Transaction::begin(second->database()));
+}
+
+/// As where several readers come first to a project of an earlier version.
+TEST_F(ProjectFileTest, AReaderWaitsForWhoeverBringsTheTablesUpToDate) {
+  static_cast<void>(make());
+  auto other = Project::open(file_, {.access = Access::write});
+  ASSERT_TRUE(other) << other.error().text();
+  const Status older = other->database().execute(
+      "BEGIN; DROP TABLE map_place; DROP TABLE drawing_part; PRAGMA user_version = 4; COMMIT");
+  ASSERT_TRUE(older) << older.error().text();
+  auto transaction = Transaction::begin(other->database());
+  ASSERT_TRUE(transaction) << transaction.error().text();
+  std::optional<Transaction> held(std::move(*transaction));
+  constexpr std::chrono::milliseconds kHeld(300);
+  const auto start = std::chrono::steady_clock::now();
+  std::thread owner([&] {
+    std::this_thread::sleep_for(kHeld);
+    EXPECT_TRUE(held->commit());
+    held.reset();
+  });
+  auto reader = Project::open(file_, {});
+  EXPECT_GE(std::chrono::steady_clock::now() - start, kHeld);
+  owner.join();
+  ASSERT_TRUE(reader) << reader.error().text();
+  EXPECT_EQ(test::number(*reader, "SELECT count(*) FROM drawing_part"), 0);
+  EXPECT_EQ(schema_version(reader->database()).value(), kSchemaVersion);
 }
 
 TEST_F(ProjectFileTest, WithoutACommitNothingIsWritten) {

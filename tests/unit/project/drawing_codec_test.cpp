@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -42,6 +44,31 @@ Result<hlr::Drawing> read_back(const std::vector<std::byte>& bytes,
   return drawing;
 }
 
+/// Returns a drawing in parts: its head, then the lines of each range of objects.
+std::vector<std::vector<std::byte>> parts_of(const hlr::Drawing& drawing) {
+  BlobWriter head;
+  write_head(head, drawing);
+  std::vector<std::vector<std::byte>> blobs{head.finish().value()};
+  const std::size_t objects = drawing.account.fates.size();
+  for (std::size_t k = 0; k < count_drawing_parts(objects); ++k) {
+    BlobWriter part;
+    EXPECT_TRUE(write_lines(part, drawing, objects_of_drawing_part(k, objects)));
+    blobs.push_back(part.finish().value());
+  }
+  return blobs;
+}
+
+Result<hlr::Drawing> read_parts_back(const std::vector<std::vector<std::byte>>& blobs,
+                                     const parallel::Context& context = {}) {
+  Result<BlobReader> in = BlobReader::open(blobs.front(), "the drawing");
+  if (!in) return in.error();
+  const std::vector<std::span<const std::byte>> parts(blobs.begin() + 1, blobs.end());
+  Result<hlr::Drawing> drawing = read_parts_of_drawing(*in, parts, "the drawing", context);
+  if (!drawing) return drawing;
+  if (const Status status = in->finish(); !status) return status.error();
+  return drawing;
+}
+
 /// Round and flat things, of which one lacks geometry and one is too small for the grid.
 model::Model mixed_model() {
   test::ClashModel m;
@@ -55,9 +82,18 @@ model::Model mixed_model() {
 }
 
 model::Model ship() {
-  auto made = generate::generate_ship({.objects = 200}, {});
+  auto made = generate::generate_ship({.objects = 600}, {});
   EXPECT_TRUE(made);
   return made ? std::move(made->model) : model::Model{};
+}
+
+/// A row of pipes, whose rims are circles.
+model::Model pipes() {
+  test::ClashModel m;
+  m.object("pipe").body(geometry::Primitive{geometry::CylinderPrimitive{300, 2000}});
+  for (int i = 1; i < 600; ++i)
+    m.object("pipe " + std::to_string(i)).again({{}, {900.0 * i, 0, 0}});
+  return std::move(m.model);
 }
 
 struct Asked {
@@ -118,7 +154,79 @@ TEST(DrawingCodec, AllOfADrawingComesBack) {
         ASSERT_TRUE(equal);
         EXPECT_TRUE(*equal);
       }
+      const std::vector<std::vector<std::byte>> parts = parts_of(drawing);
+      EXPECT_EQ(parts.size(), model.objects.size() > 256 ? 4U : 2U);
+      for (const parallel::Context& context : {parallel::Context{}, teamed}) {
+        const auto again = read_parts_back(parts, context);
+        ASSERT_TRUE(again) << again.error().text();
+        EXPECT_TRUE(bytes_of(*again) == bytes);
+        EXPECT_TRUE(parts_of(*again) == parts);
+      }
     }
+}
+
+/// So a change of one object leaves the bytes of all other parts.
+TEST(DrawingCodec, APartIsOfItsObjectsAlone) {
+  const hlr::Drawing drawing = drawn(pipes(), {});
+  hlr::Drawing other = drawing;
+  const auto first = std::ranges::find_if(
+      other.pieces, [](const hlr::EdgePiece& piece) { return model::index(piece.object) >= 256; });
+  ASSERT_NE(first, other.pieces.end());
+  ASSERT_LT(model::index(first->object), 512U);
+  other.pieces.insert(first, *first);
+  // One more curve before all others.
+  const auto edge = std::ranges::find_if(
+      other.curves.edges, [](const hlr::CurvedEdge& e) { return model::index(e.object) >= 256; });
+  ASSERT_NE(edge, other.curves.edges.end());
+  const std::uint32_t curve = edge->curve;
+  other.curves.all.insert(other.curves.all.begin() + curve, other.curves.all[curve]);
+  for (auto at = edge + 1; at != other.curves.edges.end(); ++at) ++at->curve;
+  const auto parts = parts_of(drawing), others = parts_of(other);
+  ASSERT_EQ(parts.size(), 4U);
+  const auto again = read_parts_back(parts);
+  ASSERT_TRUE(again) << again.error().text();
+  EXPECT_TRUE(parts_of(*again) == parts);
+  EXPECT_TRUE(bytes_of(*again) == bytes_of(drawing));
+  EXPECT_TRUE(parts[1] == others[1]);
+  EXPECT_FALSE(parts[2] == others[2]);
+  EXPECT_TRUE(parts[3] == others[3]);
+}
+
+TEST(DrawingCodec, PartsThatAreNotThoseOfADrawingAreRefused) {
+  const auto parts = parts_of(drawn(ship(), {}));
+  ASSERT_TRUE(read_parts_back(parts));
+  const auto is_refused = [](std::vector<std::vector<std::byte>> wrong) {
+    const auto read = read_parts_back(wrong);
+    return !read && read.error().code == ErrorCode::input;
+  };
+  auto wrong = parts;
+  wrong.pop_back();
+  EXPECT_TRUE(is_refused(wrong));
+  wrong = parts;
+  wrong.push_back(parts.back());
+  EXPECT_TRUE(is_refused(wrong));
+  wrong = parts;
+  std::swap(wrong[1], wrong[2]);
+  EXPECT_TRUE(is_refused(wrong)) << "lines of objects of another range";
+  wrong = parts;
+  wrong[3] = parts[0];
+  EXPECT_TRUE(is_refused(wrong));
+  wrong = parts;
+  wrong[0] = bytes_of(drawn(ship(), {}));
+  EXPECT_TRUE(is_refused(wrong)) << "another form";
+  const auto of_whole = BlobReader::open(parts[0], "head");
+  ASSERT_TRUE(of_whole);
+  auto head = BlobReader::open(parts[0], "head");
+  EXPECT_TRUE(!read_drawing(*head, {}) || head->failed()) << "a head alone is no drawing";
+}
+
+/// Lines whose curves are in another order would be of other objects when they are read again.
+TEST(DrawingCodec, CurvesOutOfOrderAreNotWritten) {
+  hlr::Drawing drawing = drawn(pipes(), {});
+  ASSERT_GT(drawing.curves.edges.size(), 2U);
+  std::swap(drawing.curves.edges.front().curve, drawing.curves.edges.back().curve);
+  BlobWriter out;
+  EXPECT_FALSE(write_lines(out, drawing, objects_of_drawing_part(0, 600)));
 }
 
 TEST(DrawingCodec, PiecesTakeFewBytes) {
@@ -176,13 +284,29 @@ TEST(DrawingCodec, WhatCannotBeADrawingIsRefused) {
       [](hlr::Drawing& d) { d.sag_mm = std::numeric_limits<double>::infinity(); },
       [](hlr::Drawing& d) { d.view.sections.resize(17); },
   };
+  ASSERT_EQ(sound.account.fates.size(), 5U);
+  std::size_t in_parts = 0;
   for (std::size_t f = 0; f < faults.size(); ++f) {
     hlr::Drawing wrong = sound;
     faults[f](wrong);
     const auto read = read_back(bytes_of(wrong));
     ASSERT_FALSE(read) << "fault " << f;
     EXPECT_EQ(read.error().code, ErrorCode::input);
+    // Parts are made of what is in order, and of columns that have an entry for each object.
+    const auto number = [](const auto& line) { return model::index(line.object); };
+    BlobWriter part;
+    if (!std::ranges::is_sorted(wrong.pieces, {}, number) ||
+        !std::ranges::is_sorted(wrong.curves.edges, {}, number) ||
+        number(wrong.pieces.back()) >= 5 || number(wrong.curves.edges.back()) >= 5 ||
+        wrong.counted != sound.counted || wrong.left_out != sound.left_out ||
+        !write_lines(part, wrong, {0, 5}))
+      continue;
+    ++in_parts;
+    const auto of_parts = read_parts_back(parts_of(wrong));
+    ASSERT_FALSE(of_parts) << "fault " << f;
+    EXPECT_EQ(of_parts.error().code, ErrorCode::input);
   }
+  EXPECT_GT(in_parts, faults.size() / 2);
 }
 
 TEST(NumberColumns, AnyNumbersComeBack) {

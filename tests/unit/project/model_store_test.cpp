@@ -219,6 +219,85 @@ TEST_F(ModelStoreTest, RenamedFilesTakePlaces) {
   expect_model_of(paths);
 }
 
+TEST_F(ModelStoreTest, FilesThatLieOtherwiseOnAMapAreTold) {
+  Project project = make();
+  std::vector<FileToStore> files;
+  for (const char* const name : {"b.rvm", "a.rvm", "c.rvm", "d.rvm"}) {
+    auto file = read_file({write(name, plant(1)), {}}, {});
+    ASSERT_TRUE(file) << file.error().text();
+    EXPECT_FALSE(file->map);
+    files.push_back(std::move(*file));
+  }
+  io::MapPlace place{.crs = "EPSG:25832", .to_map = {}};
+  place.to_map.translation = {463'000'500.125, 5'428'000'250, -0.0};
+  for (const std::size_t f : {0U, 1U, 3U}) files[f].map = place;
+  files[0].map->to_map.translation.x += 0.125;
+  files[3].map->crs = "EPSG:1";
+  const auto put = [&](std::span<const FileToStore> some) {
+    auto transaction = Transaction::begin(project.database());
+    ASSERT_TRUE(transaction);
+    const Status stored = store_files(project, some, {});
+    ASSERT_TRUE(stored) << stored.error().text();
+    ASSERT_TRUE(transaction->commit());
+  };
+  put(files);
+  const auto told = [&] {
+    auto reader = Project::open(folder_.path() / "ship.strake", {});
+    EXPECT_TRUE(reader);
+    const auto model = reader->model({});
+    EXPECT_TRUE(model) << model.error().text();
+    std::vector<Diagnostic> notes;
+    for (const Diagnostic& one : model->diagnostics.kept())
+      if (one.code == "map-place-differs") notes.push_back(one);
+    return notes;
+  };
+  // The others lie as the first by name does, on another map, and nowhere.
+  ASSERT_EQ(told().size(), 1U);
+  EXPECT_EQ(told()[0].where, files[0].given);
+  EXPECT_NE(told()[0].message.find(files[1].given), std::string::npos) << told()[0].message;
+  // A file that is read again lies where it says then.
+  files[0].map = files[1].map;
+  put(std::span(files).first(1));
+  EXPECT_TRUE(told().empty());
+  files[1].map.reset();
+  files[0].map->to_map.linear.row[0].x = 2;
+  put(std::span(files).first(2));
+  EXPECT_TRUE(told().empty()) << "it is the only one on its map";
+  EXPECT_EQ(test::number(project, "SELECT count(*) FROM map_place"), 2);
+  const std::int64_t id = test::number(project, "SELECT id FROM file WHERE name = 'b.rvm'");
+  ASSERT_TRUE(test::take_out(project, std::array{id}));
+  EXPECT_EQ(test::number(project, "SELECT count(*) FROM map_place"), 1);
+}
+
+TEST_F(ModelStoreTest, APlaceOnAMapThatNobodyStoredIsDamage) {
+  Project project = make();
+  auto file = read_file({write("a.rvm", plant(1)), {}}, {});
+  ASSERT_TRUE(file);
+  file->map = io::MapPlace{.crs = "EPSG:25832", .to_map = {}};
+  {
+    auto transaction = Transaction::begin(project.database());
+    ASSERT_TRUE(transaction);
+    ASSERT_TRUE(store_files(project, std::span(&*file, 1), {}));
+    ASSERT_TRUE(transaction->commit());
+  }
+  ASSERT_TRUE(project.model({}));
+  for (const char* const damage :
+       {"DELETE FROM map_place", "UPDATE map_place SET crs = 'EPSG:1'",
+        "UPDATE map_place SET crs = char(27) || '[2J'", "UPDATE map_place SET to_map = x''",
+        "UPDATE map_place SET to_map = zeroblob(128)",
+        "UPDATE map_place SET to_map = randomblob(128)",
+        "UPDATE map_place SET crs = hex(zeroblob(5000))"}) {
+    auto transaction = Transaction::begin(project.database());
+    ASSERT_TRUE(transaction);
+    ASSERT_TRUE(project.database().execute(damage)) << damage;
+    const auto model = project.model({});
+    ASSERT_FALSE(model) << damage;
+    EXPECT_EQ(model.error().code, ErrorCode::input);
+    EXPECT_FALSE(project.files()) << damage;
+  }
+  EXPECT_TRUE(project.model({})) << "nothing of it was kept";
+}
+
 TEST_F(ModelStoreTest, FilesThatAreTakenOutLeaveTheOthersAsTheyAre) {
   const Paths paths{write("x/a.rvm", plant(1)), write_ship("b.glb", {.objects = 400}),
                     write("y/a.rvm", plant(2)), write_ship("c.glb", {.objects = 300, .seed = 2})};
