@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/stopwatch.hpp"
 #include "strake/parallel/report.hpp"
 
 namespace strake::cli {

@@ -227,7 +227,7 @@ Status write_pages(Session& session, const fs::path& folder, const EvaluationRec
       return Status{};
     });
   };
-  for (const Section& section : sections_of(record))
+  for (const TableSection& section : sections_of(record))
     for (std::size_t n = 0; n < section.charts.size(); ++n) {
       const fs::path file = folder / chart_file(section, n);
       if (const Status status = session.will_write(file); !status) return status;

@@ -37,7 +37,7 @@ struct SoughtFile {
 /// Two files that may be one.
 struct MatchCandidate {
   std::size_t before = 0, after = 0;
-  FileLikeness compare_contents;
+  FileLikeness likeness;
 };
 
 class FileMatcher {
