@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -132,6 +133,22 @@ def test_faulty_and_impossible_bodies_cost_only_themselves(tmp_path: Path) -> No
     skipped = {line["object"]: line["message"] for line in outcome.told("skipped")}
     assert set(skipped) == {vast.GlobalId, flat.GlobalId}
     assert "IfcBuildingElementProxy 'flat'" in skipped[flat.GlobalId]
+
+
+def test_mapped_items_of_nothing_cost_only_their_product(tmp_path: Path) -> None:
+    model = IfcModel()
+    chair = model.mapped(model.body(model.extrusion((400, 400, 900))))
+    seats = [
+        model.product("IfcFurniture", f"seat {i}", model.body(model.use(chair), kind="MappedRepresentation"), (i * 1000, 0, 0))
+        for i in range(2)
+    ]
+    file = model.write(tmp_path / "a.ifc")
+    text, count = re.subn(r"(IFCMAPPEDITEM\()#\d+", r"\1$", file.read_text(), count=1)
+    assert count == 1
+    file.write_text(text)
+    outcome = convert(file)
+    assert outcome.glb.ids == [seats[1].GlobalId]
+    assert "1 products have a shape that is no body" in outcome.told("note")[-1]["message"]
 
 
 # Two triangles that meet in a point, as one outline, below and above.

@@ -83,7 +83,8 @@ def items_of(product: Entity) -> set[str]:
 
 def has_body(product: Entity) -> bool:
     """Whether a product states more than axes, outlines and boxes around it."""
-    return bool(items_of(product) - {"opening", "IfcBoundingBox"})
+    items = _stated_items(product)
+    return items is None or bool(items - {"opening", "IfcBoundingBox"})
 
 
 def _add_items(items: Iterable[Entity], result: set[str], depth: int) -> None:
@@ -93,7 +94,8 @@ def _add_items(items: Iterable[Entity], result: set[str], depth: int) -> None:
             continue
         inner: list[Entity] = []
         if item.is_a("IfcMappedItem"):
-            inner += item.MappingSource.MappedRepresentation.Items or ()
+            mapped = getattr(getattr(item, "MappingSource", None), "MappedRepresentation", None)
+            inner += getattr(mapped, "Items", None) or ()
         for name in ("FirstOperand", "SecondOperand", "TreeRootExpression", "SweptArea", "Directrix"):
             value = getattr(item, name, None)
             if isinstance(value, Entity):
@@ -103,4 +105,12 @@ def _add_items(items: Iterable[Entity], result: set[str], depth: int) -> None:
 
 def kernels_for(product: Entity) -> tuple[str, ...]:
     """Returns the kernels that are tried for a product, one after the other."""
-    return AFTER_EXACT if items_of(product) & _NOT_FAST else AFTER_FAST
+    return AFTER_EXACT if (_stated_items(product) or set()) & _NOT_FAST else AFTER_FAST
+
+
+def _stated_items(product: Entity) -> set[str] | None:
+    """Returns the items of a product; None where the file has something else in their place, which is left to the kernels."""
+    try:
+        return items_of(product)
+    except (AttributeError, RuntimeError, TypeError):
+        return None
