@@ -11,7 +11,7 @@
 #include "project/stored_report/report_codec.hpp"
 #include "strake/core/result.hpp"
 #include "strake/parallel/context.hpp"
-#include "tiles/blob_file.hpp"
+#include "tiles/kept/blob_file.hpp"
 
 /// What the tests find in a tile, as a file: a blob with what the file is, and for each test one
 /// with what joins it, one with its head, and its parts.

@@ -14,7 +14,7 @@
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
 #include "strake/parallel/detail/function_ref.hpp"
-#include "tiles/file_reader.hpp"
+#include "tiles/kept/file_reader.hpp"
 #include "tiles/split.hpp"
 
 /// A model that is too large to be held, file by file.
@@ -51,9 +51,9 @@ struct Outline {
 /// has alone.
 using Look = parallel::FunctionRef<Status(const model::Scene& scene, std::size_t given)>;
 
-/// Reads all files, one at a time, has the reader keep each, and returns their outline: it is the model that
-/// io::read_models() and model::make_scene() make of all, without geometry. Errors: theirs; those
-/// of `look`.
+/// Reads all files, one at a time, has the reader keep each, and returns their outline: it is the
+/// model that io::read_models() and model::make_scene() make of all, without geometry. Errors:
+/// theirs; those of `look`.
 [[nodiscard]] Result<Outline> outline_of(FileReader& reader, const model::SceneOptions& options,
                                          const Keep& keep, Look look,
                                          const parallel::Context& context);

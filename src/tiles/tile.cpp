@@ -10,7 +10,7 @@
 #include "project/codec/blob.hpp"
 #include "project/model/columns.hpp"
 #include "strake/parallel/for_each.hpp"
-#include "tiles/blob_file.hpp"
+#include "tiles/kept/blob_file.hpp"
 
 namespace strake::tiles {
 namespace {

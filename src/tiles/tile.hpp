@@ -13,10 +13,10 @@
 #include "strake/core/result.hpp"
 #include "strake/model/scene.hpp"
 #include "strake/parallel/context.hpp"
-#include "tiles/blob_file.hpp"
-#include "tiles/file_reader.hpp"
+#include "tiles/kept/blob_file.hpp"
+#include "tiles/kept/file_reader.hpp"
+#include "tiles/kept/section.hpp"
 #include "tiles/outline.hpp"
-#include "tiles/section.hpp"
 
 /// Tiles of a model on the disk: each has all that its task needs to know of some objects, and
 /// nothing else. A tile is one file with what is asked of it, and one for the geometry that it has

@@ -9,9 +9,9 @@
 #include "clash/rules/rule_matcher.hpp"
 #include "clash/tiles/join_tiles.hpp"
 #include "clash/tiles/some_objects.hpp"
-#include "tiles/blob_file.hpp"
 #include "tiles/found_file.hpp"
 #include "tiles/found_merge.hpp"
+#include "tiles/kept/blob_file.hpp"
 #include "tiles/test_codec.hpp"
 #include "tiles/tile.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A section has the geometry of its objects, to the last bit, however its meshes are packed; what is
-// damaged is told.
-#include "tiles/section.hpp"
+// A section has the geometry of its objects, to the last bit, however its meshes are packed; what
+// is damaged is told.
+#include "tiles/kept/section.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,15 +17,15 @@
 #include "strake/parallel/team.hpp"
 #include "support/equal_models.hpp"
 #include "support/io_files.hpp"
-#include "tiles/blob_file.hpp"
+#include "tiles/kept/blob_file.hpp"
 
 namespace strake::tiles {
 namespace {
 
 /// A ship in which primitives, shared meshes and meshes like no other stand beside each other.
 model::Model ship() {
-  return generate::generate_ship(
-             {.objects = 600, .seed = 5, .kind = generate::ShipKind::unlike}, {})
+  return generate::generate_ship({.objects = 600, .seed = 5, .kind = generate::ShipKind::unlike},
+                                 {})
       .value()
       .model;
 }
@@ -54,8 +54,8 @@ void expect_same(const model::Model& model, const std::vector<std::uint32_t>& ob
     for (std::uint32_t b = 0; b < x.body_count; ++b) {
       const model::Body& body = model.bodies[x.first_body + b];
       model::Body other = read.bodies[y.first_body + b];
-      EXPECT_TRUE(test::same_shape(model.shapes[index(body.shape)],
-                                   read.shapes[index(other.shape)]))
+      EXPECT_TRUE(
+          test::same_shape(model.shapes[index(body.shape)], read.shapes[index(other.shape)]))
           << x.id;
       other.shape = body.shape;
       EXPECT_TRUE(test::same_body(body, other)) << x.id;

@@ -20,7 +20,7 @@
 #include "strake/parallel/team.hpp"
 #include "support/io_files.hpp"
 #include "support/same_reports.hpp"
-#include "tiles/blob_file.hpp"
+#include "tiles/kept/blob_file.hpp"
 
 namespace strake::tiles {
 namespace {

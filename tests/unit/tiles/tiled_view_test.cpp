@@ -18,7 +18,7 @@
 #include "support/changing_model.hpp"
 #include "support/drawing_cases.hpp"
 #include "support/io_files.hpp"
-#include "tiles/blob_file.hpp"
+#include "tiles/kept/blob_file.hpp"
 
 namespace strake::tiles {
 namespace {

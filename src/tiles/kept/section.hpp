@@ -10,7 +10,8 @@
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
 
-/// The geometry that some objects of a model file have, in a file of its own.
+/// The geometry that some objects of a model file have, in a file of its own: of a tile, or of a
+/// model file that is kept (decision 0119).
 namespace strake::tiles {
 
 /// What has to be known of such a file to read it. It is about objects [first, last) of a tile,
@@ -24,9 +25,9 @@ struct Section {
 /// What a pack of meshes takes about, unpacked, so that packing takes not much more than they do.
 inline constexpr std::uint64_t kBytesOfPack = std::uint64_t{1} << 26U;
 
-/// Writes what some objects of a model file, which is alone in its model, have: ids and geometry, no
-/// names, groups and attributes. `objects` are their numbers there, ascending; the section is of as
-/// many, as those of file 0. Errors: output, memory.
+/// Writes what some objects of a model file, which is alone in its model, have: ids and geometry,
+/// no names, groups and attributes. `objects` are their numbers there, ascending; the section is of
+/// as many, as those of file 0. Errors: output, memory.
 [[nodiscard]] Result<Section> write_section(const std::filesystem::path& to,
                                             const model::Model& model,
                                             std::span<const std::uint32_t> objects,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tiles/file_reader.hpp"
+#include "tiles/kept/file_reader.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tiles/section.hpp"
+#include "tiles/kept/section.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +13,7 @@
 #include "project/model/file_blocks.hpp"
 #include "project/model/shape_block.hpp"
 #include "strake/parallel/transform.hpp"
-#include "tiles/blob_file.hpp"
+#include "tiles/kept/blob_file.hpp"
 
 namespace strake::tiles {
 namespace {
@@ -46,18 +46,19 @@ class Extract {
   [[nodiscard]] std::uint64_t shapes() const { return shapes_.size(); }
 
   [[nodiscard]] Result<std::vector<Blob>> pack(const parallel::Context& context) const {
-    return parallel::transform(
-        context, {.name = "pack geometry", .n = kPacks + packs()},
-        [&](std::size_t b) -> Result<Blob> {
-          if (b == kObjects) return project::pack_objects(objects_);
-          if (b == kBodies) return project::pack_bodies(bodies_);
-          if (b == kShapes) return project::pack_shapes(shapes_, places_of_shared());
-          if (b == kHashes) return pack_hashes();
-          const std::size_t first = pack_begins_[b - kPacks];
-          const std::size_t count = pack_begins_[b - kPacks + 1] - first;
-          return project::pack_meshes(std::span(shared_).subspan(first, count),
-                                      std::span(hashes_).subspan(first, count));
-        });
+    return parallel::transform(context, {.name = "pack geometry", .n = kPacks + packs()},
+                               [&](std::size_t b) -> Result<Blob> {
+                                 if (b == kObjects) return project::pack_objects(objects_);
+                                 if (b == kBodies) return project::pack_bodies(bodies_);
+                                 if (b == kShapes)
+                                   return project::pack_shapes(shapes_, places_of_shared());
+                                 if (b == kHashes) return pack_hashes();
+                                 const std::size_t first = pack_begins_[b - kPacks];
+                                 const std::size_t count = pack_begins_[b - kPacks + 1] - first;
+                                 return project::pack_meshes(
+                                     std::span(shared_).subspan(first, count),
+                                     std::span(hashes_).subspan(first, count));
+                               });
   }
 
  private:
@@ -150,14 +151,12 @@ class Appending {
     model_.objects.resize(place_.first_object + place_.objects);
     model_.bodies.resize(place_.first_body + place_.bodies);
     model_.shapes.resize(place_.first_shape + place_.shapes);
-    const auto range =
-        project::unpack_objects(blobs_[kObjects], what_, place_,
-                                std::span(model_.objects).subspan(place_.first_object));
+    const auto range = project::unpack_objects(
+        blobs_[kObjects], what_, place_, std::span(model_.objects).subspan(place_.first_object));
     if (!range) return range.error();
     if (range->first != 0 || range->last != place_.bodies) return refused();
-    if (const Status s =
-            project::unpack_bodies(blobs_[kBodies], what_, place_,
-                                   std::span(model_.bodies).subspan(place_.first_body));
+    if (const Status s = project::unpack_bodies(
+            blobs_[kBodies], what_, place_, std::span(model_.bodies).subspan(place_.first_body));
         !s)
       return s;
     return put_shapes();
@@ -178,8 +177,7 @@ class Appending {
     for (const project::SharedShape& shape : *shared) {
       while (unpacked <= shape.from.pack) {
         if (unpacked == hashes->size()) return refused();
-        auto next =
-            project::unpack_meshes(blobs_[kPacks + unpacked], (*hashes)[unpacked], what_);
+        auto next = project::unpack_meshes(blobs_[kPacks + unpacked], (*hashes)[unpacked], what_);
         if (!next) return next.error();
         pack = std::move(*next);
         ++unpacked;

@@ -13,12 +13,13 @@
 #include "strake/io/reader.hpp"
 #include "strake/model/model.hpp"
 #include "strake/parallel/context.hpp"
-#include "tiles/section.hpp"
+#include "tiles/kept/section.hpp"
 
 namespace strake::tiles {
 
 /// Reads model files one at a time, each alone in its model and finished. What was read of one is
-/// needed again when it is cut: by then it has made room for the others, and lies in a folder.
+/// needed again when it is cut: by then it has made room for the others, and lies in a folder
+/// (decision 0119).
 class FileReader {
  public:
   /// `folder` is where files are kept; empty: nowhere, so that they are read twice.

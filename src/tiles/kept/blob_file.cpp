@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tiles/blob_file.hpp"
+#include "tiles/kept/blob_file.hpp"
 
 #include <cstdint>
 #include <cstring>
