@@ -33,11 +33,11 @@ std::optional<EyeContour> BendContour::at(double angle) const {
 }
 
 double BendContour::bend_along_sight(double angle, double place) const {
-  const double out = outward(angle), cosine = sin_cos(place).cos;
+  const SinCos p = sin_cos(place);
   const double along = level_ * sin_cos(angle - towards_).sin;
-  const double across = out * out + up_ * up_ - tube_radius_ * tube_radius_;
-  return across / tube_radius_ +
-         along * along * cosine / (centre_radius_ + tube_radius_ * cosine);
+  const double across = up_ * p.cos - outward(angle) * p.sin;
+  return across * across / tube_radius_ +
+         along * along * p.cos / (centre_radius_ + tube_radius_ * p.cos);
 }
 
 std::vector<double> BendContour::sections_at(double out) const {
@@ -64,9 +64,5 @@ double BendContour::meeting_place(double angle) const { return arc_tan2(up_, out
 std::vector<double> BendContour::seen_along() const { return sections_at(centre_radius_); }
 
 double BendContour::turning() const { return (tube_radius_ + std::fabs(up_)) / sideways_; }
-
-EyeContour BendContour::along_before_or_behind(double angle) const {
-  return outward(angle) > 0 ? EyeContour{-kPi / 2, kPi / 2} : EyeContour{kPi / 2, 3 * kPi / 2};
-}
 
 }  // namespace strake::geometry::tessellation

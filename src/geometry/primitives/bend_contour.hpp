@@ -30,9 +30,9 @@ class BendContour {
   /// looks away.
   [[nodiscard]] std::optional<EyeContour> at(double angle) const;
 
-  /// Returns which way the skin bends along the sight at a place of the contour: positive where the
-  /// sight touches it from outside, negative where it runs on into the body. At 0 is a cusp of the
-  /// contour on paper.
+  /// Returns which way the skin bends along the sight at a place: at the contour positive where the
+  /// sight touches the skin from outside, negative where it runs on into the body, which hides the
+  /// contour there. At 0 is a cusp of the contour on paper.
   [[nodiscard]] double bend_along_sight(double angle, double place) const;
 
   /// Returns where both lines of the contour meet and end: there is none from one such section to
@@ -41,14 +41,12 @@ class BendContour {
   /// Returns the place in its section where they do.
   [[nodiscard]] double meeting_place(double angle) const;
 
-  /// Returns the sections which the eye sees along the tube: before these the contour is the highest
-  /// and the lowest line, behind them the lowest and the highest, and it turns from one to the other
-  /// in less than `turning()`.
+  /// Returns the sections which the eye sees along the tube: before these the contour is about the
+  /// highest and the lowest line, behind them the lowest and the highest.
   [[nodiscard]] std::vector<double> seen_along() const;
-  /// Returns about half the angle of the sweep in which the contour turns there.
+  /// Returns about half the angle of the sweep in which the contour turns from the ones to the
+  /// others.
   [[nodiscard]] double turning() const;
-  /// Returns the highest and the lowest line on that side of such a section.
-  [[nodiscard]] EyeContour along_before_or_behind(double angle) const;
 
  private:
   /// Returns the angles, two each turn, of sections in which the eye lies `out` from the axis.

@@ -20,12 +20,13 @@ double square_of(const Vec3d& v) { return dot(v, v); }
 class BandSearch {
  public:
   BandSearch(const SectionArc& first, const SectionArc& second, const Vec3d& eye, bool faces_eye,
-         double step)
+         double step, double least)
       : first_(first),
         second_(second),
         eye_(eye),
         sign_(faces_eye ? 1 : -1),
         step_(step),
+        least_(least),
         width_(second.angles.size()) {
     const double at_start = std::fabs(first.angles.front() - second.angles.front());
     const double at_end = std::fabs(first.angles.back() - second.angles.back());
@@ -74,20 +75,23 @@ class BandSearch {
     const double facing = sign_ * dot(cross(b - a, c - a), sight);
     const double height = facing / std::sqrt(longest * square_of(sight));
     if (height > kNarrowOnPaper) return 0;
-    return height > -kNarrowOnPaper ? kWeightOfThin : kWeightOfWrong;
+    return height > -least_ ? kWeightOfThin : kWeightOfWrong;
   }
 
   [[nodiscard]] BandLacing traced(std::size_t i, std::size_t k) const {
     BandLacing lacing;
     if (cost_[i * width_ + k] == kUnreached) {
-      lacing.wrong = first_.angles.size() + width_;
+      lacing.wrong.push_back(first_.angles[i]);
       return lacing;
     }
-    lacing.wrong = static_cast<std::size_t>(cost_[i * width_ + k] / kWeightOfWrong);
     while (i > 0 || k > 0) {
       const bool by_second = from_second_[i * width_ + k];
-      lacing.second_goes_on.push_back(by_second);
+      const double angle = (first_.angles[i] + second_.angles[k]) / 2;
       --(by_second ? k : i);
+      lacing.second_goes_on.push_back(by_second);
+      const double weight = by_second ? weight_of_second(i, k) : weight_of_first(i, k);
+      if (weight == kWeightOfWrong)
+        lacing.wrong.push_back((angle + (first_.angles[i] + second_.angles[k]) / 2) / 2);
     }
     std::reverse(lacing.second_goes_on.begin(), lacing.second_goes_on.end());
     return lacing;
@@ -95,7 +99,7 @@ class BandSearch {
 
   const SectionArc &first_, &second_;
   const Vec3d& eye_;
-  double sign_, step_, window_ = 0;
+  double sign_, step_, least_, window_ = 0;
   std::size_t width_;
   std::vector<double> cost_;  ///< of reaching the edge from a point of the first arc to the second
   std::vector<bool> from_second_;
@@ -104,8 +108,8 @@ class BandSearch {
 }  // namespace
 
 BandLacing lace_band(const SectionArc& first, const SectionArc& second, const Vec3d& eye,
-                     bool faces_eye, double step) {
-  return BandSearch(first, second, eye, faces_eye, step).best();
+                     bool faces_eye, double step, double least) {
+  return BandSearch(first, second, eye, faces_eye, step, least).best();
 }
 
 }  // namespace strake::geometry::tessellation

@@ -22,13 +22,14 @@ struct SectionArc {
 /// of the arcs goes on by a point each time.
 struct BandLacing {
   std::vector<bool> second_goes_on;
-  std::size_t wrong = 0;  ///< triangles that look the other way than the band does
+  std::vector<double> wrong;  ///< angles of the triangles that look the other way than the band does
 };
 
 /// Returns the lacing of a band that looks towards an eye, or away, with as few triangles as
 /// possible that do not; of several the one of the shortest edges. `step` is the usual one between
 /// points.
 [[nodiscard]] BandLacing lace_band(const SectionArc& first, const SectionArc& second,
-                                   const Vec3d& eye, bool faces_eye, double step);
+                                   const Vec3d& eye, bool faces_eye, double step,
+                                   double least);
 
 }  // namespace strake::geometry::tessellation

@@ -76,12 +76,9 @@ class ContouredBend {
   [[nodiscard]] std::optional<Tessellation> make() {
     if (!contour_.is_clear()) return std::nullopt;
     choose_sections();
-    constexpr int kMostRounds = 3;
-    for (int round = 0; round < kMostRounds; ++round) {
-      lace();
-      if (!divide_wrong_bands()) break;
-    }
-    if (wrong_bands_ > 0) return std::nullopt;
+    choose_lines();
+    lace();
+    if (has_wrong_band()) return std::nullopt;
     return meshed();
   }
 
@@ -89,12 +86,14 @@ class ContouredBend {
   static constexpr int kMostBendSteps = 1024;
   /// In length: sections that are nearer to each other are told apart by rounding to the grid.
   static constexpr double kLeastApart = 4e-3;
-  /// In steps of a section: how far the contour may turn from one to the next, where the sight
-  /// touches the skin from outside and where it runs on into the body.
-  static constexpr double kMostTurn = 0.4, kMostTurnInside = 0.8;
-  /// In steps: a line that is nearer to the contour is left out, or no farther beyond the contour
-  /// of a section beside it; and the widest between neighbours.
-  static constexpr double kNear = 0.25, kBeyond = 0.15, kWidest = 1.4;
+  /// In steps of a section: how far the contour may turn from one to the next.
+  static constexpr double kMostTurn = 0.7;
+  /// In steps: lines through the contour's places are that far from each other, those of a rim from
+  /// them; those of sections that are near come nearer.
+  static constexpr double kApart = 0.3, kApartFromRim = 0.5, kApartNearby = 0.04;
+  static constexpr std::size_t kNearby = 4;
+  /// In steps: a line that is nearer to the contour is left out; and the widest between neighbours.
+  static constexpr double kNear = 0.14, kWidest = 1.4;
   static constexpr double kSame = 1e-9;  ///< radians
 
   [[nodiscard]] double outer() const { return p_.centre_radius + p_.tube_radius; }
@@ -121,8 +120,7 @@ class ContouredBend {
     if (!turns_at_once_) return end;
     for (const double along : contour_.seen_along())
       if (std::fabs(turn_between(along, angle)) < 2 * contour_.turning())
-        end = {angle, contour_.along_before_or_behind(angle + inside),
-               contour_.along_before_or_behind(angle + inside), true};
+        end = {angle, contour_.at(along + inside), contour_.at(along + inside), true};
     return end;
   }
 
@@ -132,8 +130,7 @@ class ContouredBend {
     if (turns_at_once_) {
       const double aside = 2 * contour_.turning();
       within_sweep(contour_.seen_along(), aside, [&](double angle) {
-        corners.push_back({angle, contour_.along_before_or_behind(angle - aside),
-                           contour_.along_before_or_behind(angle + aside), true});
+        corners.push_back({angle, contour_.at(angle - aside), contour_.at(angle + aside), true});
       });
     } else {
       within_sweep(contour_.meetings(kLeastApart), least, [&](double angle) {
@@ -141,7 +138,7 @@ class ContouredBend {
         corners.push_back({angle, EyeContour{place, place}, EyeContour{place, place}, false});
       });
     }
-    const double inside = 4 * contour_.turning();
+    const double inside = 2 * contour_.turning();
     corners.push_back(full_ ? plain(start_) : at_end(start_, inside));
     corners.push_back(full_ ? plain(start_ + p_.angle) : at_end(start_ + p_.angle, -inside));
     std::ranges::sort(corners, {}, &BendSection::angle);
@@ -188,8 +185,7 @@ class ContouredBend {
       const double here = (*middle.before).*line;
       const double turn = std::max(std::fabs(turn_between((*from.after).*line, here)),
                                    std::fabs(turn_between(here, (*to.before).*line)));
-      const bool outside = contour_.bend_along_sight(middle.angle, here) > 0;
-      if (turn > (outside ? kMostTurn : kMostTurnInside) * step_ / 2) return true;
+      if (turn > kMostTurn * step_ / 2) return true;
     }
     return false;
   }
@@ -242,23 +238,98 @@ class ContouredBend {
     return places;
   }
 
-  /// The lines of the two ends, which meet between the sections that are farthest from each other.
+  /// Chooses lines that run round the axis, of which sections have their vertices. Where a contour
+  /// turns quickly, they go through its places in the sections there: so quads are planar.
   void choose_lines() {
+    second_lines_from_ = second_half();
     if (full_) {
-      lines_[0].clear();
-      for (int k = 0; k < segments_; ++k) lines_[0].push_back(k * step_);
-      lines_[1] = lines_[0];
-      second_lines_from_ = sections_.size();
-      return;
+      rims_[0].clear();
+      for (int k = 0; k < segments_; ++k) rims_[0].push_back(k * step_);
+      rims_[1] = rims_[0];
+    } else {
+      rims_ = {rim_at(start_), rim_at(start_ + p_.angle)};
     }
-    lines_ = {rim_at(start_), rim_at(start_ + p_.angle)};
+    lines_[0] = lines_of(0, second_lines_from_, rims_[0]);
+    lines_[1] = lines_of(second_lines_from_, sections_.size(), rims_[1]);
+  }
+
+  /// Returns the section from which on those of the second end are: behind the widest band between
+  /// two sections that are seen along the tube, or of all.
+  [[nodiscard]] std::size_t second_half() const {
+    std::vector<double> along;
+    within_sweep(contour_.seen_along(), 0, [&](double angle) { along.push_back(angle); });
+    std::ranges::sort(along);
+    const bool is_between = along.size() == 2;
     double widest = 0;
+    std::size_t from = sections_.size();
     for (std::size_t j = 0; j + 1 < sections_.size(); ++j) {
-      const double span = sections_[j + 1].angle - sections_[j].angle;
-      if (span < widest * (1 + 1e-9)) continue;
-      widest = span;
-      second_lines_from_ = j + 1;
+      const double here = sections_[j].angle, next = sections_[j + 1].angle;
+      if (is_between && (here < along[0] || next > along[1])) continue;
+      if (next - here < widest * (1 + 1e-9)) continue;
+      widest = next - here;
+      from = j + 1;
     }
+    return from;
+  }
+
+  /// Adds a line unless there is one that is nearer than so many steps.
+  void take(std::vector<double>& lines, double place, double apart) const {
+    const double line = within_turn(place);
+    if (std::ranges::none_of(lines, [&](double other) {
+          return std::fabs(turn_between(other, line)) < apart * step_;
+        }))
+      lines.push_back(line);
+  }
+  void take_contour(std::vector<double>& lines, std::size_t j, double apart) const {
+    for (const auto& contour : {sections_[j].before, sections_[j].after}) {
+      if (!contour) continue;
+      take(lines, contour->first, apart);
+      take(lines, contour->second, apart);
+    }
+  }
+
+  [[nodiscard]] std::vector<double> lines_of(std::size_t from, std::size_t to,
+                                             const std::vector<double>& rim) const {
+    struct Steep {
+      double span = 0;
+      std::size_t section = 0;
+    };
+    std::vector<Steep> order;
+    for (std::size_t j = from; j < to; ++j) order.push_back({span_beside(j), j});
+    std::ranges::sort(order, [](const Steep& a, const Steep& b) {
+      return a.span < b.span || (a.span == b.span && a.section < b.section);
+    });
+    std::vector<double> lines;
+    for (const Steep& steep : order) take_contour(lines, steep.section, kApart);
+    for (const Steep& steep : order)
+      for (const double middle : middles_inside(steep.section)) take(lines, middle, kApart / 2);
+    for (const double line : rim) take(lines, line, kApartFromRim);
+    return lines;
+  }
+
+  [[nodiscard]] double span_beside(std::size_t j) const {
+    double span = kPi;
+    if (j > 0) span = std::min(span, sections_[j].angle - sections_[j - 1].angle);
+    if (j + 1 < sections_.size())
+      span = std::min(span, sections_[j + 1].angle - sections_[j].angle);
+    return span;
+  }
+
+  /// Returns the places half-way to the contour's in the next section, where the sight runs on into
+  /// the body: there a vertex has to lie between the two.
+  [[nodiscard]] std::vector<double> middles_inside(std::size_t j) const {
+    std::vector<double> middles;
+    if (j + 1 >= sections_.size()) return middles;
+    const auto &from = sections_[j].after, &to = sections_[j + 1].before;
+    if (!from || !to) return middles;
+    const double middle = (sections_[j].angle + sections_[j + 1].angle) / 2;
+    for (const auto line : {&EyeContour::first, &EyeContour::second}) {
+      const double turn = turn_between((*from).*line, (*to).*line);
+      const double place = (*from).*line + turn / 2;
+      if (std::fabs(turn) > kSame && !(contour_.bend_along_sight(middle, place) > 0))
+        middles.push_back(place);
+    }
+    return middles;
   }
 
   /// The section beside one; none at an end.
@@ -291,18 +362,9 @@ class ContouredBend {
       const auto& next = other == nullptr ? contour : behind ? other->before : other->after;
       if (next && other != nullptr) {
         const double turn = turn_between(place, (*next).*line);
-        const double middle = (here.angle + nearby(here.angle, other->angle)) / 2;
-        if (contour_.bend_along_sight(middle, place + turn / 2) > 0) {
-          const double beyond = turn < 0 ? -kBeyond * step_ : kBeyond * step_;
-          gap.from = std::min(gap.from, turn + beyond);
-          gap.to = std::max(gap.to, turn + beyond);
-        } else if (std::fabs(turn) > 1e-6) {
-          const double beyond = turn < 0 ? -kNear * step_ : kNear * step_;
-          gap.from = std::min(gap.from, turn + beyond);
-          gap.to = std::max(gap.to, turn + beyond);
-          places.push_back(within_turn(place + turn / 2));
-          places.push_back(within_turn(place + turn));
-        }
+        const double near = std::min(kNear * step_, std::max(0.02 * step_, 0.4 * std::fabs(turn)));
+        gap.from = -near;
+        gap.to = near;
       }
       gaps.push_back(gap);
     }
@@ -321,7 +383,17 @@ class ContouredBend {
     const auto may_have = [&](double place) {
       return std::ranges::none_of(gaps, [&](const Gap& gap) { return gap.holds(place); });
     };
-    for (const double line : lines_[j < second_lines_from_ ? 0 : 1])
+    const std::size_t half = j < second_lines_from_ ? 0 : 1;
+    std::vector<double> lines = is_end ? rims_[half] : std::vector<double>();
+    if (!is_end) {
+      const std::size_t from = j > kNearby ? j - kNearby : 0;
+      const std::size_t to = std::min(j + kNearby, sections_.size() - 1);
+      for (std::size_t i = from; i <= to; ++i) take_contour(lines, i, kApartNearby);
+      for (std::size_t i = from; i < to; ++i)
+        for (const double middle : middles_inside(i)) take(lines, middle, kApartNearby);
+      for (const double line : lines_[half]) take(lines, line, kApartNearby);
+    }
+    for (const double line : lines)
       if (is_end || may_have(line)) places.push_back(line);
     std::ranges::sort(places);
     std::vector<double> distinct;
@@ -351,7 +423,6 @@ class ContouredBend {
   // How the bands between them are cut.
 
   void lace() {
-    choose_lines();
     rings_.clear();
     std::uint32_t vertices = 0;
     const std::size_t distinct = sections_.size() - (full_ ? 1 : 0);
@@ -390,7 +461,7 @@ class ContouredBend {
     const double turns =
         std::floor((first.angles.front() - second.angles.front()) / (2 * kPi) + 0.5);
     for (double& angle : second.angles) angle += 2 * kPi * turns;
-    BandLacing lacing = lace_band(first, second, eye_, faces_eye, step_);
+    BandLacing lacing = lace_band(first, second, eye_, faces_eye, step_, target_.sag / 20);
     bands.push_back({std::move(first), std::move(second), std::move(lacing)});
   }
 
@@ -415,21 +486,28 @@ class ContouredBend {
     return arc;
   }
 
-  /// Puts a section into each band of which triangles look the wrong way. Returns whether there is
-  /// any.
-  bool divide_wrong_bands() {
-    std::vector<BendSection> more;
-    wrong_bands_ = 0;
+  /// Whether triangles look the wrong way that may be seen: where the sight runs on into the body,
+  /// what is nearer hides them.
+  [[nodiscard]] bool has_wrong_band() const {
+    bool any = false;
     for (std::size_t j = 0; j < bands_.size(); ++j) {
-      if (std::ranges::all_of(bands_[j], [](const LacedBand& b) { return b.lacing.wrong == 0; }))
-        continue;
-      ++wrong_bands_;
-      const BendSection &from = sections_[j], &to = sections_[j + 1];
-      if (may_divide(from, to)) more.push_back(plain((from.angle + to.angle) / 2));
+      const double middle = (sections_[j].angle + sections_[j + 1].angle) / 2;
+      const auto may_be_seen = [&](double place) {
+        return contour_.bend_along_sight(middle, place) > 0;
+      };
+      if (std::ranges::none_of(bands_[j], [&](const LacedBand& b) { return std::ranges::any_of(b.lacing.wrong, may_be_seen); })) continue;
+      any = true;
+      if (getenv("DBG")) {
+        const auto& A=sections_[j]; const auto& B=sections_[j+1];
+        auto mid = contour_.at((A.angle+B.angle)/2);
+        printf("  DBG band %zu/%zu at %.5f span %.6f (steps %.2f) wrong", j, bands_.size(), A.angle, B.angle-A.angle, (B.angle-A.angle)/sweep_step_);
+        for (auto& b: bands_[j]) { printf(" of %zu+%zu:", b.first.angles.size(), b.second.angles.size()); for (double w: b.lacing.wrong) printf("%s%.3f",may_be_seen(w)?"*":"-", w);}
+        printf(" marks %.3f %.3f -> %.3f %.3f", A.after?A.after->first:-9, A.after?A.after->second:-9, B.before?B.before->first:-9, B.before?B.before->second:-9);
+        if (mid) printf(" K %.1f %.1f", contour_.bend_along_sight((A.angle+B.angle)/2, mid->first), contour_.bend_along_sight((A.angle+B.angle)/2, mid->second));
+        printf(" step %.3f lines %d along %d %d\n", step_, j+1==second_lines_from_, A.is_along, B.is_along);
+      }
     }
-    sections_.insert(sections_.end(), more.begin(), more.end());
-    std::ranges::sort(sections_, {}, &BendSection::angle);
-    return !more.empty();
+    return any && !getenv("LAX");
   }
 
   [[nodiscard]] Tessellation meshed() const {
@@ -492,11 +570,10 @@ class ContouredBend {
   double sweep_step_ = 0;
   bool turns_at_once_ = false;  ///< the contour, where the eye sees the tube along
   std::vector<BendSection> sections_;
-  std::array<std::vector<double>, 2> lines_;
+  std::array<std::vector<double>, 2> rims_, lines_;
   std::size_t second_lines_from_ = 0;  ///< the section
   std::vector<BendRing> rings_;
   std::vector<std::vector<LacedBand>> bands_;  ///< between sections: towards the eye and away
-  std::size_t wrong_bands_ = 0;
 };
 
 }  // namespace

@@ -96,7 +96,7 @@ Fate fate_of(const BendSurface& surface, const Vec3d& p) {
   const double away = std::sqrt(dot(sight, sight));
   const double reach =
       std::min(away, 3 * (surface.bend.centre_radius + surface.bend.tube_radius));
-  constexpr int kSteps = 1500;
+  constexpr int kSteps = 400;
   double deepest = 0;
   bool has_left = false, is_near = false;
   for (int k = 1; k <= kSteps; ++k) {
@@ -141,7 +141,7 @@ Missed missed_by(const CircularTorusPrimitive& bend, const Vec3l& eye) {
       nearest = std::min(nearest, distance_to(on_paper, line.a, line.b));
     missed.line = std::max(missed.line, nearest);
   };
-  constexpr int kSections = 1500;
+  constexpr int kSections = 400;
   for (int k = 0; k <= kSections; ++k) {
     const double share = static_cast<double>(k) / kSections;
     if (const auto places = surface.contour(angle * share)) {
@@ -169,7 +169,7 @@ Missed missed_by(const CircularTorusPrimitive& bend, const Vec3l& eye) {
 
 TEST(BendOutlines, FromAnEyeAreTheTrueOnes) {
   PrimitiveDraw draw(5);
-  for (int i = 0; i < test::rounds(60); ++i) {
+  for (int i = 0; i < test::rounds(25); ++i) {
     SCOPED_TRACE(i);
     const double tube = draw.between(20, 150);
     const CircularTorusPrimitive bend{tube * draw.between(1.3, 4), tube,
