@@ -115,7 +115,7 @@ Redrawn draw_nothing(const RedrawRequest& request, Drawing earlier) {
 }
 
 /// Returns the objects whose lines were found anew, and those that may have lost theirs.
-std::vector<bool> touched_objects(const ChangedView& changed, const Reach& reach) {
+std::vector<bool> touched_objects(const ChangedView& changed, const ChangeReach& reach) {
   std::vector<bool> touched = reach.asked;
   for (std::size_t o = 0; o < touched.size(); ++o)
     touched[o] = touched[o] || changed.comparison.before[o] == model::kNoObject;

@@ -16,7 +16,6 @@
 #include "clash/results/required_clearance.hpp"
 #include "clash/rules/tolerance_lengths.hpp"
 #include "core/text_encoding.hpp"
-#include "report/clash/attribute_columns.hpp"
 #include "report/clash/contents.hpp"
 #include "report/json/element_hashes.hpp"
 #include "report/json/json_writer.hpp"
