@@ -60,6 +60,8 @@ struct DirectedPart {
 class PlanarEnd {
  public:
   /// Returns the end of a part; nothing where more of the part is near, or leaves the plane at a
+  /// flat angle.
+  static std::optional<PlanarEnd> of(const DirectedPart& side, const PlaneFrame& plane);
 
   /// Whether the end is one convex face.
   [[nodiscard]] bool is_convex() const;
@@ -147,7 +149,6 @@ ConvexOutline convex_hull_of(std::span<const PointInPlane> corners) {
 PlaneFrame::PlaneFrame(const Vec3d& axis, const PlanarReach& near)
     : PlanarReach(near), u(perpendicular_to(axis)), w(cross(axis, u)) {}
 
-/// flat angle.
 std::optional<PlanarEnd> PlanarEnd::of(const DirectedPart& side, const PlaneFrame& plane) {
   std::optional<PlanarEnd> end(std::in_place, side, plane);
   if (!end->gather(side) || !end->add_faces(side.way)) end.reset();
