@@ -13,7 +13,8 @@
 namespace strake::hlr {
 namespace {
 
-Status solve(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
+Result<SpeckedObjects> solve(const ViewJob& job, const parallel::Context& context,
+                             Drawing& drawing) {
   switch (job.options.solver) {
     case Solver::brute_force:
       return solve_brute_force(job, context, drawing);
@@ -49,10 +50,12 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.hatches = job->hatches;
   drawing.counted.resize(scene.model->objects.size());
   if (!options.hidden) drawing.left_out.resize(scene.model->objects.size());
-  if (const Status status = solve(*job, context, drawing); !status) return status.error();
+  const Result<SpeckedObjects> specked = solve(*job, context, drawing);
+  if (!specked) return specked.error();
   if (const Status status = leave_out_hidden_objects(context, drawing); !status)
     return status.error();
-  if (const Status status = dot_lone_specks(*job, context, drawing); !status) return status.error();
+  if (const Status status = dot_lone_specks(*job, *specked, context, drawing); !status)
+    return status.error();
   Result<Curves> curves = find_curves(*job, context);
   if (!curves) return curves.error();
   drawing.curves = std::move(*curves);

@@ -25,10 +25,12 @@ Result<Drawing> solve_part(const ViewInput& input, const parallel::Context& cont
   drawing.origin = input.view.perspective ? input.view.perspective->target : job->origin;
   drawing.counted.resize(objects);
   if (!input.options.hidden) drawing.left_out.resize(objects);
-  if (const Status status = solve_gather(*job, context, drawing); !status) return status.error();
+  const Result<SpeckedObjects> specked = solve_gather(*job, context, drawing);
+  if (!specked) return specked.error();
   if (const Status status = leave_out_hidden_objects(context, drawing); !status)
     return status.error();
-  if (const Status status = dot_lone_specks(*job, context, drawing); !status) return status.error();
+  if (const Status status = dot_lone_specks(*job, *specked, context, drawing); !status)
+    return status.error();
   auto curves = find_curves(*job, context);
   if (!curves) return curves.error();
   drawing.curves = std::move(*curves);

@@ -164,21 +164,27 @@ struct WholeSections {
   return options.hidden || (state != State::hidden_by_self && state != State::hidden_by_other);
 }
 
+/// By object, 1 where some of its visible pieces are specks (specks.hpp).
+using SpeckedObjects = std::vector<std::uint8_t>;
+
 /// The definition, taken literally: tests every edge against every triangle. Fills `pieces` and the
-/// counters of a drawing whose header is filled, as do the other solvers.
-[[nodiscard]] Status solve_brute_force(const ViewJob& job, const parallel::Context& context,
-                                       Drawing& drawing);
+/// counters of a drawing whose header is filled, and returns which objects have specks, as do the
+/// other solvers.
+[[nodiscard]] Result<SpeckedObjects> solve_brute_force(const ViewJob& job,
+                                                       const parallel::Context& context,
+                                                       Drawing& drawing);
 
 /// Counts what solve_brute_force() has to do.
 [[nodiscard]] Result<BruteForceWork> count_brute_force_work(const ViewJob& job,
                                                             const parallel::Context& context);
 
 /// The baseline of the benchmarks (scatter): objects publish what they hide into those under them.
-[[nodiscard]] Status solve_push(const ViewJob& job, const parallel::Context& context,
-                                Drawing& drawing);
+[[nodiscard]] Result<SpeckedObjects> solve_push(const ViewJob& job,
+                                                const parallel::Context& context, Drawing& drawing);
 
 /// The engine: each edge gathers the occluders that hide it.
-[[nodiscard]] Status solve_gather(const ViewJob& job, const parallel::Context& context,
-                                  Drawing& drawing);
+[[nodiscard]] Result<SpeckedObjects> solve_gather(const ViewJob& job,
+                                                  const parallel::Context& context,
+                                                  Drawing& drawing);
 
 }  // namespace strake::hlr

@@ -333,6 +333,7 @@ struct ObjectLines {
   std::vector<EdgePiece> pieces;
   std::uint64_t edges = 0, tests = 0, specks = 0;
   std::uint32_t left_out = 0;
+  bool specked = false;
 };
 
 void solve_edge(const SolverInput& input, const Edge& e, ObjectLines& result) {
@@ -350,6 +351,7 @@ void solve_edge(const SolverInput& input, const Edge& e, ObjectLines& result) {
                              scene.bodies[e.other_body].object, at(s.range.lo), at(s.range.hi)});
   result.specks += absorb_specks(rule, first, result.pieces);
   result.left_out += leave_out_unwanted(job.options, first, result.pieces) ? 1U : 0U;
+  result.specked = result.specked || has_visible_specks(rule, first, result.pieces);
 }
 
 Result<ObjectLines> solve_object(const ViewJob& job, const SpeckRule& rule, std::uint32_t object) {
@@ -421,7 +423,8 @@ Result<BruteForceWork> count_brute_force_work(const ViewJob& job,
   return work;
 }
 
-Status solve_brute_force(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
+Result<SpeckedObjects> solve_brute_force(const ViewJob& job, const parallel::Context& context,
+                                         Drawing& drawing) {
   const std::size_t objects = job.scene->model->objects.size();
   const Result<SpeckRule> made_rule = SpeckRule::of(job, context);
   if (!made_rule) return made_rule.error();
@@ -433,15 +436,17 @@ Status solve_brute_force(const ViewJob& job, const parallel::Context& context, D
                             return solve_object(job, rule, static_cast<std::uint32_t>(i));
                           });
   if (!lines) return lines.error();
+  SpeckedObjects specked(objects);
   for (std::size_t i = 0; i < objects; ++i) {
     const ObjectLines& one = (*lines)[i];
+    specked[i] = one.specked ? 1 : 0;
     if (!drawing.left_out.empty()) drawing.left_out[i] = one.left_out;
     drawing.pieces.insert(drawing.pieces.end(), one.pieces.begin(), one.pieces.end());
     drawing.counted[i] = {static_cast<std::uint32_t>(one.edges),
                           static_cast<std::uint32_t>(one.specks)};
     drawing.counters.face_tests += one.tests;
   }
-  return {};
+  return specked;
 }
 
 }  // namespace strake::hlr

@@ -17,9 +17,9 @@ bool EdgePieceBuilder::begin(const EdgeQuery& edge) {
   return whole_ == State::visible;
 }
 
-EdgePieceBuilder::Absent EdgePieceBuilder::finish(std::uint32_t number,
-                                                  std::span<const OcclusionInterval> intervals,
-                                                  std::vector<EdgePiece>& out) {
+EdgePieceBuilder::Outcome EdgePieceBuilder::finish(std::uint32_t number,
+                                                   std::span<const OcclusionInterval> intervals,
+                                                   std::vector<EdgePiece>& out) {
   intervals_.clear();
   if (whole_ != State::visible) {
     intervals_.push_back({RationalParam::zero(), RationalParam::one(), whole_});
@@ -38,7 +38,10 @@ EdgePieceBuilder::Absent EdgePieceBuilder::finish(std::uint32_t number,
                    model::ObjectId{edge_.other->object}, edge_.at(s.lo, origin),
                    edge_.at(s.hi, origin)});
   const std::size_t specks = absorb_specks(rule_, first, out);
-  return {leave_out_unwanted(visibility_.job.options, first, out), specks};
+  const bool left_out = leave_out_unwanted(visibility_.job.options, first, out);
+  // It is asked here, where the pieces are in the cache: of a drawing of millions they no longer
+  // are.
+  return {left_out, specks, has_visible_specks(rule_, first, out)};
 }
 
 }  // namespace strake::hlr

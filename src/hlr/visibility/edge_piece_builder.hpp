@@ -29,14 +29,15 @@ class EdgePieceBuilder {
   /// Returns whether nothing of the edge is clipped.
   [[nodiscard]] bool is_whole() const { return lo_.num == 0 && hi_.num == hi_.den; }
 
-  /// The pieces that finish() did not append.
-  struct Absent {
-    bool left_out = false;   ///< there were hidden pieces
+  /// What finish() did with the pieces of an edge.
+  struct Outcome {
+    bool left_out = false;   ///< there were hidden pieces, which it did not append
     std::size_t specks = 0;  ///< specks that other pieces absorbed
+    bool specked = false;    ///< it appended visible specks
   };
   /// Appends the pieces of the current edge, which has this number within its object.
-  Absent finish(std::uint32_t number, std::span<const OcclusionInterval> intervals,
-                std::vector<EdgePiece>& out);
+  Outcome finish(std::uint32_t number, std::span<const OcclusionInterval> intervals,
+                 std::vector<EdgePiece>& out);
 
  private:
   const VisibilityScene& visibility_;

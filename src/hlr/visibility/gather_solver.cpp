@@ -484,9 +484,10 @@ class Drawer {
         return;
       }
     }
-    const EdgePieceBuilder::Absent absent = piece_builder_.finish(number, intervals, out);
-    gatherer_.work.specks += absent.specks;
-    if (absent.left_out) ++gatherer_.work.left_out;
+    const EdgePieceBuilder::Outcome outcome = piece_builder_.finish(number, intervals, out);
+    gatherer_.work.specks += outcome.specks;
+    if (outcome.left_out) ++gatherer_.work.left_out;
+    if (outcome.specked) gatherer_.work.specked = true;
   }
 
   const VisibilityScene& visibility_;
@@ -546,11 +547,12 @@ Status compute_self_occlusion(VisibilityScene& visibility, const parallel::Conte
 
 }  // namespace
 
-Status solve_gather(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
+Result<SpeckedObjects> solve_gather(const ViewJob& job, const parallel::Context& context,
+                                    Drawing& drawing) {
   Result<VisibilityScene> made = make_visibility_scene(job, context);
   if (!made) return made.error();
   if (const Status status = compute_self_occlusion(*made, context, drawing.counters); !status)
-    return status;
+    return status.error();
   const VisibilityScene& visibility = *made;
   const Result<SpeckRule> made_rule = SpeckRule::of(job, context);
   if (!made_rule) return made_rule.error();
@@ -567,11 +569,12 @@ Status solve_gather(const ViewJob& job, const parallel::Context& context, Drawin
       });
   if (!pieces) return pieces.error();
   drawing.pieces = std::move(pieces).value();
-  const Result<SolverWork> sum = sum_up_work(visibility, *work, context, drawing);
+  SpeckedObjects specked(job.drawn.size());
+  const Result<SolverWork> sum = sum_up_work(visibility, *work, context, drawing, specked);
   if (!sum) return sum.error();
   add(drawing.counters, *sum);
   shares.report(sum->own_s, sum->timed_s);
-  return {};
+  return specked;
 }
 
 }  // namespace strake::hlr

@@ -183,7 +183,8 @@ std::vector<std::uint32_t> nearest_first(const VisibilityScene& visibility) {
 
 }  // namespace
 
-Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
+Result<SpeckedObjects> solve_push(const ViewJob& job, const parallel::Context& context,
+                                  Drawing& drawing) {
   const Result<VisibilityScene> made = make_visibility_scene(job, context);
   if (!made) return made.error();
   const VisibilityScene& visibility = *made;
@@ -206,7 +207,7 @@ Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing&
             local_step(visibility, static_cast<std::uint32_t>(o), own.gatherer, own.builder);
         work[o] = std::exchange(own.gatherer.work, {});
       });
-  if (!local) return local;
+  if (!local) return local.error();
   timer.reset();
   if (job.options.stage == Stage::global) {
     timer.emplace(context.report, kGlobalStep);
@@ -219,7 +220,7 @@ Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing&
         [&](Pusher& pusher, std::size_t body) {
           work[objects.size() + body] = pusher.run(static_cast<std::uint32_t>(body));
         });
-    if (!global) return global;
+    if (!global) return global.error();
     timer.reset();
   }
   Result<std::vector<EdgePiece>> pieces = parallel::collect_with<EdgePiece>(
@@ -229,16 +230,21 @@ Status solve_push(const ViewJob& job, const parallel::Context& context, Drawing&
         for (std::uint32_t e = 0; e < objects[o].edges.size(); ++e) {
           const TargetEdge& under = objects[o].edges[e];
           static_cast<void>(builder.begin(under.edge));
-          const EdgePieceBuilder::Absent absent = builder.finish(e, under.intervals, out);
-          work[o].specks += absent.specks;
-          if (absent.left_out) ++drawing.left_out[o];
+          const EdgePieceBuilder::Outcome outcome = builder.finish(e, under.intervals, out);
+          work[o].specks += outcome.specks;
+          if (outcome.left_out) ++drawing.left_out[o];
+          if (outcome.specked) work[o].specked = true;
         }
       });
   if (!pieces) return pieces.error();
   drawing.pieces = std::move(pieces).value();
   for (const SolverWork& w : work) add(drawing.counters, w);
-  for (std::size_t o = 0; o < objects.size(); ++o) add(drawing.counted[o], work[o]);
-  return {};
+  SpeckedObjects specked(objects.size());
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    add(drawing.counted[o], work[o]);
+    specked[o] = work[o].specked ? 1 : 0;
+  }
+  return specked;
 }
 
 }  // namespace strake::hlr

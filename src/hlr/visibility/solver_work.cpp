@@ -23,7 +23,8 @@ void add(LineCount& lines, const SolverWork& work) {
 }
 
 Result<SolverWork> sum_up_work(const VisibilityScene& visibility, std::span<const SolverWork> work,
-                               const parallel::Context& context, Drawing& drawing) {
+                               const parallel::Context& context, Drawing& drawing,
+                               SpeckedObjects& specked) {
   constexpr std::size_t kGrain = 4096;
   const auto object_of = [&](std::size_t i) {
     return visibility.placed[visibility.items[i].body].object;
@@ -42,6 +43,7 @@ Result<SolverWork> sum_up_work(const VisibilityScene& visibility, std::span<cons
         if (i > 0 && object_of(i - 1) == object) return;
         for (std::size_t k = i; k < work.size() && object_of(k) == object; ++k) {
           add(drawing.counted[object], work[k]);
+          if (work[k].specked) specked[object] = 1;
           if (work[k].left_out > 0)
             drawing.left_out[object] += static_cast<std::uint32_t>(work[k].left_out);
         }

@@ -19,6 +19,7 @@ namespace strake::hlr {
 
 struct SolverWork {
   std::uint64_t edges = 0, covered = 0, tests = 0, wide_tests = 0, left_out = 0, specks = 0;
+  bool specked = false;           ///< some of the visible pieces are specks
   double own_s = 0, timed_s = 0;  ///< of timed items: in tests against their own objects, and all
 };
 
@@ -28,11 +29,12 @@ void add(Counters& counters, const SolverWork& work);
 /// Adds the lines that a work counted to those of an object.
 void add(LineCount& lines, const SolverWork& work);
 
-/// Adds the work on each item to what is counted and left out of its object. Returns the sum of
-/// what add() gives to the counters, and of the seconds. Errors: cancelled.
+/// Adds the work on each item to what is counted and left out of its object, and to `specked`.
+/// Returns the sum of what add() gives to the counters, and of the seconds. Errors: cancelled.
 [[nodiscard]] Result<SolverWork> sum_up_work(const VisibilityScene& visibility,
                                              std::span<const SolverWork> work,
-                                             const parallel::Context& context, Drawing& drawing);
+                                             const parallel::Context& context, Drawing& drawing,
+                                             SpeckedObjects& specked);
 
 /// Shares the time of a loop over edges out between the two steps, by a sample of its items. It is
 /// made when the loop begins.

@@ -8,7 +8,6 @@
 #include <span>
 
 #include "geometry/numeric/vector_math.hpp"
-#include "strake/parallel/collect.hpp"
 #include "strake/parallel/for_each.hpp"
 
 namespace strake::hlr {
@@ -251,6 +250,26 @@ class Clusters {
   std::vector<std::size_t> held_;  ///< by root: how many of its points are on other lines
 };
 
+bool is_visible_speck(const SpeckRule& rule, const EdgePiece& piece) {
+  return piece.state == State::visible && rule.within(piece.a, piece.b, rule.longest(piece));
+}
+
+/// Dots those of one object; returns how many.
+std::uint32_t dot_lone_specks(const SpeckRule& rule, std::span<EdgePiece> pieces) {
+  std::vector<std::size_t> specks;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    if (is_visible_speck(rule, pieces[i])) specks.push_back(i);
+  if (specks.empty()) return 0;
+  const Clusters clusters(rule, pieces, specks);
+  std::uint32_t dotted = 0;
+  for (const std::size_t s : specks) {
+    if (!clusters.is_lone(s)) continue;
+    pieces[s].state = State::projecting;
+    ++dotted;
+  }
+  return dotted;
+}
+
 }  // namespace
 
 SpeckRule::SpeckRule(const ViewJob& job)
@@ -318,36 +337,27 @@ bool leave_out_unwanted(const Options& options, std::size_t first, std::vector<E
   return any;
 }
 
-Status dot_lone_specks(const ViewJob& job, const parallel::Context& context, Drawing& drawing) {
+bool has_visible_specks(const SpeckRule& rule, std::size_t first,
+                        std::span<const EdgePiece> pieces) {
+  return std::ranges::any_of(pieces.subspan(first),
+                             [&](const EdgePiece& piece) { return is_visible_speck(rule, piece); });
+}
+
+Status dot_lone_specks(const ViewJob& job, const SpeckedObjects& specked,
+                       const parallel::Context& context, Drawing& drawing) {
   if (job.options.keep_specks) return {};
   const auto made = SpeckRule::of(job, context);
   if (!made) return made.error();
   const SpeckRule& rule = *made;
-  const std::span<EdgePiece> pieces = drawing.pieces;
-  const auto specks = parallel::collect<std::size_t>(
-      context, {.name = "hidden lines: specks", .n = pieces.size(), .grain = 16384},
-      [&](std::size_t i, std::vector<std::size_t>& out) {
-        const EdgePiece& piece = pieces[i];
-        if (piece.state == State::visible && rule.within(piece.a, piece.b, rule.longest(piece)))
-          out.push_back(i);
+  return parallel::for_each(
+      context, {.name = "hidden lines: specks", .n = specked.size(), .grain = 1024},
+      [&](std::size_t object) {
+        if (specked[object] == 0) return;
+        const auto own = std::ranges::equal_range(
+            drawing.pieces, model::ObjectId{static_cast<std::uint32_t>(object)}, {},
+            &EdgePiece::object);
+        drawing.counted[object].specks += dot_lone_specks(rule, own);
       });
-  if (!specks) return specks.error();
-  for (std::size_t i = 0; i < specks->size();) {
-    const model::ObjectId object = pieces[(*specks)[i]].object;
-    const auto own = std::ranges::equal_range(pieces, object, {}, &EdgePiece::object);
-    const auto start = static_cast<std::size_t>(own.begin() - pieces.begin());
-    std::vector<std::size_t> of_object;
-    for (; i < specks->size() && pieces[(*specks)[i]].object == object; ++i)
-      of_object.push_back((*specks)[i] - start);
-    const std::span<EdgePiece> lines = pieces.subspan(start, own.size());
-    const Clusters clusters(rule, lines, of_object);
-    for (const std::size_t s : of_object) {
-      if (!clusters.is_lone(s)) continue;
-      lines[s].state = State::projecting;
-      ++drawing.counted[model::index(object)].specks;
-    }
-  }
-  return {};
 }
 
 }  // namespace strake::hlr

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hlr/prepare/view_job.hpp"
@@ -62,10 +63,15 @@ std::size_t absorb_specks(const SpeckRule& rule, std::size_t first, std::vector<
 /// Removes the pieces from `first` on that the options do not ask for; true when there are any.
 bool leave_out_unwanted(const Options& options, std::size_t first, std::vector<EdgePiece>& pieces);
 
+/// Returns whether any of the pieces from `first` on is a visible speck.
+[[nodiscard]] bool has_visible_specks(const SpeckRule& rule, std::size_t first,
+                                      std::span<const EdgePiece> pieces);
+
 /// Makes visible specks that join nothing, of those that absorb_specks() left, points on paper:
 /// specks of an object that hang together by their ends within the length of a speck, with no more
-/// than one end on other visible lines. Counts them in drawing.counted. Errors: cancelled.
-[[nodiscard]] Status dot_lone_specks(const ViewJob& job, const parallel::Context& context,
-                                     Drawing& drawing);
+/// than one end on other visible lines. Counts them in drawing.counted. `specked`: by object,
+/// whether it has visible specks, as the solver that made its pieces found. Errors: cancelled.
+[[nodiscard]] Status dot_lone_specks(const ViewJob& job, const SpeckedObjects& specked,
+                                     const parallel::Context& context, Drawing& drawing);
 
 }  // namespace strake::hlr
