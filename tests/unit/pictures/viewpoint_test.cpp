@@ -163,7 +163,7 @@ TEST(Viewpoint, TheBestOfAllCandidatesIsChosen) {
     for (const double cut : {1e300, 60.0, 0.0}) {
       const Sight cut_open{150, 1000, cut};
       const auto directions = candidate_directions(pair.away);
-      const Candidate found = find_best(triangles, directions, cut_open, {}).value().best;
+      const ViewCandidate found = find_best(triangles, directions, cut_open, {}).value().best;
       const auto judged = evaluate_candidates(triangles, directions, cut_open, {}).value();
       EXPECT_EQ(found.viewer, best_of(judged).viewer) << cut;
       EXPECT_EQ(found.rank, best_of(judged).rank) << cut;
