@@ -150,7 +150,7 @@ def room_faults(project, page, text):
 def decision_faults(project):
     index = (project / 'docs/decisions/README.md').read_text(encoding='utf-8')
     indexed = re.findall(r'^\| \[(\d{4})\]\(([\w-]+\.md)\) \|.*\| ([^|]*) \|$', index, re.MULTILINE)
-    code = {path: path.read_text(encoding='utf-8') for folder in ('src', 'include', 'cli', 'cmake', 'scripts')
+    code = {path: path.read_text(encoding='utf-8') for folder in ('src', 'include', 'cli', 'cmake', 'scripts', 'python')
             for path in sorted((project / folder).rglob('*')) if path.suffix in ('.hpp', '.cpp', '.cmake', '.py', '.sh')}
     records = {path.name for path in (project / 'docs/decisions').glob('*.md')} - {'README.md'}
     names = [name for _, name, _ in indexed]

@@ -261,6 +261,16 @@ std::vector<Vec3d> corners_in_box(const ScenePart& around, const ScenePart& with
   return samples;
 }
 
+/// Whether there are such corners.
+bool has_corner_in_box(const ScenePart& around, const ScenePart& within) {
+  const geometry::Vec3l shift = within.placed.origin - around.placed.origin;
+  const geometry::Box3l box = around.placed.part->box.as<std::int64_t>();
+  return std::ranges::any_of(within.placed.part->vertices, [&](const geometry::Vec3i& v) {
+    const geometry::Vec3l at = v.as<std::int64_t>() + shift;
+    return box.contains({at, at});
+  });
+}
+
 /// Whether a corner of a part lies within, and not on the surface: then points a little to either
 /// side of it are within, too.
 bool lies_within(const WindingNumber& winding, const ScenePart& around, const ScenePart& within) {
@@ -306,8 +316,9 @@ Status mark_enclosed(const StageInputs& stage, std::vector<Candidate>& candidate
   std::vector<const geometry::Part*> parts(work.parts_of({}).size(), nullptr);
   for (const std::size_t i : *enclosable) {
     const ScenePart &a = work.a(i), &b = work.b(i);
-    if (may_enclose(a, b)) parts[a.unique] = a.placed.part;
-    if (may_enclose(b, a)) parts[b.unique] = b.placed.part;
+    // A surface of which nobody will ask is not measured.
+    if (may_enclose(a, b) && has_corner_in_box(a, b)) parts[a.unique] = a.placed.part;
+    if (may_enclose(b, a) && has_corner_in_box(b, a)) parts[b.unique] = b.placed.part;
   }
   std::vector<std::optional<EnclosingSurface>> around(parts.size());
   const Status made = parallel::for_each(

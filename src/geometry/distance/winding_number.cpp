@@ -198,7 +198,9 @@ int WindingNumber::crossings(const Vec3d& from, const Vec3d& way) const {
   return met;
 }
 
-WindingNumber::RayShares WindingNumber::cast_rays(const Vec3d& from, int rays) const {
+/// Returns the share of the directions from a point that lead out; nothing where it is `most` or
+/// more, or where too few meet an odd number of triangles. That often shows long before the last.
+std::optional<double> WindingNumber::share_out(const Vec3d& from, int rays, double most) const {
   // The same in three dimensions, for evenly distributed directions of points in a ball.
   constexpr double kStepX = 0.8191725133961645, kStepY = 0.6710436067037893,
                    kStepZ = 0.5497004779019703;
@@ -212,8 +214,10 @@ WindingNumber::RayShares WindingNumber::cast_rays(const Vec3d& from, int rays) c
     out += met == 0 ? 1 : 0;
     odd += met % 2;
     ++visited;
+    if (static_cast<double>(out) / rays >= most) return std::nullopt;
+    if (static_cast<double>(odd + rays - visited) / rays < kLeastOdd) return std::nullopt;
   }
-  return {static_cast<double>(out) / rays, static_cast<double>(odd) / rays};
+  return static_cast<double>(out) / rays;
 }
 
 /// Returns the share of directions that lead out from a point; nothing where the point is not
@@ -227,8 +231,7 @@ std::optional<double> WindingNumber::out_of(const Vec3d& at) const {
     return winding > 1 + kHalf ? winding - 1 : 1 - winding;
   }
   constexpr int kRays = 64;
-  const RayShares shares = cast_rays(at, kRays);
-  return shares.out < kHalf && shares.odd >= kLeastOdd ? std::optional(shares.out) : std::nullopt;
+  return share_out(at, kRays, kHalf);
 }
 
 bool WindingNumber::surrounds(const Vec3d& at) const {
@@ -236,8 +239,7 @@ bool WindingNumber::surrounds(const Vec3d& at) const {
   constexpr int kRays = 256;
   // Between a fin and the surface that it stands on a quarter of the directions leads out.
   constexpr double kMostOut = 0.2;
-  const RayShares shares = cast_rays(at, kRays);
-  return shares.out < kMostOut && shares.odd >= kLeastOdd;
+  return share_out(at, kRays, kMostOut).has_value();
 }
 
 double WindingNumber::openness(double most) const {
@@ -251,7 +253,7 @@ double WindingNumber::openness(double most) const {
   // out.
   if (one_way_ && length(all.area) > 2 * most * all.size) return 1;
   double out = 0, passed = 0;
-  int inside = 0, sample = 0;
+  int inside = 0, sample = 0, looks_left = 2 * kSamples;
   for (std::uint32_t i = 0; i < triangles_.size() && sample < kSamples; ++i) {
     const Vec3d &a = corner(i, 0), &b = corner(i, 1), &c = corner(i, 2);
     const Vec3d normal = cross(b - a, c - a);
@@ -262,6 +264,11 @@ double WindingNumber::openness(double most) const {
       const Vec3d on = a + (b - a) * s + (c - a) * t;
       const Vec3d back = normal * (-length(all.box.hi - all.box.lo) / length(normal));
       for (const Vec3d& way : {back, back * -1.0}) {
+        // Whatever the others are, they are too few inside, or too much leads out: shares of rays
+        // are never negative.
+        if (2 * (inside + looks_left) < kSamples) return 1;
+        if (!one_way_ && out > most * (inside + looks_left)) return 1;
+        --looks_left;
         const auto hit = first_hit(on, way);
         if (!hit) continue;
         const auto leads_out = out_of(on + way * (*hit / 2));

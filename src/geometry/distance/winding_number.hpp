@@ -56,17 +56,11 @@ class WindingNumber {
     std::uint32_t left = 0;              ///< left child, the right one follows it; 0: a leaf
   };
 
-  /// The shares of the directions from a point that lead out, and that meet an odd number of
-  /// triangles.
-  struct RayShares {
-    double out = 0, odd = 0;
-  };
-
   [[nodiscard]] const Vec3d& corner(std::uint32_t triangle, std::size_t k) const;
   template <class Visit>
   void along(const Vec3d& from, const Vec3d& way, const double& far, const Visit& visit) const;
   [[nodiscard]] int crossings(const Vec3d& from, const Vec3d& way) const;
-  [[nodiscard]] RayShares cast_rays(const Vec3d& from, int rays) const;
+  [[nodiscard]] std::optional<double> share_out(const Vec3d& from, int rays, double most) const;
   [[nodiscard]] std::optional<double> out_of(const Vec3d& at) const;
   void split(std::size_t node);
   void measure(Node& node) const;
