@@ -30,7 +30,7 @@ Status FileReader::keep(std::size_t file, const parallel::Context& context) {
   if (folder_.empty() || files_.size() == 1 || !last_ || number_ != file) return {};
   std::vector<std::uint32_t> objects(last_->objects.size());
   std::iota(objects.begin(), objects.end(), std::uint32_t{0});
-  Result<Section> section = write_section(kept_file(file), *last_, objects, context);
+  const Result<Section> section = write_section(kept_file(file), *last_, objects, context);
   if (!section) return section.error();
   kept_[file] = *section;
   last_.reset();
