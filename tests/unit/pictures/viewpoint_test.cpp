@@ -168,7 +168,7 @@ TEST(Viewpoint, TheBestOfAllCandidatesIsChosen) {
       EXPECT_EQ(found.viewer, best_of(judged).viewer) << cut;
       EXPECT_EQ(found.rank, best_of(judged).rank) << cut;
     }
-    for (const Candidate& one : all) {
+    for (const ViewCandidate& one : all) {
       EXPECT_GE(best.rank, one.rank);
       EXPECT_NEAR(one.rank, share_score(one.share) * direction_preference(one.viewer), 1e-12);
       const RayShares rays =
