@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 import zipfile
 from pathlib import Path
 
@@ -60,6 +61,14 @@ def test_numbers_that_are_none(tmp_path: Path) -> None:
     path = tmp_path / "a.ifc"
     path.write_bytes(good_file(tmp_path).replace(b"(0.,0.,1.)", b"(0.,0.,1E400)", 1))
     assert "1E400" in refused(path)
+
+
+def test_units_that_are_none(tmp_path: Path) -> None:
+    path = tmp_path / "a.ifc"
+    data, count = re.subn(rb"(IFCPROJECT\(.*),#\d+\);", rb"\1,7);", good_file(tmp_path))
+    assert count == 1
+    path.write_bytes(data)
+    assert "makes no shapes of it" in refused(path)
 
 
 def test_a_file_that_is_not_there(tmp_path: Path) -> None:

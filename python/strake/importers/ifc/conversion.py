@@ -119,7 +119,10 @@ def convert_products(
     faults = {product.id(): fault for product in products if (fault := circles.fault_of(product))}
     result.failed.update(faults)
     products = [product for product in products if product.id() not in faults]
-    tasks = tasks_of(model, products) if products else []
+    try:
+        tasks = tasks_of(model, products) if products else []
+    except RuntimeError as fault:  # what stands for all products is none, as the units of the project
+        report.fail(f"IfcOpenShell makes no shapes of it: {fault}", "export the model as IFC (STEP) again")
     kernels_of = {number: kernels for task in tasks for kernels in [kernels_for(model.by_id(task[0]))] for number in task}
     result.bodyless = [product.id() for product in products if product.id() not in kernels_of]
     with Workers(model, threads, convert=partial(convert_chunk, sag_m=sag_m)) as workers:

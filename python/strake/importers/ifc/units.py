@@ -103,8 +103,8 @@ class Units:
 
 def _units_of(model: Model) -> list[Entity]:
     for project in model.by_type("IfcProject")[:1]:
-        assignment = project.UnitsInContext
-        return list((assignment.Units if assignment else None) or ())
+        units = getattr(project.UnitsInContext, "Units", None)
+        return [unit for unit in units if isinstance(unit, Entity)] if isinstance(units, tuple) else []
     return []
 
 
