@@ -195,7 +195,7 @@ TEST(DrawingCodec, APartIsOfItsObjectsAlone) {
 TEST(DrawingCodec, PartsThatAreNotThoseOfADrawingAreRefused) {
   const auto parts = parts_of(drawn(ship(), {}));
   ASSERT_TRUE(read_parts_back(parts));
-  const auto is_refused = [](std::vector<std::vector<std::byte>> wrong) {
+  const auto is_refused = [](const std::vector<std::vector<std::byte>>& wrong) {
     const auto read = read_parts_back(wrong);
     return !read && read.error().code == ErrorCode::input;
   };
