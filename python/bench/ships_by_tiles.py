@@ -33,7 +33,12 @@ WITHIN_FILES = True
 def spent(who: int = resource.RUSAGE_SELF) -> tuple[float, float]:
     """CPU seconds, and the peak of memory in MiB."""
     usage = resource.getrusage(who)
-    return usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+    peak = usage.ru_maxrss
+    if who == resource.RUSAGE_SELF:
+        # What getrusage() has of a process that was started by a large one is the peak of that one.
+        status = Path("/proc/self/status").read_text(encoding="ascii")
+        peak = next(int(line.split()[1]) for line in status.splitlines() if line.startswith("VmHWM:"))
+    return usage.ru_utime + usage.ru_stime, peak / 1024
 
 
 def tell(what: str, cpu: float, peak: float, rest: str = "") -> None:
