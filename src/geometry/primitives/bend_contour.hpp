@@ -17,7 +17,8 @@ class BendContour {
   /// A bend whose sections are circles of `tube_radius`, seen from an eye in its frame.
   BendContour(const CircularTorusPrimitive& p, const Vec3d& eye);
 
-  /// Returns where the eye lies in the plane of a section, from the circle's middle: outward, and up.
+  /// Returns where the eye lies in the plane of a section, from the circle's middle: outward, and
+  /// up.
   [[nodiscard]] double outward(double angle) const;
   [[nodiscard]] double up() const { return up_; }
   /// Returns the angle of the sweep at which the eye stands.

@@ -20,7 +20,7 @@ double square_of(const Vec3d& v) { return dot(v, v); }
 class BandSearch {
  public:
   BandSearch(const SectionArc& first, const SectionArc& second, const Vec3d& eye, bool faces_eye,
-         double step, double least)
+             double step, double least)
       : first_(first),
         second_(second),
         eye_(eye),
@@ -80,18 +80,11 @@ class BandSearch {
 
   [[nodiscard]] BandLacing traced(std::size_t i, std::size_t k) const {
     BandLacing lacing;
-    if (cost_[i * width_ + k] == kUnreached) {
-      lacing.wrong.push_back(first_.angles[i]);
-      return lacing;
-    }
+    if (cost_[i * width_ + k] == kUnreached) return lacing;
     while (i > 0 || k > 0) {
       const bool by_second = from_second_[i * width_ + k];
-      const double angle = (first_.angles[i] + second_.angles[k]) / 2;
-      --(by_second ? k : i);
       lacing.second_goes_on.push_back(by_second);
-      const double weight = by_second ? weight_of_second(i, k) : weight_of_first(i, k);
-      if (weight == kWeightOfWrong)
-        lacing.wrong.push_back((angle + (first_.angles[i] + second_.angles[k]) / 2) / 2);
+      --(by_second ? k : i);
     }
     std::reverse(lacing.second_goes_on.begin(), lacing.second_goes_on.end());
     return lacing;

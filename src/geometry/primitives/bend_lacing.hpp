@@ -18,18 +18,16 @@ struct SectionArc {
   std::vector<std::uint32_t> vertices;
 };
 
-/// How the band between two arcs is cut into triangles: from the edge between their first points one
-/// of the arcs goes on by a point each time.
+/// How the band between two arcs is cut into triangles: from the edge between their first points
+/// one of the arcs goes on by a point each time. Nothing, where they are too unlike each other.
 struct BandLacing {
   std::vector<bool> second_goes_on;
-  std::vector<double> wrong;  ///< angles of the triangles that look the other way than the band does
 };
 
 /// Returns the lacing of a band that looks towards an eye, or away, with as few triangles as
-/// possible that do not; of several the one of the shortest edges. `step` is the usual one between
-/// points.
+/// possible that do not by more than `least` on paper; of several the one of the shortest edges.
+/// `step` is the usual one between points.
 [[nodiscard]] BandLacing lace_band(const SectionArc& first, const SectionArc& second,
-                                   const Vec3d& eye, bool faces_eye, double step,
-                                   double least);
+                                   const Vec3d& eye, bool faces_eye, double step, double least);
 
 }  // namespace strake::geometry::tessellation

@@ -67,7 +67,8 @@ class ContouredBend {
         full_(is_full_turn(p.angle)),
         start_(full_ ? contour_.towards() : 0) {
     const int quarters = static_cast<int>(std::ceil(p_.angle / (kPi / 2) * (1 - 1e-6)));
-    sweep_step_ = p_.angle / std::max({1, quarters, arc_segments(outer(), p_.angle, rest, kMostBendSteps)});
+    sweep_step_ =
+        p_.angle / std::max({1, quarters, arc_segments(outer(), p_.angle, rest, kMostBendSteps)});
     // A circle that is seen along the tube is off the true contour by no more than an eighth.
     const double turning = contour_.turning();
     turns_at_once_ = outer() * turning * turning / 2 < target.sag / 8;
@@ -78,7 +79,7 @@ class ContouredBend {
     choose_sections();
     choose_lines();
     lace();
-    if (has_wrong_band()) return std::nullopt;
+    if (!is_whole()) return std::nullopt;
     return meshed();
   }
 
@@ -87,11 +88,12 @@ class ContouredBend {
   /// In length: sections that are nearer to each other are told apart by rounding to the grid.
   static constexpr double kLeastApart = 4e-3;
   /// In steps of a section: how far the contour may turn from one to the next.
-  static constexpr double kMostTurn = 0.7;
+  static constexpr double kMostTurn = 1;
   /// In steps: lines through the contour's places are that far from each other, those of a rim from
   /// them; those of sections that are near come nearer.
-  static constexpr double kApart = 0.3, kApartFromRim = 0.5, kApartNearby = 0.04;
-  static constexpr std::size_t kNearby = 4;
+  static constexpr double kApart = 0.4, kApartFromRim = 0.5, kApartNearby = 0.04;
+  static constexpr double kSteepEnd = 0.75;  ///< of a usual step of the sweep
+  static constexpr std::size_t kNearby = 3;
   /// In steps: a line that is nearer to the contour is left out; and the widest between neighbours.
   static constexpr double kNear = 0.14, kWidest = 1.4;
   static constexpr double kSame = 1e-9;  ///< radians
@@ -217,7 +219,8 @@ class ContouredBend {
       if (!at) return std::nullopt;
       (is_outside(middle, *at) == at_first ? low : high) = middle;
     }
-    const double least = kLeastApart / outer();
+    // A sliver of a band would do more harm than a chord that runs a little beyond the cusp.
+    const double least = std::max(kLeastApart / outer(), 0.2 * (to.angle - from.angle));
     if (low - from.angle < least || to.angle - low < least) return std::nullopt;
     return low;
   }
@@ -249,8 +252,9 @@ class ContouredBend {
     } else {
       rims_ = {rim_at(start_), rim_at(start_ + p_.angle)};
     }
-    lines_[0] = lines_of(0, second_lines_from_, rims_[0]);
-    lines_[1] = lines_of(second_lines_from_, sections_.size(), rims_[1]);
+    const std::size_t count = sections_.size();
+    lines_[0] = lines_of(0, second_lines_from_, rims_[0], is_steep(0));
+    lines_[1] = lines_of(second_lines_from_, count, rims_[1], is_steep(count - 1));
   }
 
   /// Returns the section from which on those of the second end are: behind the widest band between
@@ -289,7 +293,8 @@ class ContouredBend {
   }
 
   [[nodiscard]] std::vector<double> lines_of(std::size_t from, std::size_t to,
-                                             const std::vector<double>& rim) const {
+                                             const std::vector<double>& rim,
+                                             bool has_whole_rim) const {
     struct Steep {
       double span = 0;
       std::size_t section = 0;
@@ -303,8 +308,14 @@ class ContouredBend {
     for (const Steep& steep : order) take_contour(lines, steep.section, kApart);
     for (const Steep& steep : order)
       for (const double middle : middles_inside(steep.section)) take(lines, middle, kApart / 2);
-    for (const double line : rim) take(lines, line, kApartFromRim);
+    for (const double line : rim) take(lines, line, has_whole_rim ? kApartNearby : kApartFromRim);
     return lines;
+  }
+
+  /// Whether the contour turns quickly at an end, so that its section has lines as well as those of
+  /// its rim, and the sections by it those of the rim, too.
+  [[nodiscard]] bool is_steep(std::size_t j) const {
+    return !full_ && span_beside(j) < kSteepEnd * sweep_step_;
   }
 
   [[nodiscard]] double span_beside(std::size_t j) const {
@@ -351,8 +362,8 @@ class ContouredBend {
   };
 
   /// What the contour in a section and in one beside it want of it.
-  void keep_off(const BendSection& here, const BendSection* other, bool behind, std::vector<Gap>& gaps,
-                std::vector<double>& places) const {
+  void keep_off(const BendSection& here, const BendSection* other, bool behind,
+                std::vector<Gap>& gaps, std::vector<double>& places) const {
     const auto& contour = behind ? here.after : here.before;
     if (!contour) return;
     for (const auto line : {&EyeContour::first, &EyeContour::second}) {
@@ -385,7 +396,7 @@ class ContouredBend {
     };
     const std::size_t half = j < second_lines_from_ ? 0 : 1;
     std::vector<double> lines = is_end ? rims_[half] : std::vector<double>();
-    if (!is_end) {
+    if (!is_end || is_steep(j)) {
       const std::size_t from = j > kNearby ? j - kNearby : 0;
       const std::size_t to = std::min(j + kNearby, sections_.size() - 1);
       for (std::size_t i = from; i <= to; ++i) take_contour(lines, i, kApartNearby);
@@ -393,8 +404,8 @@ class ContouredBend {
         for (const double middle : middles_inside(i)) take(lines, middle, kApartNearby);
       for (const double line : lines_[half]) take(lines, line, kApartNearby);
     }
-    for (const double line : lines)
-      if (is_end || may_have(line)) places.push_back(line);
+    for (std::size_t k = 0; k < lines.size(); ++k)
+      if ((is_end && k < rims_[half].size()) || may_have(lines[k])) places.push_back(lines[k]);
     std::ranges::sort(places);
     std::vector<double> distinct;
     for (const double place : places)
@@ -486,28 +497,14 @@ class ContouredBend {
     return arc;
   }
 
-  /// Whether triangles look the wrong way that may be seen: where the sight runs on into the body,
-  /// what is nearer hides them.
-  [[nodiscard]] bool has_wrong_band() const {
-    bool any = false;
-    for (std::size_t j = 0; j < bands_.size(); ++j) {
-      const double middle = (sections_[j].angle + sections_[j + 1].angle) / 2;
-      const auto may_be_seen = [&](double place) {
-        return contour_.bend_along_sight(middle, place) > 0;
-      };
-      if (std::ranges::none_of(bands_[j], [&](const LacedBand& b) { return std::ranges::any_of(b.lacing.wrong, may_be_seen); })) continue;
-      any = true;
-      if (getenv("DBG")) {
-        const auto& A=sections_[j]; const auto& B=sections_[j+1];
-        auto mid = contour_.at((A.angle+B.angle)/2);
-        printf("  DBG band %zu/%zu at %.5f span %.6f (steps %.2f) wrong", j, bands_.size(), A.angle, B.angle-A.angle, (B.angle-A.angle)/sweep_step_);
-        for (auto& b: bands_[j]) { printf(" of %zu+%zu:", b.first.angles.size(), b.second.angles.size()); for (double w: b.lacing.wrong) printf("%s%.3f",may_be_seen(w)?"*":"-", w);}
-        printf(" marks %.3f %.3f -> %.3f %.3f", A.after?A.after->first:-9, A.after?A.after->second:-9, B.before?B.before->first:-9, B.before?B.before->second:-9);
-        if (mid) printf(" K %.1f %.1f", contour_.bend_along_sight((A.angle+B.angle)/2, mid->first), contour_.bend_along_sight((A.angle+B.angle)/2, mid->second));
-        printf(" step %.3f lines %d along %d %d\n", step_, j+1==second_lines_from_, A.is_along, B.is_along);
-      }
-    }
-    return any && !getenv("LAX");
+  /// Whether each band goes from end to end: sections are too unlike each other otherwise.
+  [[nodiscard]] bool is_whole() const {
+    return std::ranges::all_of(bands_, [](const std::vector<LacedBand>& bands) {
+      return std::ranges::all_of(bands, [](const LacedBand& band) {
+        return band.lacing.second_goes_on.size() + 2 ==
+               band.first.angles.size() + band.second.angles.size();
+      });
+    });
   }
 
   [[nodiscard]] Tessellation meshed() const {
@@ -549,11 +546,12 @@ class ContouredBend {
         }
         --(steps[s] ? i : k);
       }
-      const std::array corners{a.vertices[i0], b.vertices[k0], steps[s] ? b.vertices[k] : a.vertices[i]};
+      const std::array corners{a.vertices[i0], b.vertices[k0],
+                               steps[s] ? b.vertices[k] : a.vertices[i]};
       builder.polygon(corners);
-      const double across = std::max({std::fabs(a.angles[i0] - b.angles[k0]),
-                                      std::fabs(a.angles[i] - b.angles[k]),
-                                      a.angles[i] - a.angles[i0], b.angles[k] - b.angles[k0]});
+      const double across =
+          std::max({std::fabs(a.angles[i0] - b.angles[k0]), std::fabs(a.angles[i] - b.angles[k]),
+                    a.angles[i] - a.angles[i0], b.angles[k] - b.angles[k0]});
       sag = std::max(sag, bent(across) / 6);
     }
     return sag;

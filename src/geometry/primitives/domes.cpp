@@ -285,7 +285,7 @@ Tessellation make(const SphericalDishPrimitive& p, const TessellationTarget& tar
   if (target.eye)
     for (int finer = 1; finer <= 4; finer *= 2) {
       auto seen = cap_in_view(p, target, std::min(n * finer, kMostDomeSegments),
-                               std::min(rows * finer, kMostDomeSegments / 2));
+                              std::min(rows * finer, kMostDomeSegments / 2));
       if (!seen) break;
       if (seen->mesh.sag_mm <= 1.5 * target.sag || finer == 4) return std::move(*seen);
     }

@@ -231,9 +231,7 @@ Tessellation make(const CircularTorusPrimitive& p, const TessellationTarget& tar
   const int n = circle_segments(p.tube_radius, kRimShare * target.sag, kMostTorusSegments);
   const double rim_sag = sagitta(p.tube_radius, 2 * kPi / n);
   if (target.eye) {
-    if (!getenv("NEWONLY"))
     if (auto seen = torus_from_eye(p, target, n, target.sag - rim_sag)) return std::move(*seen);
-    if (!getenv("OLD"))
     if (auto seen = contoured_bend(p, target, n, target.sag - rim_sag)) return std::move(*seen);
   }
   if (target.towards) return ContouredTorus(p, target, n, target.sag - rim_sag).make();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contours of cones, eccentric ones and with sloped ends too, and of cylinders with sloped ends:
-// the true generators are edges, in a view in one direction and from an eye.
+// The contours of cones, eccentric ones and with sloped ends too, and of cylinders with sloped
+// ends: the true generators are edges, in a view in one direction and from an eye.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,12 +68,13 @@ struct Viewer {
 /// Whether both contours are edges, and nothing else is; none where there are none, or two hardly
 /// apart.
 bool has_true_contours(const Viewer& viewer, const Tessellation& t) {
-  const auto edges = viewer.is_eye ? Net(t.mesh).contours_from(viewer.at)
-                                   : Net(t.mesh).contours(viewer.at);
+  const auto edges =
+      viewer.is_eye ? Net(t.mesh).contours_from(viewer.at) : Net(t.mesh).contours(viewer.at);
   const std::vector<double> turns = viewer.turns();
   EXPECT_TRUE(turns.empty() || turns.size() == 2);
   if (turns.size() == 2) {
-    const double apart = turns[1] - turns[0], step = 4 * kPi / static_cast<double>(t.mesh.vertices.size());
+    const double apart = turns[1] - turns[0],
+                 step = 4 * kPi / static_cast<double>(t.mesh.vertices.size());
     if (std::min(apart, 2 * kPi - apart) > step) {
       EXPECT_EQ(edges.size(), 2U);
     }
@@ -83,7 +84,8 @@ bool has_true_contours(const Viewer& viewer, const Tessellation& t) {
   for (const auto& [a, b] : edges)
     for (const Vec3d& p : {a, b}) {
       // At an apex all generators meet.
-      const Vec3d other = std::fabs(p.z - viewer.snout.height / 2) < 1e-6 ? (p.z == a.z ? b : a) : p;
+      const Vec3d other =
+          std::fabs(p.z - viewer.snout.height / 2) < 1e-6 ? (p.z == a.z ? b : a) : p;
       EXPECT_LT(std::fabs(viewer.facing(viewer.angle_of(other))), 1e-9);
     }
   return edges.size() == 2;
@@ -99,8 +101,8 @@ TEST(SnoutContours, AreTheTrueGenerators) {
     const double away = draw.between(100, i % 2 == 0 ? 600 : 20000);
     const Vec3d eye = towards * away;
     for (const bool is_eye : {false, true}) {
-      const Tessellation t = is_eye ? tessellate_from(eye, snout, {}, 0.5)
-                                    : tessellate(snout, {}, 0.5, towards);
+      const Tessellation t =
+          is_eye ? tessellate_from(eye, snout, {}, 0.5) : tessellate(snout, {}, 0.5, towards);
       if (!t.fault.empty()) continue;
       ++seen;
       if (has_true_contours({snout, is_eye ? eye : towards, is_eye}, t)) ++drawn;
