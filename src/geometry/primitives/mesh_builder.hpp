@@ -147,11 +147,6 @@ class MeshBuilder {
 [[nodiscard]] std::optional<Tessellation> torus_from_eye(const CircularTorusPrimitive& p,
                                                          const TessellationTarget& target,
                                                          int segments, double rest);
-/// The same for any eye outside the tube, where the silhouettes turn quickly from section to
-/// section.
-[[nodiscard]] std::optional<Tessellation> contoured_bend(const CircularTorusPrimitive& p,
-                                                         const TessellationTarget& target,
-                                                         int segments, double rest);
 
 [[nodiscard]] Tessellation make(const RectangularTorusPrimitive& p,
                                 const TessellationTarget& target);

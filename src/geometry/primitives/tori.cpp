@@ -230,10 +230,8 @@ Tessellation make(const CircularTorusPrimitive& p, const TessellationTarget& tar
   if (p.tube_radius >= p.centre_radius) return clipped(p, target);
   const int n = circle_segments(p.tube_radius, kRimShare * target.sag, kMostTorusSegments);
   const double rim_sag = sagitta(p.tube_radius, 2 * kPi / n);
-  if (target.eye) {
+  if (target.eye)
     if (auto seen = torus_from_eye(p, target, n, target.sag - rim_sag)) return std::move(*seen);
-    if (auto seen = contoured_bend(p, target, n, target.sag - rim_sag)) return std::move(*seen);
-  }
   if (target.towards) return ContouredTorus(p, target, n, target.sag - rim_sag).make();
   const bool full = is_full_turn(p.angle);
   const EndPhases phases = full ? EndPhases{} : end_phases(p, target.linear, n);

@@ -328,6 +328,19 @@ TEST(ContoursFromAnEye, OfATorusLieOnTheTrueOnes) {
   }
 }
 
+// There, slivers of its triangles would hide pieces of a contour along its net.
+TEST(ContoursFromAnEye, OfABendFromLowOverItsPlaneAreThoseOfTheScene) {
+  const CircularTorusPrimitive bend{225, 150, kPi / 2};
+  const auto is_of_scene = [&](double elevation_deg) {
+    const double angle = elevation_deg * kPi / 180;
+    const Vec3d eye = Vec3d{1, -1, std::sqrt(2.0) * std::tan(angle)} * 8000;
+    return tessellate_from(eye, bend, {}, 0.5).mesh.vertices ==
+           tessellate(bend, {}, 0.5).mesh.vertices;
+  };
+  for (const double low : {4.0, 6.0, 8.0, -7.0}) EXPECT_TRUE(is_of_scene(low)) << low;
+  for (const double high : {12.0, 30.0, -45.0}) EXPECT_FALSE(is_of_scene(high)) << high;
+}
+
 // Whatever frames they were drawn in.
 TEST(ContoursFromAnEye, RimsOfPipeAndElbowMeet) {
   PrimitiveDraw draw(15);
