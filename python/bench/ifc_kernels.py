@@ -37,13 +37,14 @@ def measure(path: str, kernel: str, sag_m: float) -> None:
 
     with tempfile.TemporaryDirectory() as folder, Report(Path(folder) / "report") as report:
         model = open_model(Path(path), report, Path(folder))
-    products = [product for task in tasks_of(model, choose_products(model).solid) for product in task]
+    products = [model.by_id(number) for task in tasks_of(model, choose_products(model).solid) for number in task]
     for product in products:
         print(json.dumps({"n": product.id(), "class": product.is_a(), "items": sorted(items_of(product))}))
     settings = geometry_settings()
     settings.set("mesher-linear-deflection", sag_m)
     began = time.process_time()
-    iterator = ifcopenshell.geom.iterator(settings, model, 1, include=products, geometry_library=kernel)
+    included = [model.file.by_id(product.id()) for product in products]
+    iterator = ifcopenshell.geom.iterator(settings, model.file, 1, include=included, geometry_library=kernel)
     going = bool(products) and iterator.initialize()
     while going:
         shape = iterator.get()

@@ -83,8 +83,9 @@ def read(path: Path, tree: Any, threads: int) -> File:
 
     with tempfile.TemporaryDirectory() as folder, Report(Path(folder) / "report") as report:
         model = open_model(path, report, Path(folder))
-    file = File(path, model, choose_products(model).solid)
-    iterator = ifcopenshell.geom.iterator(ifcopenshell.geom.settings(), model, threads, include=file.products)
+    solid = [model.file.by_id(product.id()) for product in choose_products(model).solid]
+    file = File(path, model.file, solid)
+    iterator = ifcopenshell.geom.iterator(ifcopenshell.geom.settings(), file.model, threads, include=file.products)
     going = bool(file.products) and iterator.initialize()
     while going:
         element = iterator.get()

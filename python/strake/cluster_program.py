@@ -152,6 +152,8 @@ class _Words:
 
 def _as_typed(error: Error, options: dict[str, _Option]) -> Error:
     """The error in the words of the command line: the package tells of arguments, and the program has options."""
+    if not isinstance(error, UsageError):
+        return error
     word_of = {option.name: word for word, option in options.items()} | {"files": "FILE", "path_to": "--output"}
     # Names of several words are no words of a sentence; what is in quotes stands there as it was given.
     names = "|".join(name for name in word_of if "_" in name)
@@ -159,8 +161,7 @@ def _as_typed(error: Error, options: dict[str, _Option]) -> Error:
     def told(text: str) -> str:
         return re.sub(rf"(?<![\w'\"/])(?:{names})(?![\w'\"/])", lambda name: word_of[name[0]], text)
 
-    # The place of another error is a file.
-    where = word_of.get(error.where, error.where) if isinstance(error, UsageError) else error.where
+    where = word_of.get(error.where, error.where)
     asked = re.fullmatch(r"(give|leave out) (\w+)(?: or (\w+))?", error.mend)
     if asked and all(name in word_of for name in asked.groups()[1:] if name):
         mend = f"{asked[1]} {' or '.join(word_of[name] for name in asked.groups()[1:] if name)}"

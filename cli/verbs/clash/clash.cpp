@@ -396,7 +396,7 @@ Result<ClashSource> source_of(Session& session, const ClashOptions& given,
 
 /// Looks up what was decided about findings, in a file or in the project, which remembers them.
 /// `from_file` holds what a file says.
-Result<const report::DecidedResults*> decision_about(
+Result<const report::DecidedResults*> decisions_on_findings(
     Session& session, const ClashOptions& given, const ClashRequest& request, ClashSource& source,
     clash::Findings& findings, std::optional<report::DecidedResults>& from_file) {
   if (source.project) {
@@ -440,7 +440,7 @@ Result<ExitCode> run_clash(Session& session, const ClashOptions& given) {
   print_findings(session, *findings, *loaded.model);
   std::optional<report::DecidedResults> from_file;
   const Result<const report::DecidedResults*> decided =
-      decision_about(session, given, *request, *source, *findings, from_file);
+      decisions_on_findings(session, given, *request, *source, *findings, from_file);
   if (!decided) return decided.error();
   const FailingPairs failing = failing_pairs(*findings, given.fail_on, *decided);
   if (const Status status = put_out(session, given, *request, loaded, *decided, *findings, project);

@@ -128,11 +128,21 @@ hlr::Curves read_curves(BlobReader& in, ObjectRange objects) {
     for (const std::vector<std::int64_t>& column : origins)
       if (!is_on_grid(column[c])) in.refuse("a curve lies outside what can be placed");
   }
+  std::uint32_t next = 0,
+                first = 0;  // numbers of curves: the next one, and the first of the object
   for (std::size_t e = 0; e < edges.size(); e += 3) {
-    if (edges[e] < objects.first || edges[e] >= objects.last || edges[e + 2] >= count)
+    const std::uint32_t object = edges[e], curve = edges[e + 2];
+    if (object < objects.first || object >= objects.last || curve >= count)
       in.refuse("an edge has no curve");
-    curves.edges.push_back({model::ObjectId{edges[e]}, edges[e + 1], edges[e + 2]});
+    // Merging drawings takes the curves of an object as one block, in the order of its edges.
+    const bool begins = e == 0 || object != edges[e - 3];
+    if (begins) first = next;
+    if (curve > next || curve < first || (begins && curve != next))
+      in.refuse("curves are not in the order of objects");
+    if (curve == next) ++next;
+    curves.edges.push_back({model::ObjectId{object}, edges[e + 1], curve});
   }
+  if (next != count) in.refuse("a curve has no edge");
   const auto key = [](const hlr::CurvedEdge& e) { return std::pair(e.object, e.edge); };
   if (!std::ranges::is_sorted(curves.edges, {}, key)) in.refuse("curved edges are not in order");
   return curves;

@@ -31,7 +31,8 @@ Status FileReader::keep(std::size_t file, const parallel::Context& context) {
   std::vector<std::uint32_t> objects(last_->objects.size());
   std::iota(objects.begin(), objects.end(), std::uint32_t{0});
   const Result<Section> section = write_section(kept_file(file), *last_, objects, context);
-  if (!section) return section.error();
+  // Where there is no room for it the file is read a second time.
+  if (!section) return section.error().code == ErrorCode::output ? Status{} : section.error();
   kept_[file] = *section;
   last_.reset();
   return {};

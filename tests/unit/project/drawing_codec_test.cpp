@@ -272,6 +272,7 @@ TEST(DrawingCodec, WhatCannotBeADrawingIsRefused) {
       [](hlr::Drawing& d) { d.curves.edges[0].curve = 1'000'000; },
       [](hlr::Drawing& d) { d.curves.edges[0].object = model::ObjectId{1'000}; },
       [](hlr::Drawing& d) { std::swap(d.curves.edges.front(), d.curves.edges.back()); },
+      [](hlr::Drawing& d) { std::swap(d.curves.edges.front().curve, d.curves.edges.back().curve); },
       [](hlr::Drawing& d) { d.curves.all[0].at.v.y = std::nan(""); },
       [](hlr::Drawing& d) { d.curves.all[0].origin.x = std::int64_t{1} << 61U; },
       [](hlr::Drawing& d) { d.left_out = {1, 2, 3}; },

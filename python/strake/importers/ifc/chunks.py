@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.faces import Faces, faces_of
 from strake.importers.ifc.kernels import SAG_M, geometry_settings, shapes_of
-from strake.importers.ifc.pinched import split_face
+from strake.importers.ifc.pinched import outlines_of, split_face
 from strake.importers.shapes import Color, Part, PreparedShape, prepare_shape
 
 # The fault of a shape without a triangle.
@@ -57,7 +57,14 @@ class Remark:
     message: str
 
 
-Answer = Converted | Remark
+@dataclass(frozen=True)
+class Again:
+    """These products are converted once more: what became of them before does not count."""
+
+    products: tuple[int, ...]
+
+
+Answer = Converted | Remark | Again
 
 
 def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M) -> Iterator[Answer]:
@@ -81,6 +88,7 @@ def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M) -> Iterator[
         again = mended | {product for product, key in keys.items() if key in shapes}
         log.clear()
         rest = Chunk(tuple(sorted(again)), chunk.kernel, chunk.attempt)
+        yield Again(rest.products)
         yield from _converted_by(model, rest, sag_m, log)
         yield from _remarks(log, rest)
 
@@ -97,17 +105,21 @@ def _converted_by(model: Model, chunk: Chunk, sag_m: float, log: Any) -> Iterato
 
 def _mended(model: Model, log: Any, doubtful: Set[int]) -> set[int]:
     """Splits the faces that the kernel left out of these products; returns the products of which all could be split."""
-    could: dict[int, bool] = {}
-    split: dict[int, bool] = {}
+    faces_of_product: dict[int, set[int]] = {}
+    parts_of: dict[int, list[list[int]]] = {}
     for message in log.log_messages():
         product, face = (re.match(r"#(\d+)=", text) for text in (message.product, message.instance))
         if product is None or face is None or int(product[1]) not in doubtful or not message.message.startswith(_FACE_LEFT_OUT):
             continue
         number = int(face[1])
-        if number not in split:
-            split[number] = split_face(model, number)
-        could[int(product[1])] = could.get(int(product[1]), True) and split[number]
-    return {number for number, all_could in could.items() if all_could}
+        if number not in parts_of:
+            parts_of[number] = outlines_of(model, number)
+        faces_of_product.setdefault(int(product[1]), set()).add(number)
+    # Faces of others stay as they are: another kernel may get these products from another process.
+    mended = {number for number, faces in faces_of_product.items() if all(parts_of[face] for face in faces)}
+    for face_number in sorted({face for number in mended for face in faces_of_product[number]}):
+        split_face(model, face_number, parts_of[face_number])
+    return mended
 
 
 def _converted(model: Model, element: Any, known: dict[str, PreparedShape | str], kernel: str, sag_m: float) -> Converted:

@@ -15,7 +15,7 @@ import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
-from strake.importers.ifc.chunks import EMPTY, Chunk, Converted, Remark, convert_chunk
+from strake.importers.ifc.chunks import Again, Chunk, Converted, EMPTY, Remark, convert_chunk
 from strake.importers.ifc.entity import Entity, Model, number_of
 from strake.importers.ifc.kernels import EXACT, FAST, SAG_M, geometry_settings, has_body, kernels_for, shapes_of
 from strake.importers.ifc.products import CircleFinder
@@ -134,6 +134,9 @@ def convert_products(
                 report.progress(len(result.placed) / len(kernels_of))
             elif isinstance(event, Remark):
                 result.remarks.setdefault(event.product, []).append((event.kernel, event.message))
+            elif isinstance(event, Again):
+                for number in event.products:
+                    result.placed.pop(number, None)
             elif isinstance(event, Ended):
                 _go_on(event, kernels_of, workers, result)
             else:

@@ -16,7 +16,7 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import Any
 
-from strake.importers.ifc.chunks import Answer, Chunk, Converted, Remark, convert_chunk
+from strake.importers.ifc.chunks import Again, Answer, Chunk, Converted, Remark, convert_chunk
 from strake.importers.ifc.entity import Model
 from strake.importers.supervision import end_with_parent, signal_name
 
@@ -39,7 +39,7 @@ class Ended:
     hung: bool = False
 
 
-Event = Converted | Remark | Ended
+Event = Converted | Remark | Again | Ended
 Convert = Callable[[Model, Chunk], Iterator[Answer]]
 
 
@@ -139,6 +139,9 @@ class Workers:
         if isinstance(answer, Converted):
             if not answer.fault:
                 worker.got.add(answer.product)
+            return answer
+        if isinstance(answer, Again):
+            worker.got -= set(answer.products)
             return answer
         if isinstance(answer, Remark):
             return answer

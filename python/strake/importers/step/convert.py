@@ -170,7 +170,8 @@ class _Builder:
         if not product.parts:
             return
         own = "" if instance is None else instance_name(instance, product.name)
-        name = own or product.name or self._file
+        lone = product.parts[0].name if instance is None and len(product.parts) == 1 else ""
+        name = own or lone or product.name or self._file
         color = self._color_of_instance(instance, place)
         parts, known = [], []
         for part in product.parts:

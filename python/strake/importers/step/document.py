@@ -96,7 +96,10 @@ class Labels:
             return ""
         entity = self.reader.ChangeReader().WS().TransferReader().EntityFromShapeResult(face, _OF_ALL_ENTITIES)
         name = entity.Name() if isinstance(entity, StepVisual_TessellatedItem) else None
-        return "" if name is None else str(name.ToCString()).strip()
+        try:
+            return "" if name is None else str(name.ToCString()).strip()
+        except UnicodeDecodeError:  # a name in a code of its own
+            return ""
 
 
 def _listed(fill: Any) -> list[Any]:
