@@ -378,7 +378,8 @@ Result<model::Model> load_model(Session& session, const InputOptions& input) {
   return read_model(session, input, {}, sources);
 }
 
-Result<LoadedModel> place(Session& session, model::Model model, const model::SceneOptions& options) {
+Result<LoadedModel> place(Session& session, model::Model model,
+                          const model::SceneOptions& options) {
   LoadedModel loaded;
   loaded.model = std::shared_ptr<model::Model>(
       std::make_unique<model::Model>(std::move(model)).release(),
