@@ -118,7 +118,7 @@ TEST(Slots, AreTakenDownOnceEachWhoeverTakesPart) {
   for (const std::size_t n : {0U, 1U, 1000U, 300'001U})
     for (const unsigned workers : kTeams) {
       Team team(workers);
-      std::stop_source stop;
+      const std::stop_source stop;
       stop.request_stop();
       for (const Context& context :
            {Context{.team = &team}, Context{.team = &team, .stop = stop.get_token()}, Context{}}) {
