@@ -56,7 +56,7 @@ class OverlapSearch {
     const auto open = find_open();
     if (!open) return open.error();
     if (const Status s = cache_.ensure_frames(work_.parts_of(*open), work_.context()); !s) return s;
-    return decide(*open, "parting planes", [&](const ScenePart& x, const ScenePart& y) {
+    return decide(*open, "oriented boxes", [&](const ScenePart& x, const ScenePart& y) {
       const PairOperand p = cache_.framed(x), q = cache_.framed(y);
       constexpr double kApart = 1;  // the broad phase's boxes are in whole units
       const double gap = geometry::oriented_box_separation({p.treed.placed, p.frame},

@@ -142,6 +142,7 @@ std::string_view policy_in(std::string_view head) {
 
 std::string with_served_policy(std::string_view head) {
   const std::string_view policy = policy_in(head);
+  if (policy.empty()) return std::string(head);
   const auto end = static_cast<std::size_t>(policy.data() + policy.size() - head.data());
   std::string served(head.substr(0, end));
   served += "; connect-src 'self'";

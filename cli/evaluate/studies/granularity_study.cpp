@@ -125,7 +125,7 @@ std::vector<WorkUnit> units_of_clashes(const SkewedScene& scene) {
                      fmt::format("up to {} pairs of parts", kPairs * chunk),
                      skewed_clashes(scene, clash::BroadPhase::tree, kWorkersOfExample),
                      chunk,
-                     {"simple pairs", "parting planes", "narrow phase", "depth", "distance"}});
+                     {"simple pairs", "oriented boxes", "narrow phase", "depth", "distance"}});
   return units;
 }
 

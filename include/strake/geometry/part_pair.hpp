@@ -103,12 +103,12 @@ struct ClosestPair {
 /// snapped to a roughness of a few units, and finding their nearest slivers within it takes work of
 /// the square of their number.
 ///
-/// `parting`, a unit vector from b to a, is a hint that changes only results with slack: where the
-/// parts come nearest at the two ends of the widest slab between them, as convex ones do, only the
-/// triangles there are visited.
+/// `separating_direction`, a unit vector from b to a, is a hint that changes only results with
+/// slack: where the parts come nearest at the two ends of the widest slab between them, as convex
+/// ones do, only the triangles there are visited.
 [[nodiscard]] std::optional<ClosestPair> find_closest_pair(
     const PartWithBvh& a, const PartWithBvh& b, double limit, QueryContext& work, double slack = 0,
-    const std::optional<Vec3d>& parting = {});
+    const std::optional<Vec3d>& separating_direction = {});
 
 /// Returns the first two triangles found that are nearer than `distance` grid units, with their own
 /// closest points: not the closest of the parts, but far cheaper where whole faces are about

@@ -39,7 +39,7 @@ struct RunFiles {
 /// Why two files are taken for one.
 enum class FileRelation : std::uint8_t {
   same_label,  ///< they are called alike
-  asked,       ///< the caller says so
+  requested,   ///< the caller says so
   renamed,     ///< more than half of either is in the other
   split,       ///< more than half of the new file was in the old one, which is also another's
   merged,      ///< more than half of the old file is in the new one, which is also another's

@@ -26,21 +26,26 @@ void add_relations(WordHash& hash, const RelationSet& relations) {
   hash.add(bits);
 }
 
+// What these take apart has to be taken apart anew where it gets another member, so that none is
+// forgotten in the signatures.
+
 void add_tolerances(WordHash& hash, const Tolerances& t) {
-  for (const ToleranceLength& length : kToleranceLengths) hash.add(t.*length.value_mm);
-  hash.add(static_cast<std::uint8_t>(t.thickness_cap)).add(t.object_clearances != nullptr);
-  if (t.object_clearances) hash.add(std::string_view(t.object_clearances->attribute));
+  const auto& [clearance, gap, overlap, cap, clearances] = t;
+  for (const double length : {clearance, gap, overlap}) hash.add(length);
+  hash.add(static_cast<std::uint8_t>(cap)).add(clearances != nullptr);
+  if (clearances) hash.add(std::string_view(clearances->attribute));
 }
 
 void add_engine(WordHash& hash, const EngineOptions& e) {
   // The broad phase, the log and what is kept change no result.
-  hash.add(static_cast<std::uint8_t>(e.narrow_phase))
-      .add(e.most_spheres)
-      .add(static_cast<std::uint8_t>(e.volumes))
-      .add(static_cast<std::uint8_t>(e.curves))
-      .add(static_cast<std::uint8_t>(e.contacts))
-      .add(e.most_regions)
-      .add(e.most_pairs);
+  const auto& [broad, narrow, spheres, volumes, curves, contacts, regions, log, keep, pairs] = e;
+  hash.add(static_cast<std::uint8_t>(narrow))
+      .add(spheres)
+      .add(static_cast<std::uint8_t>(volumes))
+      .add(static_cast<std::uint8_t>(curves))
+      .add(static_cast<std::uint8_t>(contacts))
+      .add(regions)
+      .add(pairs);
 }
 
 void add_matrix(WordHash& hash, const Matrix& matrix) {
@@ -63,19 +68,21 @@ void add_limit(WordHash& hash, const std::optional<double>& limit) {
 }
 
 void add_allowed(WordHash& hash, const Allowed& rule) {
-  hash.add(std::string_view(rule.rule)).add(rule.region_mm.has_value());
-  if (rule.region_mm) {
-    add_point(hash, rule.region_mm->lo);
-    add_point(hash, rule.region_mm->hi);
+  // Which objects it concerns stands in their own signatures.
+  const auto& [name, a, b, region, cavity, max_depth, relations, max_volume] = rule;
+  hash.add(std::string_view(name)).add(region.has_value());
+  if (region) {
+    add_point(hash, region->lo);
+    add_point(hash, region->hi);
   }
-  hash.add(rule.cavity.size());
-  for (const HalfSpace& side : rule.cavity) {
+  hash.add(cavity.size());
+  for (const HalfSpace& side : cavity) {
     add_point(hash, side.point_mm);
     add_point(hash, side.normal);
   }
-  add_limit(hash, rule.max_depth_mm);
-  add_relations(hash, rule.relations);
-  add_limit(hash, rule.max_volume_mm3);
+  add_limit(hash, max_depth);
+  add_relations(hash, relations);
+  add_limit(hash, max_volume);
 }
 
 /// Names each number by its first object, which no other number has.
@@ -249,7 +256,7 @@ void RuleSignatures::add(std::uint32_t object, WordHash& hash) const {
       const std::uint32_t label = same->label[object];
       hash.add(label != kNoLabel).add(label == kNoLabel ? Hash128{} : names_[e][label]);
     } else {
-      add_linked(object, *std::get_if<Linked>(&test), names_[e], hash);
+      add_linked(object, std::get<Linked>(test), names_[e], hash);
     }
   }
   hash.add(bits);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "clash/incremental/shape_signatures.hpp"
 
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <variant>
 
+#include "geometry/primitives/lengths.hpp"
 #include "strake/core/hash.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -27,8 +26,7 @@ void add_primitive(WordHash& hash, const geometry::Primitive& primitive) {
   hash.add(primitive.index());
   std::visit(
       [&](const auto& p) {
-        using Lengths = std::array<double, sizeof(p) / sizeof(double)>;
-        for (const double length : std::bit_cast<Lengths>(p)) hash.add(length);
+        for (const double length : geometry::lengths_of(p)) hash.add(length);
       },
       primitive);
 }

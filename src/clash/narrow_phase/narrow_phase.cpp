@@ -78,7 +78,7 @@ class ExactNarrowPhase {
     if (const Status s = cache_.ensure_frames(work_.parts_of(*unsettled), work_.context()); !s)
       return s;
     const Status status = work_.for_each_of(
-        *unsettled, "parting planes", PairTasks::kGrain,
+        *unsettled, "oriented boxes", PairTasks::kGrain,
         [&](std::size_t i, const ScenePart& a, const ScenePart& b) {
           const PairTolerances options = stage_.pair_tolerances.of(a, b);
           Candidate& c = candidates_[i];

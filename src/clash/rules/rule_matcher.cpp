@@ -101,6 +101,20 @@ Status check_narrow_phase(const Policy& policy, const Options& options) {
                "narrow phase", "leave out --narrow-phase, or these rules"};
 }
 
+std::uint32_t cell_of(const Matrix& matrix, std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t row = matrix.discipline[a], column = matrix.discipline[b];
+  if (row == kNoLabel || column == kNoLabel) return Matrix::kDefault;
+  return matrix.cells[row * matrix.disciplines.size() + column];
+}
+
+double reach_of(const Tolerances& t, double added_mm) {
+  return std::max(t.clearance_mm + added_mm, t.touch_gap_mm);
+}
+
+bool exempts(const Between& test, std::uint32_t a, std::uint32_t b) {
+  return (test.a[a] && test.b[b]) || (test.a[b] && test.b[a]);
+}
+
 bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b) {
   return test.label[a] == test.label[b] && test.label[a] != kNoLabel;
 }
@@ -159,11 +173,6 @@ constexpr std::size_t kMatchesPerBlock = 65536;
 /// Pairs per block where each has a rule or more of its own. Between 1024 and 16'384 no difference
 /// can be seen (decision 0073).
 constexpr std::size_t kRuledPairsPerBlock = 4096;
-
-/// Returns the reach of tolerances where the objects of a pair add so much to its clearance.
-double reach_of(const Tolerances& t, double added_mm) {
-  return std::max(t.clearance_mm + added_mm, t.touch_gap_mm);
-}
 
 std::size_t count_between(const Policy& policy) {
   return static_cast<std::size_t>(
@@ -233,16 +242,9 @@ void RuleMatcher::number_level_rules() {
         level_rules_.push_back(rule);
 }
 
-std::uint32_t RuleMatcher::cell(std::uint32_t a, std::uint32_t b) const {
-  const Matrix& m = *policy_.matrix;
-  const std::uint32_t row = m.discipline[a], column = m.discipline[b];
-  if (row == kNoLabel || column == kNoLabel) return Matrix::kDefault;
-  return m.cells[row * m.disciplines.size() + column];
-}
-
 std::size_t RuleMatcher::tolerances(std::uint32_t a, std::uint32_t b) const {
   if (!policy_.matrix) return 0;
-  const std::uint32_t found = cell(a, b);
+  const std::uint32_t found = cell_of(*policy_.matrix, a, b);
   return found >= Matrix::kDefault ? 0 : found + 1;
 }
 
@@ -265,7 +267,7 @@ Level RuleMatcher::level(const ScenePart& part) const {
 
 std::uint32_t RuleMatcher::object_rule(std::uint32_t a, std::uint32_t b) const {
   const std::uint32_t matrix = policy_.matrix ? 1 : 0;
-  if (policy_.matrix && cell(a, b) == Matrix::kNotChecked) return 0;
+  if (policy_.matrix && cell_of(*policy_.matrix, a, b) == Matrix::kNotChecked) return 0;
   std::uint32_t between = kNoLabel;
   between_.each(a, b, [&](std::size_t rule) {
     between = between_rule_[rule];

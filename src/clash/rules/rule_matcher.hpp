@@ -116,7 +116,15 @@ struct ClassTotals {
 /// does not tell.
 [[nodiscard]] Status check_narrow_phase(const Policy& policy, const Options& options);
 
+/// Returns the cell of two objects in a matrix.
+[[nodiscard]] std::uint32_t cell_of(const Matrix& matrix, std::uint32_t a, std::uint32_t b);
+
+/// Returns how far apart, in mm, two objects may be and still be a result, where they add so much
+/// to the clearance.
+[[nodiscard]] double reach_of(const Tolerances& t, double added_mm);
+
 /// Whether the rule leaves out pairs of these two objects.
+[[nodiscard]] bool exempts(const Between& test, std::uint32_t a, std::uint32_t b);
 [[nodiscard]] bool exempts(const SameLabel& test, std::uint32_t a, std::uint32_t b);
 [[nodiscard]] bool exempts(const Linked& test, std::uint32_t a, std::uint32_t b);
 
@@ -198,7 +206,6 @@ class RuleMatcher {
   [[nodiscard]] Verdict verdict(const ScenePart& a, const ScenePart& b) const;
   [[nodiscard]] std::uint32_t object_rule(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] std::uint32_t level_rule(Level a, Level b) const;
-  [[nodiscard]] std::uint32_t cell(std::uint32_t a, std::uint32_t b) const;
   [[nodiscard]] double own_reach(const ScenePart& a, const ScenePart& b) const;
   [[nodiscard]] bool within_own_reach(const ScenePart& a, const ScenePart& b) const;
   void number_level_rules();

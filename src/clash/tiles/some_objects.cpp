@@ -85,15 +85,9 @@ Policy policy_of(const Policy& all, Objects objects) {
   some.levels = all.levels;
   if (some.levels) some.levels->object = entries_of(all.levels->object, objects);
   for (const Allowed& rule : all.allowed) {
-    Allowed& one = some.allowed.emplace_back();
-    one.rule = rule.rule;
+    Allowed& one = some.allowed.emplace_back(rule);
     one.a = entries_of(rule.a, objects);
     one.b = entries_of(rule.b, objects);
-    one.region_mm = rule.region_mm;
-    one.cavity = rule.cavity;
-    one.max_depth_mm = rule.max_depth_mm;
-    one.relations = rule.relations;
-    one.max_volume_mm3 = rule.max_volume_mm3;
   }
   some.list_exempted = all.list_exempted;
   return some;

@@ -72,24 +72,24 @@ class LineGrid {
   std::size_t columns_ = 1, rows_ = 1;
 };
 
-/// Intervals that are laid down, found by place.
+/// Segments that are drawn already, found by place.
 class LaidLines {
  public:
   LaidLines(const LineGrid& cells, const OverlapRule& rule)
       : cells_(cells), rule_(rule), first_(cells.count(), kNone) {}
 
-  void add(const PlaneSegment& flat) {
+  void add(const PlaneSegment& segment) {
     const auto number = static_cast<std::uint32_t>(segments_.size());
-    segments_.push_back(flat);
+    segments_.push_back(segment);
     last_query_.push_back(kNone);
-    cells_.along(flat, 0, [&](std::size_t cell) {
+    cells_.along(segment, 0, [&](std::size_t cell) {
       entries_.push_back({number, first_[cell]});
       first_[cell] = static_cast<std::uint32_t>(entries_.size() - 1);
     });
-    reach_ = std::max(reach_, flat.reach);
+    reach_ = std::max(reach_, segment.reach);
   }
 
-  /// Calls visit(number) for the intervals, counted as they were added, that may lie beside a line,
+  /// Calls visit(number) for the segments, counted as they were added, that may lie beside a line,
   /// each once and of no cell more than the last `most`, until it returns false. Each query has
   /// another number.
   template <class Visit>
@@ -99,7 +99,7 @@ class LaidLines {
       std::size_t seen = 0;
       for (std::uint32_t e = first_[cell]; e != kNone && goes_on && seen < most;
            e = entries_[e].next, ++seen) {
-        const std::uint32_t number = entries_[e].stretch;
+        const std::uint32_t number = entries_[e].segment;
         if (last_query_[number] == query) continue;
         last_query_[number] = query;
         goes_on = visit(number);
@@ -107,8 +107,8 @@ class LaidLines {
     });
   }
 
-  /// Appends the intervals of a line that run along those that are laid down, of no cell more than
-  /// the last `most`.
+  /// Appends the intervals of a line that run along those that are drawn already, of no cell more
+  /// than the last `most`.
   void find(const PlaneSegment& line, std::uint32_t query, std::vector<ParamInterval>& covers,
             std::size_t most = std::numeric_limits<std::size_t>::max()) {
     near(line, query, most, [&](std::uint32_t number) {
@@ -121,14 +121,14 @@ class LaidLines {
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   struct LaidEntry {
-    std::uint32_t stretch = 0, next = kNone;
+    std::uint32_t segment = 0, next = kNone;
   };
 
   const LineGrid& cells_;
   const OverlapRule& rule_;
   double reach_ = 0;
   std::vector<PlaneSegment> segments_;
-  std::vector<std::uint32_t> last_query_;  ///< by entry: the last query that met it
+  std::vector<std::uint32_t> last_query_;  ///< by segment: the last query that met it
   std::vector<std::uint32_t> first_;       ///< by cell: the last of its entries
   std::vector<LaidEntry> entries_;
 };

@@ -26,16 +26,16 @@ constexpr double kTouch = 1.0 / 256;
 
 class RegionFinder {
  public:
-  RegionFinder(const PartWithBvh& a, const PartWithBvh& b, const ContactRegionOptions& question)
+  RegionFinder(const PartWithBvh& a, const PartWithBvh& b, const ContactRegionOptions& options)
       : treed_a_(a),
         treed_b_(b),
         a_(a, {}),
         b_(b, b.placed.origin - a.placed.origin),
-        question_(question),
-        reach_(question.reach + kTouch) {}
+        options_(options),
+        reach_(options.reach + kTouch) {}
 
   std::optional<std::vector<ContactRegion>> find(QueryContext& work) {
-    const SingleRegionDetail one = question_.one;
+    const SingleRegionDetail one = options_.one;
     const auto near = [&](std::uint64_t most) {
       return near_triangles(a_, b_, {.reach = reach_, .most = most}, work);
     };
@@ -51,7 +51,7 @@ class RegionFinder {
         }
       }
     }
-    if (!pairs) pairs = near(question_.most_pairs);
+    if (!pairs) pairs = near(options_.most_pairs);
     if (!pairs) return std::nullopt;
     pairs_ = std::move(*pairs);
     UnionFind sets(pairs_.size() + a_.part().vertices.size() + b_.part().vertices.size());
@@ -105,11 +105,11 @@ class RegionFinder {
       const Vec3d d = part.box.hi.as<double>() - part.box.lo.as<double>();
       return std::max({d.x, d.y, d.z});
     };
-    return 4 * (question_.reach - question_.distance) > std::min(size(a_.part()), size(b_.part()));
+    return 4 * (options_.reach - options_.distance) > std::min(size(a_.part()), size(b_.part()));
   }
 
   [[nodiscard]] std::uint64_t few_pairs() const {
-    return std::min(question_.most_pairs,
+    return std::min(options_.most_pairs,
                     kFewPerTriangle * (a_.part().triangles.size() + b_.part().triangles.size()));
   }
 
@@ -146,7 +146,7 @@ class RegionFinder {
     const NearSolid in_a{of_b, of_b_, pairs_, treed_a_, reach_};
     if (b_.solid()) left -= unite_through_material(in_b, sets, work);
     if (a_.solid()) left -= unite_through_material(in_a, sets, work);
-    if (left <= 1 || !question_.interiors_meet) return left;
+    if (left <= 1 || !options_.interiors_meet) return left;
     if (b_.solid()) unite_through_interior(in_b, {sets, first_vertex(true)}, work);
     if (a_.solid()) unite_through_interior(in_a, {sets, first_vertex(false)}, work);
     left = 0;
@@ -237,7 +237,7 @@ class RegionFinder {
 
   PartWithBvh treed_a_, treed_b_;
   PairLocalPart a_, b_;
-  ContactRegionOptions question_;
+  ContactRegionOptions options_;
   double reach_;
   std::vector<NearTrianglePair> pairs_;
   PairsByTriangle of_a_, of_b_;
@@ -248,9 +248,9 @@ class RegionFinder {
 }  // namespace
 
 std::optional<ContactRegions> find_contact_regions(const PartWithBvh& a, const PartWithBvh& b,
-                                                   const ContactRegionOptions& question,
+                                                   const ContactRegionOptions& options,
                                                    QueryContext& work) {
-  const auto places = std::make_shared<RegionFinder>(a, b, question);
+  const auto places = std::make_shared<RegionFinder>(a, b, options);
   auto all = places->find(work);
   if (!all) return std::nullopt;
   return ContactRegions{
@@ -263,9 +263,9 @@ std::optional<ContactRegions> find_contact_regions(const PartWithBvh& a, const P
 
 std::optional<std::vector<ContactRegion>> contact_regions(const PartWithBvh& a,
                                                           const PartWithBvh& b,
-                                                          const ContactRegionOptions& question,
+                                                          const ContactRegionOptions& options,
                                                           QueryContext& work) {
-  return RegionFinder(a, b, question).find(work);
+  return RegionFinder(a, b, options).find(work);
 }
 
 }  // namespace strake::geometry

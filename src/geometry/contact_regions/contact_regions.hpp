@@ -55,7 +55,7 @@ struct ContactRegionOptions {
 /// traversals, shows about twice as many; an empty list where no surfaces are near: one body far
 /// inside the other.
 [[nodiscard]] std::optional<std::vector<ContactRegion>> contact_regions(
-    const PartWithBvh& a, const PartWithBvh& b, const ContactRegionOptions& question,
+    const PartWithBvh& a, const PartWithBvh& b, const ContactRegionOptions& options,
     QueryContext& work);
 
 /// A point of one part's surface.
@@ -76,7 +76,7 @@ struct ContactRegions {
   std::function<std::optional<std::uint32_t>(std::uint32_t, std::uint32_t)> region_of_pair;
 };
 [[nodiscard]] std::optional<ContactRegions> find_contact_regions(
-    const PartWithBvh& a, const PartWithBvh& b, const ContactRegionOptions& question,
+    const PartWithBvh& a, const PartWithBvh& b, const ContactRegionOptions& options,
     QueryContext& work);
 
 /// Returns a box, relative to a's origin, that contains the intersection of two parts and where

@@ -120,8 +120,8 @@ constexpr std::uint64_t kFarTooMany = 2;
 
 /// How many triangles of `b` are within reach of one of `a`, up to `most`.
 std::uint64_t count_near(const PairLocalPart& a, std::uint32_t triangle, const PairLocalPart& b,
-                         const NearTriangleOptions& question, QueryContext& work) {
-  const double squared = question.reach * question.reach;
+                         const NearTriangleOptions& options, QueryContext& work) {
+  const double squared = options.reach * options.reach;
   const DoubleTriangle own(a.corners(triangle));
   const auto shift = b.shift().as<double>();
   const auto may_reach = [&](const TriangleBvh::Node& node) {
@@ -134,7 +134,7 @@ std::uint64_t count_near(const PairLocalPart& a, std::uint32_t triangle, const P
     if (squared_gap(own.box, other.box) > squared) return true;
     ++work.triangle_pairs;
     near += triangles_within(a, b, own, other, {triangle, t}, squared, work) ? 1U : 0U;
-    return near < question.most;
+    return near < options.most;
   });
   return near;
 }
@@ -143,11 +143,11 @@ std::uint64_t count_near(const PairLocalPart& a, std::uint32_t triangle, const P
 /// pairs. Slivers that cross each other make as many near pairs as the square of their number,
 /// which a traversal notices late: most of their boxes overlap where they do not.
 bool too_many_by_samples(const PairLocalPart& a, const PairLocalPart& b,
-                         const NearTriangleOptions& question, QueryContext& work) {
+                         const NearTriangleOptions& options, QueryContext& work) {
   const std::vector<std::uint32_t>& order = a.tree().order();
   if (order.size() < kLeastSampled) return false;
-  const std::uint64_t wanted = kFarTooMany * question.most * kSampledTriangles / order.size() + 1;
-  const NearTriangleOptions each{.reach = question.reach, .most = wanted / kAgree + 1};
+  const std::uint64_t wanted = kFarTooMany * options.most * kSampledTriangles / order.size() + 1;
+  const NearTriangleOptions each{.reach = options.reach, .most = wanted / kAgree + 1};
   std::uint64_t near = 0;
   for (std::size_t i = 0; i < kSampledTriangles && near < wanted; ++i) {
     if (near + (kSampledTriangles - i) * each.most < wanted) return false;
@@ -178,18 +178,18 @@ void gather_from(const PairLocalPart& a, const PairLocalPart& b, NearTriangleCol
 
 /// A heavy traversal is restricted to pairs that the heights of flat faces leave open, which boxes
 /// of slivers cannot separate.
-void gather_by_trees(const NearTriangleOptions& question, NearTriangleCollector& all,
+void gather_by_trees(const NearTriangleOptions& options, NearTriangleCollector& all,
                      QueryContext& work) {
   const PairLocalPart &a = all.a, &b = all.b;
   const auto give_up = [&](const PairLocalPart& x, const PairLocalPart& y,
                            NearTriangleCollector& first) {
-    first.too_many = too_many_by_samples(x, y, question, first.work);
+    first.too_many = too_many_by_samples(x, y, options, first.work);
     return first.too_many;
   };
   gather_from(a, b, all, work, [&](NearTriangleCollector& first) {
     if (give_up(a, b, first)) return true;
     // Slightly more than the reach: triangles exactly at it are near.
-    const auto pieces = partition_by_height(a, b, {.apart = question.reach * (1 + 0x1p-40)});
+    const auto pieces = partition_by_height(a, b, {.apart = options.reach * (1 + 0x1p-40)});
     if (!pieces) return false;
     first.pairs.clear();
     for (const SlabPartition::Pair& pair : pieces->open) {
@@ -225,14 +225,14 @@ bool triangles_within(const PairLocalPart& a, const PairLocalPart& b, const Doub
 
 std::optional<std::vector<NearTrianglePair>> near_triangles(const PairLocalPart& a,
                                                             const PairLocalPart& b,
-                                                            const NearTriangleOptions& question,
+                                                            const NearTriangleOptions& options,
                                                             QueryContext& work) {
-  const double squared = question.reach * question.reach;
-  NearTriangleCollector all{a, b, question.most, squared};
+  const double squared = options.reach * options.reach;
+  NearTriangleCollector all{a, b, options.most, squared};
   if (a.has_bvh() && b.has_bvh()) {
-    gather_by_trees(question, all, work);
+    gather_by_trees(options, all, work);
   } else {
-    walk_lists(a, b, question.reach, all.work, all);
+    walk_lists(a, b, options.reach, all.work, all);
     work += all.work;
   }
   if (all.too_many) return std::nullopt;

@@ -25,7 +25,7 @@ struct NearTriangleOptions {
 /// first part's triangles, taken in heavy traversals, shows about twice too many: the same for any
 /// team. Parts without trees, which should be small, are scanned triangle by triangle.
 [[nodiscard]] std::optional<std::vector<NearTrianglePair>> near_triangles(
-    const PairLocalPart& a, const PairLocalPart& b, const NearTriangleOptions& question,
+    const PairLocalPart& a, const PairLocalPart& b, const NearTriangleOptions& options,
     QueryContext& work);
 
 /// Tightens the bounds of a pair to the precision of doubles.

@@ -391,11 +391,11 @@ bool is_single_region_affordable(const Part& a, const Part& b) {
 }
 
 std::optional<Box3d> find_single_region(const PairLocalPart& a, const PairLocalPart& b,
-                                        const SingleRegionOptions& question, QueryContext& work) {
+                                        const SingleRegionOptions& options, QueryContext& work) {
   if (!is_single_region_affordable(a.part(), b.part())) return std::nullopt;
-  SingleRegionFinder place(a, b, question.reach, work);
+  SingleRegionFinder place(a, b, options.reach, work);
   if (!place.certain()) return std::nullopt;
-  return question.boxed ? place.extent() : empty_box<double>();
+  return options.boxed ? place.extent() : empty_box<double>();
 }
 
 }  // namespace strake::geometry

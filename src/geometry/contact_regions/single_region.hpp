@@ -25,7 +25,7 @@ struct SingleRegionOptions {
 /// but not at vertices; each has to be connected to others over an edge.
 [[nodiscard]] std::optional<Box3d> find_single_region(const PairLocalPart& a,
                                                       const PairLocalPart& b,
-                                                      const SingleRegionOptions& question,
+                                                      const SingleRegionOptions& options,
                                                       QueryContext& work);
 
 }  // namespace strake::geometry

@@ -48,8 +48,8 @@ class ClosestSearch {
         work_(work),
         found_{.reach = limit * limit * kOutward} {}
 
-  /// `parting`: see find_closest_pair().
-  std::optional<ClosestPair> run(const std::optional<Vec3d>& parting);
+  /// `separating_direction`: see find_closest_pair().
+  std::optional<ClosestPair> run(const std::optional<Vec3d>& separating_direction);
   /// Ends at the first pair of triangles that is certainly not farther apart than the limit.
   std::optional<ClosestPair> run_until_near();
 
@@ -292,8 +292,10 @@ void ClosestSearch::offer(const SlabFaces& faces) {
   }
 }
 
-std::optional<ClosestPair> ClosestSearch::run(const std::optional<Vec3d>& parting) {
-  if (const auto faces = parting ? slab_faces(a_, b_, *parting, kSlabFaces) : std::nullopt) {
+std::optional<ClosestPair> ClosestSearch::run(const std::optional<Vec3d>& separating_direction) {
+  if (const auto faces = separating_direction
+                             ? slab_faces(a_, b_, *separating_direction, kSlabFaces)
+                             : std::nullopt) {
     offer(*faces);
     const auto near = decide();
     if ((near ? near->distance : limit_) < faces->beyond) return near;
@@ -314,8 +316,8 @@ std::optional<ClosestPair> ClosestSearch::run_until_near() {
 
 std::optional<ClosestPair> find_closest_pair(const PartWithBvh& a, const PartWithBvh& b,
                                              double limit, QueryContext& work, double slack,
-                                             const std::optional<Vec3d>& parting) {
-  return ClosestSearch(a, b, limit, slack, work).run(parting);
+                                             const std::optional<Vec3d>& separating_direction) {
+  return ClosestSearch(a, b, limit, slack, work).run(separating_direction);
 }
 
 std::optional<ClosestPair> find_pair_within(const PartWithBvh& a, const PartWithBvh& b,

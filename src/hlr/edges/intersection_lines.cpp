@@ -324,7 +324,7 @@ class IntersectionSearch {
   Status leave_out_parted() {
     if (const Status s = make_frames(); !s) return s;
     auto left = parallel::collect<IndexPair>(
-        context_, {.name = "intersections: parting planes", .n = pairs_.size(), .grain = kGrain},
+        context_, {.name = "intersections: oriented boxes", .n = pairs_.size(), .grain = kGrain},
         [&](std::size_t i, std::vector<IndexPair>& out) {
           // No plane separates equal parts in one place: of many equal objects all pairs are so.
           if (a(i).unique == b(i).unique && a(i).placed.origin == b(i).placed.origin)

@@ -102,7 +102,7 @@ bool names_objects(const Drawing& drawing) {
   return !without_defects(drawing.diagnostics).counts().empty();
 }
 
-/// All is as it was: but objects may have other names.
+/// Returns the earlier drawing where all lines are as they were; objects may have other names.
 Redrawn draw_nothing(const RedrawRequest& request, Drawing earlier) {
   Redrawn redrawn{.drawing = std::move(earlier)};
   Drawing& drawing = redrawn.drawing;
@@ -188,7 +188,7 @@ Result<Redrawn> draw_what_changed(const RedrawRequest& request, ComparedDrawing 
                             whole->view_of(hatches),
                             std::move(*sections)};
   const auto reach = find_reach(changed, context);
-  if (reach && reach->most) return draw_all(request, kMostOfIt, context);
+  if (reach && reach->reaches_most) return draw_all(request, kMostOfIt, context);
   const auto part = reach ? draw_part(changed, *reach, context) : Result<Drawing>(reach.error());
   if (!part) {
     if (part.error().code == ErrorCode::cancelled) return part.error();

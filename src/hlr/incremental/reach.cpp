@@ -57,7 +57,7 @@ class ReachSearch {
   Result<ChangeReach> run() {
     ChangeReach reach;
     if (!std::ranges::all_of(boxes_, [&](const Box3l& box) { return paper_.reaches(box); })) {
-      reach.most = true;
+      reach.reaches_most = true;
       return reach;
     }
     const auto impacts = find_impacts();
@@ -65,14 +65,14 @@ class ReachSearch {
     std::vector<bool> candidates(impacts->size());
     for (std::size_t o = 0; o < candidates.size(); ++o)
       candidates[o] = (*impacts)[o] != ChangeImpact::none;
-    if (reach.most = is_most(candidates); reach.most) return reach;
+    if (reach.reaches_most = is_most(candidates); reach.reaches_most) return reach;
     const auto edges = find_edges(candidates);
     if (!edges) return edges.error();
     reach.asked.resize(candidates.size());
     for (const ObjectEdges& one : *edges)
       reach.asked[one.object] = one.reached || (*impacts)[one.object] == ChangeImpact::sure;
     if (const Status status = find_needed(*edges, reach); !status) return status.error();
-    reach.most = is_most(reach.needed);
+    reach.reaches_most = is_most(reach.needed);
     return reach;
   }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "geometry/primitives/lengths.hpp"
 #include "hlr/incremental/extents.hpp"
 #include "hlr/prepare/drawn_objects.hpp"
 #include "hlr/prepare/view_job.hpp"
@@ -62,8 +62,7 @@ void add(HashedNumbers& words, const geometry::Primitive& primitive) {
   words.add(std::uint64_t{primitive.index()});
   std::visit(
       [&](const auto& kind) {
-        using Numbers = std::array<double, sizeof(kind) / sizeof(double)>;
-        for (const double number : std::bit_cast<Numbers>(kind)) words.add(number);
+        for (const double length : geometry::lengths_of(kind)) words.add(length);
       },
       primitive);
 }
@@ -133,18 +132,23 @@ void add(Hasher& hasher, const View& view) {
   hasher.add(view.perspective->near_mm).add(view.perspective->field_of_view_deg);
 }
 
+/// Takes all options apart, so that a new one is thought of here. Solver, culling and bucketing
+/// change the work and no line; hatches and what is left uncut stand in the words of each object.
 void add(Hasher& hasher, const Options& options) {
-  hasher.add(static_cast<std::uint32_t>(options.stage))
-      .add(options.sharp_angle_deg)
-      .add(static_cast<std::uint32_t>(options.smooth))
-      .add(options.contact_distance_mm)
-      .add(static_cast<std::uint32_t>(options.intersections))
-      .add(static_cast<std::uint32_t>(options.own_polylines))
-      .add(options.flush_seams ? 1U : 0U)
-      .add(options.sag_mm)
-      .add(options.hidden ? 1U : 0U)
-      .add(options.keep_specks ? 1U : 0U)
-      .add(options.hatch_spacing_mm);
+  const auto& [stage, solver, sharp_angle, smooth, contact_distance, intersections, own_polylines,
+               flush_seams, sag, culling, bucketing, hidden, keep_specks, hatch_spacing, hatches,
+               uncut] = options;
+  hasher.add(static_cast<std::uint32_t>(stage))
+      .add(sharp_angle)
+      .add(static_cast<std::uint32_t>(smooth))
+      .add(contact_distance)
+      .add(static_cast<std::uint32_t>(intersections))
+      .add(static_cast<std::uint32_t>(own_polylines))
+      .add(flush_seams ? 1U : 0U)
+      .add(sag)
+      .add(hidden ? 1U : 0U)
+      .add(keep_specks ? 1U : 0U)
+      .add(hatch_spacing);
 }
 
 /// What a drawing sees of objects, as words that are hashed.

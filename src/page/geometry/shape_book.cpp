@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "geometry/primitives/lengths.hpp"
 #include "geometry/primitives/tessellate.hpp"
 #include "strake/geometry/grid.hpp"
 #include "strake/parallel/transform.hpp"
@@ -23,14 +24,12 @@ using ShapeSource = std::variant<UnitPrimitive, std::uint32_t>;
 /// A unit by its kind and its measures, whose bits are compared.
 using UnitKey = std::pair<std::size_t, std::vector<std::uint64_t>>;
 
-/// Appends the members of a primitive: each is a struct of doubles.
 UnitKey key_of(const UnitPrimitive& unit) {
   UnitKey key{unit.unit.index(), {std::bit_cast<std::uint64_t>(unit.sag_mm)}};
   std::visit(
       [&](const auto& primitive) {
-        using Numbers = std::array<std::uint64_t, sizeof(primitive) / sizeof(double)>;
-        const auto numbers = std::bit_cast<Numbers>(primitive);
-        key.second.insert(key.second.end(), numbers.begin(), numbers.end());
+        for (const double length : geometry::lengths_of(primitive))
+          key.second.push_back(std::bit_cast<std::uint64_t>(length));
       },
       unit.unit);
   return key;

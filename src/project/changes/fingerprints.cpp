@@ -2,7 +2,6 @@
 #include "project/changes/fingerprints.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +11,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "geometry/primitives/lengths.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::project {
@@ -75,10 +75,8 @@ struct ShapeFingerprint {
     Hasher hasher;
     hasher.add(geometry::kind_name(primitive));
     std::visit(
-        [&]<class Kind>(const Kind& kind) {
-          for (const double length :
-               std::bit_cast<std::array<double, sizeof(Kind) / sizeof(double)>>(kind))
-            hasher.add(length);
+        [&](const auto& kind) {
+          for (const double length : geometry::lengths_of(kind)) hasher.add(length);
         },
         primitive);
     return hasher.value();

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <utility>
 #include <variant>
 
+#include "geometry/primitives/lengths.hpp"
 #include "project/codec/blob.hpp"
 #include "project/model/columns.hpp"
 
@@ -15,15 +15,15 @@ namespace {
 
 using geometry::Primitive;
 
-/// Kinds are numbered as the variant is: a new primitive comes last, or is a new version of tables.
+/// Kinds are numbered as the variant is, and each has columns of its own: one more kind, or one
+/// more length of one, is a new version of the tables (database/schema.hpp).
 constexpr std::size_t kPrimitiveKinds = std::variant_size_v<Primitive>;
 static_assert(kPrimitiveKinds == 10 &&
               std::is_same_v<std::variant_alternative_t<9, Primitive>, geometry::LinePrimitive>);
 constexpr auto kSharedKind = static_cast<std::uint8_t>(kPrimitiveKinds);
 
 template <std::size_t Kind>
-using Lengths =
-    std::array<double, sizeof(std::variant_alternative_t<Kind, Primitive>) / sizeof(double)>;
+using Lengths = geometry::Lengths<std::variant_alternative_t<Kind, Primitive>>;
 
 /// Appends the lengths of all primitives of one kind, first lengths first.
 template <std::size_t Kind>
@@ -33,7 +33,7 @@ void write_kind(BlobWriter& out, std::span<const model::Shape> shapes) {
     const auto* const any = std::get_if<Primitive>(&shape);
     const auto* const primitive = any == nullptr ? nullptr : std::get_if<Kind>(any);
     if (primitive == nullptr) continue;
-    const auto lengths = std::bit_cast<Lengths<Kind>>(*primitive);
+    const auto lengths = geometry::lengths_of(*primitive);
     for (std::size_t k = 0; k < lengths.size(); ++k) columns[k].push_back(lengths[k]);
   }
   for (const std::vector<double>& column : columns) out.planes(column);
@@ -54,7 +54,7 @@ void read_kind(BlobReader& in, std::span<const std::uint8_t> kinds,
     if (kinds[i] != Kind) continue;
     Lengths<Kind> lengths;
     for (std::size_t k = 0; k < lengths.size(); ++k) lengths[k] = columns[k][n];
-    shapes[i] = Primitive(std::bit_cast<std::variant_alternative_t<Kind, Primitive>>(lengths));
+    shapes[i] = geometry::from_lengths<std::variant_alternative_t<Kind, Primitive>>(lengths);
     ++n;
   }
 }

@@ -15,26 +15,17 @@ namespace {
 std::string named(const SoughtObject& object) { return "'" + std::string(object.name) + "'"; }
 
 bool exempts(const clash::Exemption& exemption, std::uint32_t a, std::uint32_t b) {
-  if (const auto* const between = std::get_if<clash::Between>(&exemption.test))
-    return (between->a[a] && between->b[b]) || (between->a[b] && between->b[a]);
-  if (const auto* const label = std::get_if<clash::SameLabel>(&exemption.test))
-    return clash::exempts(*label, a, b);
-  return clash::exempts(std::get<clash::Linked>(exemption.test), a, b);
+  return std::visit([&](const auto& test) { return clash::exempts(test, a, b); }, exemption.test);
 }
 
 /// The cell of two objects in a matrix; the default where there is none.
 std::uint32_t cell_of(const clash::Policy& policy, std::uint32_t a, std::uint32_t b) {
-  if (!policy.matrix) return clash::Matrix::kDefault;
-  const clash::Matrix& matrix = *policy.matrix;
-  const std::uint32_t row = matrix.discipline[a], column = matrix.discipline[b];
-  if (row == clash::kNoLabel || column == clash::kNoLabel) return clash::Matrix::kDefault;
-  return matrix.cells[row * matrix.disciplines.size() + column];
+  return policy.matrix ? clash::cell_of(*policy.matrix, a, b) : clash::Matrix::kDefault;
 }
 
 /// Returns how far apart two objects may be and still be a result of a report.
 double reach_of(const clash::Tolerances& tolerances, std::uint32_t a, std::uint32_t b) {
-  return std::max(tolerances.clearance_mm + tolerances.added_clearance_mm(a, b),
-                  tolerances.touch_gap_mm);
+  return clash::reach_of(tolerances, tolerances.added_clearance_mm(a, b));
 }
 
 bool has_same_lengths(const clash::Tolerances& x, const clash::Tolerances& y) {

@@ -164,11 +164,12 @@ class Head {
  private:
   template <class T>
   void tolerances(T& t) {
-    io_.real(t.clearance_mm);
-    io_.real(t.touch_gap_mm);
-    io_.real(t.touch_overlap_mm);
-    io_.word(t.thickness_cap, clash::ThicknessCap::off);
-    clearances(t.object_clearances);
+    auto& [clearance, gap, overlap, cap, added] = t;  // of all members, or it does not compile
+    io_.real(clearance);
+    io_.real(gap);
+    io_.real(overlap);
+    io_.word(cap, clash::ThicknessCap::off);
+    clearances(added);
   }
 
   /// Cells of a matrix share what objects add: it is written where it comes first.
@@ -208,17 +209,17 @@ class Head {
   void options(O& o) {
     tolerances(o.tolerances);
     io_.real(o.contact_distance_mm);
-    auto& engine = o.engine;
-    io_.word(engine.broad_phase, clash::BroadPhase::all_pairs);
-    io_.word(engine.narrow_phase, clash::NarrowPhase::sphere_subdivision);
-    io_.number(engine.most_spheres);
-    io_.word(engine.volumes, clash::Volumes::on);
-    io_.word(engine.curves, clash::Curves::on);
-    io_.word(engine.contacts, clash::Contacts::count);
-    io_.number(engine.most_regions);
-    io_.flag(engine.log_pairs);
-    io_.flag(engine.keep_for_changes);
-    io_.number(engine.most_pairs);
+    auto& [broad, narrow, spheres, volumes, curves, contacts, regions, log, keep, pairs] = o.engine;
+    io_.word(broad, clash::BroadPhase::all_pairs);
+    io_.word(narrow, clash::NarrowPhase::sphere_subdivision);
+    io_.number(spheres);
+    io_.word(volumes, clash::Volumes::on);
+    io_.word(curves, clash::Curves::on);
+    io_.word(contacts, clash::Contacts::count);
+    io_.number(regions);
+    io_.flag(log);
+    io_.flag(keep);
+    io_.number(pairs);
     io_.relations(o.reporting.relations);
     io_.real(o.reporting.min_volume_mm3);
   }

@@ -121,47 +121,54 @@ std::vector<hlr::Hatch> read_hatches(BlobReader& in) {
   return hatches;
 }
 
+/// Takes all options apart: one more does not compile, here or in read_options().
 void write(BlobWriter& out, const hlr::Options& options) {
-  write_enum(out, options.stage);
-  write_enum(out, options.solver);
-  out.real(options.sharp_angle_deg);
-  write_enum(out, options.smooth);
-  out.real(options.contact_distance_mm);
-  write_enum(out, options.intersections);
-  write_enum(out, options.own_polylines);
-  out.number(options.flush_seams ? 1 : 0);
-  out.real(options.sag_mm);
-  out.number(options.culling ? 1 : 0);
-  out.integer(options.bucketing);
-  out.number(options.hidden ? 1 : 0);
-  out.number(options.keep_specks ? 1 : 0);
-  out.real(options.hatch_spacing_mm);
-  write(out, std::span<const hlr::Hatch>(options.hatches));
-  out.flags(options.uncut);
+  const auto& [stage, solver, sharp_angle, smooth, contact_distance, intersections, own_polylines,
+               flush_seams, sag, culling, bucketing, hidden, keep_specks, hatch_spacing, hatches,
+               uncut] = options;
+  write_enum(out, stage);
+  write_enum(out, solver);
+  out.real(sharp_angle);
+  write_enum(out, smooth);
+  out.real(contact_distance);
+  write_enum(out, intersections);
+  write_enum(out, own_polylines);
+  out.number(flush_seams ? 1 : 0);
+  out.real(sag);
+  out.number(culling ? 1 : 0);
+  out.integer(bucketing);
+  out.number(hidden ? 1 : 0);
+  out.number(keep_specks ? 1 : 0);
+  out.real(hatch_spacing);
+  write(out, std::span<const hlr::Hatch>(hatches));
+  out.flags(uncut);
 }
 
 hlr::Options read_options(BlobReader& in) {
   hlr::Options options;
-  options.stage = read_enum(in, hlr::Stage::global);
-  options.solver = read_enum(in, hlr::Solver::push);
-  options.sharp_angle_deg = read_finite(in);
-  options.smooth = read_enum(in, hlr::Smooth::all);
-  options.contact_distance_mm = read_finite(in);
-  options.intersections = read_enum(in, hlr::Intersections::parts);
-  options.own_polylines = read_enum(in, hlr::OwnPolylines::hidden);
-  options.flush_seams = in.number() != 0;
-  options.sag_mm = read_finite(in);
-  options.culling = in.number() != 0;
-  const std::int64_t bucketing = in.integer();
-  if (bucketing < hlr::Options::kBucketsByData || bucketing > hlr::Options::kMostBuckets)
+  auto& [stage, solver, sharp_angle, smooth, contact_distance, intersections, own_polylines,
+         flush_seams, sag, culling, bucketing, hidden, keep_specks, hatch_spacing, hatches, uncut] =
+      options;
+  stage = read_enum(in, hlr::Stage::global);
+  solver = read_enum(in, hlr::Solver::push);
+  sharp_angle = read_finite(in);
+  smooth = read_enum(in, hlr::Smooth::all);
+  contact_distance = read_finite(in);
+  intersections = read_enum(in, hlr::Intersections::parts);
+  own_polylines = read_enum(in, hlr::OwnPolylines::hidden);
+  flush_seams = in.number() != 0;
+  sag = read_finite(in);
+  culling = in.number() != 0;
+  const std::int64_t buckets = in.integer();
+  if (buckets < hlr::Options::kBucketsByData || buckets > hlr::Options::kMostBuckets)
     in.refuse("an option has a value that this version does not know");
   else
-    options.bucketing = static_cast<std::int32_t>(bucketing);
-  options.hidden = in.number() != 0;
-  options.keep_specks = in.number() != 0;
-  options.hatch_spacing_mm = read_finite(in);
-  options.hatches = read_hatches(in);
-  options.uncut = in.flags();
+    bucketing = static_cast<std::int32_t>(buckets);
+  hidden = in.number() != 0;
+  keep_specks = in.number() != 0;
+  hatch_spacing = read_finite(in);
+  hatches = read_hatches(in);
+  uncut = in.flags();
   return options;
 }
 

@@ -54,7 +54,7 @@ class FileMatcher {
       if (!x) return x.error();
       const Result<std::size_t> y = find_given_file(after_, sought_after_, pair.after, "new");
       if (!y) return y.error();
-      take(*x, *y, FileRelation::asked);
+      take(*x, *y, FileRelation::requested);
     }
     return {};
   }

@@ -21,7 +21,7 @@ std::string_view relation_name(FileRelation relation) {
   switch (relation) {
     case FileRelation::same_label:
       return "same label";
-    case FileRelation::asked:
+    case FileRelation::requested:
       return "asked";
     case FileRelation::renamed:
       return "renamed";
@@ -52,7 +52,7 @@ std::string grouped(std::uint64_t number) {
 std::string described(const FileMatch& m) {
   if (m.of == 0) return printable(m.before) + " -> " + printable(m.after);
   std::string text = printable(m.before) + " -> " + printable(m.after) + " (" +
-                     (m.relation == FileRelation::asked ? "as asked for, " : "") +
+                     (m.relation == FileRelation::requested ? "as asked for, " : "") +
                      grouped(m.common) + " of " + grouped(m.of) +
                      (m.by_places ? " places" : " ids");
   const bool part = m.relation == FileRelation::split || m.relation == FileRelation::merged;
@@ -87,7 +87,7 @@ bool follows_from_others(const FileMatches& files, const AmbiguousFile& file) {
 
 std::string file_matches_text(const FileMatches& files) {
   std::string text;
-  const auto renamed = those_of(files, {FileRelation::asked, FileRelation::renamed});
+  const auto renamed = those_of(files, {FileRelation::requested, FileRelation::renamed});
   if (!renamed.empty())
     text += "files are taken as renamed: " + joined(renamed, ", ", described) + "\n";
   const auto parts = those_of(files, {FileRelation::split, FileRelation::merged});
@@ -106,7 +106,7 @@ std::string file_matches_text(const FileMatches& files) {
 }
 
 void append_file_matches(std::string& out, const FileMatches& files) {
-  const auto told = those_of(files, {FileRelation::asked, FileRelation::renamed,
+  const auto told = those_of(files, {FileRelation::requested, FileRelation::renamed,
                                      FileRelation::split, FileRelation::merged});
   if (!told.empty()) {
     out += ",\n";

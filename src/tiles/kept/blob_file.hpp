@@ -15,8 +15,8 @@ namespace strake::tiles {
 
 using project::Blob;
 
-/// The code with which run_tile() and others begin the message about a file that is not what was
-/// written there: who has what it was made of makes it again.
+/// What find_in_tile(), read_tile() and others say of a file that is not what was written there:
+/// who has what it was made of makes it again.
 inline constexpr const char* kLost = "is missing or damaged";
 
 /// Writes a file, whole or not at all. Errors: output.

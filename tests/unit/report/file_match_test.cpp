@@ -197,7 +197,7 @@ TEST(FileMatch, AskedPairsComeFirst) {
   const std::vector<FileContents> after{file("a", ids(10, 19)), file("b", ids(0, 9))};
   const FileMatches swapped = matched(before, after, {{"a", "b"}});
   EXPECT_EQ(swapped.matches, (std::vector<FileMatch>{{"b", "a", FileRelation::renamed, 9, 9},
-                                                     {"a", "b", FileRelation::asked, 9, 9}}));
+                                                     {"a", "b", FileRelation::requested, 9, 9}}));
   const FileMatches told = matched({file("x", ids(0, 2))}, {file("y", ids(5, 7))}, {{"x", "y"}});
   EXPECT_EQ(file_matches_text(told),
             "files are taken as renamed: x -> y (as asked for, 0 of 4 ids in common)\n");

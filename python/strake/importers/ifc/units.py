@@ -108,6 +108,10 @@ def _units_of(model: Model) -> list[Entity]:
     return []
 
 
+# A unit may be derived from itself in a file that somebody made up.
+_DEEPEST_UNIT = 4
+
+
 def project_length_unit(model: Model) -> Entity | None:
     """Returns the unit of length of the project; nothing where it states none."""
     return next((unit for unit in _units_of(model) if getattr(unit, "UnitType", None) == "LENGTHUNIT"), None)
@@ -126,10 +130,6 @@ def millimetres_of(unit: Entity | None, depth: int = 0) -> float | None:
         value = getattr(factor.ValueComponent, "wrappedValue", None) if factor is not None else None
         return of * float(value) if of is not None and isinstance(value, (int, float)) and value > 0 else None
     return None
-
-
-# A unit may be derived from itself in a file that somebody made up.
-_DEEPEST_UNIT = 4
 
 
 def unit_name(unit: Entity, depth: int = 0) -> str:

@@ -30,19 +30,19 @@ constexpr std::size_t kMostLevelPlanes = 64;
 
 class LevelSearch {
  public:
-  LevelSearch(const DistanceField& of, const DistanceField& in, const LevelQuery& question,
+  LevelSearch(const DistanceField& of, const DistanceField& in, const LevelQuery& query,
               const DepthOptions& goal, QueryContext& work)
       : of_(of),
         in_(in),
-        q_(question),
+        q_(query),
         goal_(goal),
         work_(work),
-        flat_((question.level - question.known) / 8),
+        flat_((query.level - query.known) / 8),
         about_of_(of),
         about_in_(in) {
     const Box3d x = of.box(), y = in.box();
     Box3d within = x;
-    if (goal.within) within = goal.within->inflated(question.ceiling - question.level);
+    if (goal.within) within = goal.within->inflated(query.ceiling - query.level);
     for (int k = 0; k < 3; ++k) {
       room_.lo[k] = std::max({x.lo[k], y.lo[k], within.lo[k]});
       room_.hi[k] = std::min({x.hi[k], y.hi[k], within.hi[k]});
@@ -340,9 +340,9 @@ std::vector<HalfSpace> half_spaces_of(const DistanceField& part) {
 }
 
 LevelResult search_above_level(const DistanceField& of, const DistanceField& in,
-                               const LevelQuery& question, const DepthOptions& goal,
+                               const LevelQuery& query, const DepthOptions& goal,
                                QueryContext& work) {
-  return LevelSearch(of, in, question, goal, work).run();
+  return LevelSearch(of, in, query, goal, work).run();
 }
 
 }  // namespace strake::geometry

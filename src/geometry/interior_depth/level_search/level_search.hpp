@@ -42,7 +42,7 @@ struct LevelResult {
 /// first that are as deep, and the offset surface (triangles moved inwards, rounded reflex edges
 /// and vertices) for points in both that are no nearer to another triangle.
 [[nodiscard]] LevelResult search_above_level(const DistanceField& of, const DistanceField& in,
-                                             const LevelQuery& question, const DepthOptions& goal,
+                                             const LevelQuery& query, const DepthOptions& goal,
                                              QueryContext& work);
 
 }  // namespace strake::geometry

@@ -2,27 +2,23 @@
 #include "io/gltf/neutral/primitive_lengths.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstddef>
 #include <utility>
 #include <variant>
 
+#include "geometry/primitives/lengths.hpp"
+
 namespace strake::io::gltf {
 namespace {
-
-/// A primitive consists of doubles and nothing else.
-template <class Kind>
-using LengthsOf = std::array<double, sizeof(Kind) / sizeof(double)>;
 
 template <std::size_t Kind>
 void make_if(std::string_view kind, std::span<const double> lengths,
              std::optional<geometry::Primitive>& made) {
   using Made = std::variant_alternative_t<Kind, geometry::Primitive>;
-  LengthsOf<Made> numbers{};
+  geometry::Lengths<Made> numbers{};
   if (numbers.size() != lengths.size() || geometry::kind_name(Made{}) != kind) return;
   std::ranges::copy(lengths, numbers.begin());
-  made = std::bit_cast<Made>(numbers);
+  made = geometry::from_lengths<Made>(numbers);
 }
 
 }  // namespace
@@ -30,7 +26,7 @@ void make_if(std::string_view kind, std::span<const double> lengths,
 std::vector<double> lengths_of(const geometry::Primitive& primitive) {
   return std::visit(
       [](const auto& one) {
-        const auto numbers = std::bit_cast<LengthsOf<std::decay_t<decltype(one)>>>(one);
+        const auto numbers = geometry::lengths_of(one);
         return std::vector<double>(numbers.begin(), numbers.end());
       },
       primitive);
