@@ -44,10 +44,8 @@ def convert(job: Job) -> None:
         sag_m = SAG_M if job.sag_mm is None else job.sag_mm / 1000
         conversion = convert_products(model, products.solid, job.threads, job.report, folder, sag_m)
         if conversion.slow_cuts:
-            what = f"{conversion.slow_cuts} products with openings or cut bodies"
-            job.report.note(
-                "ifc-slow-cuts", f"{what} are cut by Open CASCADE; manifold3d takes a tenth of its time: pip install 'strake[ifc]'"
-            )
+            what = f"{conversion.slow_cuts} products with openings or half-spaces are cut by Open CASCADE"
+            job.report.note("ifc-slow-cuts", f"{what}; manifold3d takes a tenth of its time: pip install 'strake[ifc]'")
         _write(job, model, units, products, conversion)
 
 
