@@ -13,10 +13,12 @@ import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
+from strake.importers.ifc.cuts import cut_products
 from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.faces import Faces, faces_of
-from strake.importers.ifc.kernels import SAG_M, geometry_settings, shapes_of
+from strake.importers.ifc.kernels import CUT, SAG_M, geometry_settings, shapes_of
 from strake.importers.ifc.pinched import outlines_of, split_face
+from strake.importers.ifc.solids import Mesh
 from strake.importers.shapes import Color, Part, PreparedShape, prepare_shape
 
 # The fault of a shape without a triangle.
@@ -75,6 +77,9 @@ def convert_chunk(model: Model, chunk: Chunk, sag_m: float = SAG_M) -> Iterator[
     """
     log: Any = ifcopenshell_wrapper.logger()
     log.output_format(log.FMT_INMEMORY)
+    if chunk.kernel == CUT:
+        yield from _cut(model, chunk, sag_m, log)
+        return
     keys: dict[int, bytes] = {}
     for converted in _converted_by(model, chunk, sag_m, log):
         keys[converted.product] = converted.key
@@ -101,6 +106,31 @@ def _converted_by(model: Model, chunk: Chunk, sag_m: float, log: Any) -> Iterato
         element = iterator.get()
         yield _converted(model, element, known, chunk.kernel, sag_m)
         going = bool(iterator.next())
+
+
+def _cut(model: Model, chunk: Chunk, sag_m: float, log: Any) -> Iterator[Converted]:
+    known: set[bytes] = set()
+    for cut in cut_products(model, chunk.products, sag_m, log, _color):
+        fault = cut.fault or (EMPTY if not cut.pieces else "")
+        if fault:
+            yield Converted(cut.product, b"", (0, 0, 0), b"", None, chunk.kernel, fault)
+            continue
+        shape = prepare_shape(_parts_of_pieces(cut.pieces), sag_mm=_sag_mm(model.by_id(cut.product), sag_m))
+        placement = cut.placement.copy()
+        placement[:3, 3] *= _MM_PER_M
+        yield Converted(cut.product, shape.key, shape.middle, placement.tobytes(), None if shape.key in known else shape, chunk.kernel)
+        known.add(shape.key)
+
+
+def _parts_of_pieces(pieces: Sequence[tuple[Mesh, Color]]) -> list[Part]:
+    """Returns the triangles of each colour."""
+    parts = []
+    for color in dict.fromkeys(color for _, color in pieces):
+        meshes = [mesh for mesh, worn in pieces if worn == color]
+        first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
+        triangles = [mesh.triangles + before for mesh, before in zip(meshes, first, strict=False)]
+        parts.append(Part(np.concatenate([mesh.vertices for mesh in meshes]), np.concatenate(triangles), color))
+    return parts
 
 
 def _mended(model: Model, log: Any, doubtful: Set[int]) -> set[int]:

@@ -15,10 +15,11 @@ import numpy as np
 from ifcopenshell import ifcopenshell_wrapper
 from numpy.typing import NDArray
 
-from strake.importers.ifc.chunks import Again, Chunk, Converted, EMPTY, Remark, convert_chunk
+from strake.importers.ifc.chunks import EMPTY, Again, Chunk, Converted, Remark, convert_chunk
 from strake.importers.ifc.entity import Entity, Model, number_of
-from strake.importers.ifc.kernels import EXACT, FAST, SAG_M, geometry_settings, has_body, kernels_for, shapes_of
+from strake.importers.ifc.kernels import CUT, EXACT, FAST, SAG_M, geometry_settings, has_body, kernels_for, shapes_of
 from strake.importers.ifc.products import CircleFinder
+from strake.importers.ifc.solids import manifold3d_files
 from strake.importers.ifc.workers import Ended, Workers
 from strake.importers.report import Report
 from strake.importers.shapes import PreparedShape
@@ -78,6 +79,7 @@ class Conversion:
     empty: set[int] = field(default_factory=set)  # of those that failed: all kernels find that nothing is left
     remarks: dict[int, list[tuple[str, str]]] = field(default_factory=dict)
     bodyless: list[int] = field(default_factory=list)
+    slow_cuts: int = 0  # products that manifold3d would cut, if it were installed
 
     def remarks_of(self, number: int) -> list[str]:
         """Returns the faults that the kernel found which made the shape; where none did, those of all."""
@@ -123,7 +125,10 @@ def convert_products(
         tasks = tasks_of(model, products) if products else []
     except RuntimeError as fault:  # what stands for all products is none, as the units of the project
         report.fail(f"IfcOpenShell makes no shapes of it: {fault}", "export the model as IFC (STEP) again")
-    kernels_of = {number: kernels for task in tasks for kernels in [kernels_for(model.by_id(task[0]))] for number in task}
+    cutting = bool(manifold3d_files())
+    kernels_of = {number: kernels for task in tasks for kernels in [kernels_for(model.by_id(task[0]), cutting)] for number in task}
+    if not cutting:
+        result.slow_cuts = sum(kernels_for(model.by_id(number), True)[0] == CUT for number in kernels_of)
     result.bodyless = [product.id() for product in products if product.id() not in kernels_of]
     with Workers(model, threads, convert=partial(convert_chunk, sag_m=sag_m)) as workers:
         for chunk in chunks_of(tasks, kernels_of):

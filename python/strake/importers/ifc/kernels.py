@@ -34,6 +34,9 @@ _NOT_FAST = {
 
 FAST = "cgal-simple"
 EXACT = "opencascade"
+# The fast kernel makes the bodies, manifold3d cuts them. No kernel of IfcOpenShell.
+CUT = "cgal-simple with manifold3d"
+_CUTS = {"opening", "IfcBooleanClippingResult", "IfcBooleanResult"}
 # Representations that are no body.
 NO_BODY = {"Axis", "Box", "FootPrint", "Plan", "Annotation", "Profile", "CoG", "Clearance", "Lighting", "Reference"}
 _MOST_DEPTH = 12
@@ -41,6 +44,7 @@ _MOST_DEPTH = 12
 # What is tried for a product, one after the other, until one gives a shape.
 AFTER_FAST = (FAST, EXACT, "cgal")
 AFTER_EXACT = (EXACT, FAST, "cgal")
+AFTER_CUT = (CUT, *AFTER_EXACT)
 
 
 def geometry_settings(sag_m: float = SAG_M) -> ifcopenshell.geom.settings:
@@ -103,9 +107,12 @@ def _add_items(items: Iterable[Entity], result: set[str], depth: int) -> None:
         _add_items(inner, result, depth + 1)
 
 
-def kernels_for(product: Entity) -> tuple[str, ...]:
-    """Returns the kernels that are tried for a product, one after the other."""
-    return AFTER_EXACT if (_stated_items(product) or set()) & _NOT_FAST else AFTER_FAST
+def kernels_for(product: Entity, can_cut: bool) -> tuple[str, ...]:
+    """Returns the kernels that are tried for a product, one after the other. `can_cut`: manifold3d is there."""
+    slow = (_stated_items(product) or set()) & _NOT_FAST
+    if not slow:
+        return AFTER_FAST
+    return AFTER_CUT if can_cut and slow <= _CUTS else AFTER_EXACT
 
 
 def _stated_items(product: Entity) -> set[str] | None:

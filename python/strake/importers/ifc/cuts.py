@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Products with openings and cut bodies: the fast kernel makes the bodies, manifold3d cuts them (decision 0121)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from strake.importers.ifc.entity import Entity, Model
+from strake.importers.ifc.half_spaces import half_space
+from strake.importers.ifc.kernels import FAST, NO_BODY, geometry_settings, shapes_of
+from strake.importers.ifc.solids import Corners, Mesh, Unfit, difference
+from strake.importers.shapes import Color
+
+_MM_PER_M = 1000.0
+_BOOLEANS = ("IfcBooleanClippingResult", "IfcBooleanResult")
+_MOST_CUTS = 1000
+_MOST_DEPTH = 100
+
+
+@dataclass(frozen=True)
+class Cut:
+    """What is left of a product in its own frame, in millimetres, and its placement as the kernel has it."""
+
+    product: int
+    pieces: list[tuple[Mesh, Color]]
+    placement: Any
+    fault: str = ""
+
+
+@dataclass
+class _Plan:
+    """How the body of a product, or of an opening, comes about: items, by number, and what is taken from each."""
+
+    openings: list[int] = field(default_factory=list)
+    clips: dict[int, list[Entity]] = field(default_factory=dict)
+    # Boolean results in the place of which the kernel is to find their first operand, by representation.
+    replaced: dict[int, dict[int, int]] = field(default_factory=dict)
+    styled: dict[int, int] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class _Body:
+    items: dict[int, tuple[Mesh, Color]]
+    placement: Any
+
+
+def cut_products(model: Model, products: Sequence[int], sag_m: float, log: Any, color_of: Any) -> Iterator[Cut]:
+    """Yields what openings and half-spaces leave of products, or why that is not told."""
+    plans: dict[int, _Plan | str] = {}
+    for number in products:
+        plans[number] = _planned(model.by_id(number), with_openings=True)
+    for plan in list(plans.values()):
+        for opening in plan.openings if isinstance(plan, _Plan) else ():
+            if opening not in plans:
+                plans[opening] = _planned(model.by_id(opening), with_openings=False)
+    sound = {number: plan for number, plan in plans.items() if isinstance(plan, _Plan)}
+    settings = geometry_settings(sag_m)
+    settings.set("disable-opening-subtractions", True)
+    bodies: dict[int, _Body | str] = {number: plan for number, plan in plans.items() if isinstance(plan, str)}
+    with _first_operands(model, sound.values()):
+        iterator = shapes_of(model, sorted(sound), settings, FAST, log)
+        unit_mm = float(iterator.unit_magnitude()) * _MM_PER_M
+        going = iterator.initialize()
+        while going:
+            element = iterator.get()
+            bodies[element.id] = _body(element, color_of) if element.id not in bodies else "several bodies"
+            going = bool(iterator.next())
+    for number, fault in _faults(log).items():
+        bodies[number] = fault
+    for number in products:
+        try:
+            yield _cut(number, sound, bodies, unit_mm)
+        except (AttributeError, IndexError, RuntimeError, TypeError, ValueError) as fault:
+            yield Cut(number, [], None, str(fault))
+
+
+def _cut(number: int, plans: dict[int, _Plan], bodies: dict[int, _Body | str], unit_mm: float) -> Cut:
+    body = _whole(number, bodies)
+    pieces = _clipped(body, plans[number], unit_mm)
+    cutters = []
+    for opening in plans[number].openings:
+        other = _whole(opening, bodies)
+        turned, moved = _relative(body.placement, other.placement)
+        for mesh, _ in _clipped(other, plans[opening], unit_mm):
+            cutters.append(Mesh(mesh.vertices @ turned.T + moved, mesh.triangles))
+    if cutters:
+        left = difference([mesh for mesh, _ in pieces], cutters)
+        pieces = [(piece, color) for (_, color), some in zip(pieces, left, strict=True) for piece in some]
+    return Cut(number, pieces, body.placement)
+
+
+def _whole(number: int, bodies: dict[int, _Body | str]) -> _Body:
+    body = bodies.get(number, "no shape")
+    if isinstance(body, str):
+        raise Unfit(body)
+    return body
+
+
+def _clipped(body: _Body, plan: _Plan, unit_mm: float) -> list[tuple[Mesh, Color]]:
+    """Returns what half-spaces leave of the items of a body."""
+    if missing := plan.clips.keys() - body.items.keys():
+        raise Unfit(f"no shape of #{min(missing)}")
+    pieces: list[tuple[Mesh, Color]] = []
+    for item, (mesh, color) in body.items.items():
+        low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
+        stated = [half_space(clip, unit_mm, low, high) for clip in plan.clips.get(item, ())]
+        cutters = [cutter for cutter in stated if cutter is not None]
+        pieces += [(piece, color) for piece in (difference([mesh], cutters)[0] if cutters else [mesh])]
+    return pieces
+
+
+def _relative(frame: NDArray[np.float64], other: NDArray[np.float64]) -> tuple[Corners, Corners]:
+    """Returns turn and shift, in millimetres, from one frame to another. They lie near each other, and may lie far out."""
+    back = np.linalg.inv(frame[:3, :3])
+    return back @ other[:3, :3], back @ (other[:3, 3] - frame[:3, 3]) * _MM_PER_M
+
+
+def _body(element: Any, color_of: Any) -> _Body | str:
+    """Returns the triangles of each item, which has one colour."""
+    geometry = element.geometry
+    vertices = np.frombuffer(geometry.verts_buffer, dtype=np.float64).reshape(-1, 3) * _MM_PER_M
+    triangles = np.frombuffer(geometry.faces_buffer, dtype=np.int32).reshape(-1, 3)
+    styles = np.frombuffer(geometry.material_ids_buffer, dtype=np.int32)
+    owners = np.frombuffer(geometry.item_ids_buffer, dtype=np.int32)
+    colors = [color_of(material) for material in geometry.materials]
+    if not len(triangles) or len(owners) != len(triangles) or len(styles) != len(triangles):
+        return "no triangles of which the items are known"
+    placement = np.array(element.transformation.matrix, dtype=np.float64).reshape(4, 4).T
+    if not np.isfinite(placement).all() or not np.isfinite(vertices).all():
+        return "a place that is not finite"
+    items = {}
+    for item in np.unique(owners).tolist():
+        some = owners == item
+        worn = {colors[style] if 0 <= style < len(colors) else None for style in np.unique(styles[some]).tolist()}
+        color = worn.pop()
+        if worn or color is None:
+            return "an item of several styles"
+        used, numbers = np.unique(triangles[some], return_inverse=True)
+        items[item] = (Mesh(vertices[used], numbers.reshape(-1, 3).astype(np.int64)), color)
+    return _Body(items, placement)
+
+
+def _planned(product: Entity, with_openings: bool) -> _Plan | str:
+    """Returns the plan for a product; why there is none where it is more than openings and half-spaces."""
+    plan = _Plan()
+    try:
+        if with_openings:
+            plan.openings = _openings_of(product)
+        elif getattr(product, "HasOpenings", None):
+            return "an opening that has openings"
+        if getattr(product, "HasProjections", None):
+            return "projections"
+        for representation in product.Representation.Representations or ():
+            if (representation.RepresentationIdentifier or "Body") in NO_BODY:
+                continue
+            for item in representation.Items or ():
+                _plan_item(item, representation.id(), plan)
+        return plan
+    except (AttributeError, RuntimeError, TypeError, Unfit) as fault:
+        return str(fault)
+
+
+def _openings_of(product: Entity) -> list[int]:
+    openings = [relation.RelatedOpeningElement for relation in product.HasOpenings or ()]
+    part, depth = product, 0
+    # Parts of a whole are cut by what cuts the whole.
+    while wholes := [relation.RelatingObject for relation in getattr(part, "Decomposes", None) or ()]:
+        part, depth = wholes[0], depth + 1
+        cutting = [relation.RelatedOpeningElement for relation in getattr(part, "HasOpenings", None) or ()]
+        if len(wholes) > 1 or depth > _MOST_DEPTH or (cutting and (depth > 1 or part.is_a("IfcElementAssembly"))):
+            raise Unfit("a part of several wholes, or of an assembly that has openings")
+        openings += cutting
+    for opening in openings:
+        names = [one.RepresentationIdentifier for one in opening.Representation.Representations or ()]
+        if [name for name in names if name not in NO_BODY] != ["Body"]:
+            raise Unfit("an opening of several bodies")
+    return sorted({opening.id() for opening in openings})
+
+
+def _plan_item(item: Entity, representation: int, plan: _Plan) -> None:
+    if item.is_a("IfcMappedItem"):
+        inner = item.MappingSource.MappedRepresentation.Items or ()
+        if any(one.is_a() in (*_BOOLEANS, "IfcMappedItem", "IfcCsgSolid") for one in inner):
+            raise Unfit("a mapped item that is cut")
+        return
+    if item.is_a() not in _BOOLEANS:
+        return
+    clips: list[Entity] = []
+    at = item
+    while at.is_a() in _BOOLEANS:
+        if at.Operator != "DIFFERENCE" or len(clips) >= _MOST_CUTS:
+            raise Unfit(f"a Boolean {at.Operator}")
+        clips.append(at.SecondOperand)
+        if at.id() != item.id() and at.StyledByItem:
+            raise Unfit("a style of a step of a cut")
+        at = at.FirstOperand
+    styled = item.StyledByItem
+    if styled and at.StyledByItem:
+        raise Unfit("several styles of what is cut")
+    plan.clips[at.id()] = clips[::-1]
+    plan.replaced.setdefault(representation, {})[item.id()] = at.id()
+    plan.styled.update({style.id(): at.id() for style in styled})
+
+
+@contextmanager
+def _first_operands(model: Model, plans: Iterable[_Plan]) -> Iterator[None]:
+    """Puts the first operands of Boolean results in their place, for a while."""
+    before: dict[int, Any] = {}
+    styled: dict[int, Any] = {}
+    try:
+        for plan in plans:
+            for number, operands in plan.replaced.items():
+                if number not in before:
+                    representation = model.file.by_id(number)
+                    before[number] = representation.Items
+                    representation.Items = [model.file.by_id(operands.get(item.id(), item.id())) for item in before[number]]
+            for number, operand in plan.styled.items():
+                if number not in styled:
+                    style = model.file.by_id(number)
+                    styled[number] = style.Item
+                    style.Item = model.file.by_id(operand)
+        yield
+    finally:
+        for number, items in before.items():
+            model.file.by_id(number).Items = items
+        for number, item in styled.items():
+            model.file.by_id(number).Item = item
+
+
+def _faults(log: Any) -> dict[int, str]:
+    faults = {}
+    for message in log.log_messages():
+        if message.severity_string == "ERROR":
+            for number in re.findall(r"#(\d+)=", f"{message.product} {message.instance}"):
+                faults[int(number)] = " ".join(message.message.split())
+    return faults

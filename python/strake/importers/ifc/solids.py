@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Bodies without what other bodies have in common with them, by manifold3d (decision 0121).
+
+It cuts exactly where faces lie on each other to the last bit, and leaves skins where they do so nearly. So what lies
+nearly on a level plane is put on it before, and where faces lie nearly on each other aslant the cut is left to others.
+"""
+
+from __future__ import annotations
+
+import bisect
+import importlib.util
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Corners = NDArray[np.float64]
+Triangles = NDArray[np.int64]
+
+# What is no farther apart than this is one place: the distance within which files and kernels say that points are equal.
+SNAP_MM = 0.01
+# Of the normal of a face that is level, and of those of two faces that may lie on each other.
+_LEVEL = 0.9999
+_MOST_PAIRS = 4_000_000
+_LEAST_MM3 = 1e-6
+
+
+class Unfit(ValueError):
+    """Why a body is not cut here."""
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """Triangles of a body, in millimetres. They are seen from outside against the clock."""
+
+    vertices: Corners
+    triangles: Triangles
+
+
+def manifold3d_files() -> list[str]:
+    """Returns the file of manifold3d; none where it is not installed. It is loaded only by workers, which may end of it."""
+    found = importlib.util.find_spec("manifold3d")
+    return [found.origin] if found is not None and found.origin is not None else []
+
+
+def difference(bodies: Sequence[Mesh], cutters: Sequence[Mesh]) -> list[list[Mesh]]:
+    """Returns what cutters leave of each body: its pieces, none where nothing is left.
+
+    Raises Unfit where that cannot be told for sure: bodies that are not closed, or lie nearly on each other.
+    """
+    from manifold3d import Manifold, OpType
+
+    bodies_of = [_closed(body) for body in bodies]
+    tools = [mesh for cutter in cutters for mesh in _closed(cutter)]
+    pieces = [piece for body in bodies_of for piece in body]
+    moved = _snapped([*pieces, *tools])
+    if _lie_nearly_on_each_other(moved, len(pieces)):
+        raise Unfit("faces that lie aslant and nearly on each other")
+    solids = [_solid(mesh) for mesh in moved]
+    left = [Manifold.batch_boolean([solid, *solids[len(pieces) :]], OpType.Subtract) for solid in solids[: len(pieces)]]
+    meshes = iter([mesh_of(solid) for solid in left])
+    return [[mesh for mesh in (next(meshes) for _ in body) if len(mesh.triangles)] for body in bodies_of]
+
+
+def mesh_of(solid: Any) -> Mesh:
+    """Returns the triangles of a solid of manifold3d."""
+    mesh = solid.to_mesh64()
+    return Mesh(np.array(mesh.vert_properties[:, :3], dtype=np.float64), np.array(mesh.tri_verts, dtype=np.int64))
+
+
+def _closed(mesh: Mesh) -> list[Mesh]:
+    """Returns the parts of a mesh that do not hang together, each closed and its inside within."""
+    try:
+        solid = _solid(mesh)
+    except Unfit:
+        solid = _solid(_welded(mesh))
+    parts = solid.decompose()
+    volumes = [part.volume() for part in parts]
+    if all(volume > _LEAST_MM3 for volume in volumes):
+        return [mesh_of(part) for part in parts]
+    if all(volume < -_LEAST_MM3 for volume in volumes):
+        return [Mesh(one.vertices, one.triangles[:, ::-1]) for one in map(mesh_of, parts)]
+    raise Unfit("a body with a hollow, or that encloses nothing")
+
+
+def _solid(mesh: Mesh) -> Any:
+    from manifold3d import Error, Manifold, Mesh64
+
+    solid = Manifold(Mesh64(np.ascontiguousarray(mesh.vertices), np.ascontiguousarray(mesh.triangles.astype(np.uint64))))
+    if solid.status() != Error.NoError:
+        raise Unfit(f"a body that is not closed ({solid.status().name})")
+    return solid
+
+
+def _welded(mesh: Mesh) -> Mesh:
+    """The same with one vertex at each place."""
+    vertices, numbers = np.unique(np.round(mesh.vertices / SNAP_MM), axis=0, return_inverse=True)
+    triangles = numbers.reshape(-1)[mesh.triangles]
+    first = np.zeros(len(vertices), dtype=np.int64)
+    first[numbers.reshape(-1)[::-1]] = np.arange(len(mesh.vertices))[::-1]
+    flat = (triangles == np.roll(triangles, 1, axis=1)).any(axis=1)
+    return Mesh(mesh.vertices[first], triangles[~flat])
+
+
+def _snapped(meshes: Sequence[Mesh]) -> list[Mesh]:
+    """Puts all corners that are nearly in the plane of a level face into it; of several such planes the first counts."""
+    vertices = np.concatenate([mesh.vertices for mesh in meshes])
+    corners = np.concatenate([mesh.vertices[mesh.triangles] for mesh in meshes])
+    normals = _normals(corners)
+    for axis in range(3):
+        level = (np.abs(normals[:, axis]) > _LEVEL) & (np.ptp(corners[:, :, axis], axis=1) < SNAP_MM)
+        heights = np.array(_apart(corners[level, 0, axis].tolist()))
+        if len(heights):
+            of_vertices = vertices[:, axis]
+            above = np.searchsorted(heights, of_vertices).clip(1, max(len(heights) - 1, 1))
+            below = heights[above - 1]
+            above = heights[above.clip(0, len(heights) - 1)]
+            nearest = np.where(of_vertices - below <= above - of_vertices, below, above)
+            vertices[:, axis] = np.where(np.abs(nearest - of_vertices) <= SNAP_MM, nearest, of_vertices)
+    ends = np.cumsum([len(mesh.vertices) for mesh in meshes])
+    return [Mesh(part, mesh.triangles) for part, mesh in zip(np.split(vertices, ends[:-1]), meshes, strict=True)]
+
+
+def _apart(numbers: Iterable[float]) -> list[float]:
+    """Returns those that are farther than SNAP_MM from all before them, in rising order."""
+    kept: list[float] = []
+    for number in dict.fromkeys(numbers):
+        at = bisect.bisect(kept, number)
+        if all(abs(number - other) > SNAP_MM for other in kept[max(at - 1, 0) : at + 1]):
+            kept.insert(at, number)
+    return kept
+
+
+def _normals(corners: Corners) -> Corners:
+    """Returns the unit normals of triangles; zero where there is none."""
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(cross, axis=1, keepdims=True)
+    normals: Corners = np.divide(cross, length, out=np.zeros_like(cross), where=length > 0)
+    return normals
+
+
+def _lie_nearly_on_each_other(meshes: Sequence[Mesh], bodies: int) -> bool:
+    """Whether a face of a cutter lies aslant and nearly in one plane with a face of a body, or of another cutter, near by."""
+    corners = np.concatenate([mesh.vertices[mesh.triangles] for mesh in meshes])
+    owner = np.repeat(np.arange(len(meshes)), [len(mesh.triangles) for mesh in meshes])
+    normals = _normals(corners)
+    # A level face lies exactly in its plane by now, as all that lies nearly there.
+    aslant = normals.any(axis=1) & ~(np.ptp(corners, axis=1) == 0).any(axis=1)
+    corners, owner, normals = corners[aslant], owner[aslant], normals[aslant]
+    of_cutter = np.flatnonzero(owner >= bodies)
+    if not len(of_cutter):
+        return False
+    if len(of_cutter) * len(owner) > _MOST_PAIRS:
+        raise Unfit("cutters of too many faces that lie aslant")
+    like = np.abs(normals[of_cutter] @ normals.T) > _LEVEL
+    one, other = np.nonzero(like & (owner[of_cutter][:, None] != owner[None, :]))
+    one = of_cutter[one]
+    low, high = corners.min(axis=1) - SNAP_MM, corners.max(axis=1) + SNAP_MM
+    near = ((low[one] <= high[other]) & (low[other] <= high[one])).all(axis=1)
+    one, other = one[near], other[near]
+    return bool((_in_plane(one, other, corners, normals) | _in_plane(other, one, corners, normals)).any())
+
+
+def _in_plane(these: NDArray[np.int64], of: NDArray[np.int64], corners: Corners, normals: Corners) -> NDArray[np.bool_]:
+    """Whether all corners of triangles are nearly in the planes of others."""
+    heights = np.einsum("nij,nj->ni", corners[these] - corners[of][:, :1], normals[of])
+    near: NDArray[np.bool_] = (np.abs(heights) <= SNAP_MM).all(axis=1)
+    return near
