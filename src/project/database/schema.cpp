@@ -63,11 +63,10 @@ std::string all_tables() {
 }
 
 std::span<const MigrationStep> migration_steps() {
-  static constexpr std::array<MigrationStep, 4> kSteps{
-      {{1, kHistoryTables},
-       {2, kExchangeTables},
-       {3, kSnapshotTables},
-       {4, kMapAndDrawingTables, kNameKeyIndex}}};
+  static constexpr std::array<MigrationStep, 4> kSteps{{{1, kHistoryTables},
+                                                        {2, kExchangeTables},
+                                                        {3, kSnapshotTables},
+                                                        {4, kMapAndDrawingTables, kNameKeyIndex}}};
   return kSteps;
 }
 

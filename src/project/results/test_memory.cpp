@@ -7,9 +7,9 @@
 
 #include "clash/results/clash_key.hpp"
 #include "core/text_encoding.hpp"
-#include "project/results/first_rows.hpp"
+#include "project/new_rows/first_rows.hpp"
+#include "project/new_rows/shown_side.hpp"
 #include "project/results/positional_rows.hpp"
-#include "project/results/shown_side.hpp"
 #include "report/decisions/decision_match.hpp"
 #include "strake/parallel/transform.hpp"
 
@@ -28,6 +28,8 @@ ClashSide side_of(const model::Model& model, model::ObjectId id) {
   return {valid_utf8(model.files[object.file].label), valid_utf8(object.id),
           valid_utf8(object.name)};
 }
+
+NewClash::Side side_of(const ShownTexts& texts) { return {texts.file, texts.id, texts.name}; }
 
 /// Returns the object of a label and an id, as rows show them. Objects are ordered by both.
 std::optional<model::ObjectId> find_object(const model::Model& model, const ClashSide& side) {
@@ -225,8 +227,9 @@ Status TestMemory::add(std::size_t at, const std::string& key) {
 Result<bool> TestMemory::insert(std::size_t at, const std::string& key) {
   const Pair& pair = report_.pairs[at];
   const ShownSide a(model_, pair.a), b(model_, pair.b);
-  const Result<std::optional<std::int64_t>> row = table_.insert(
-      {row_.id, run_, key, a.texts(), b.texts(), measure_of(pair), pair.relation, pair.point_mm});
+  const Result<std::optional<std::int64_t>> row =
+      table_.insert({row_.id, run_, key, side_of(a.texts()), side_of(b.texts()), measure_of(pair),
+                     pair.relation, pair.point_mm});
   if (!row) return row.error();
   if (!*row) return false;
   ++trend_.written;

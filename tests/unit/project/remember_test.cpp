@@ -158,59 +158,6 @@ TEST_F(Remembered, clashes_are_new_once_and_active_then_without_a_row_written) {
   EXPECT_EQ(statuses(), (Statuses{"active", "active", "active"}));
 }
 
-TEST_F(Remembered, rows_of_a_first_run_are_those_that_come_one_by_one) {
-  // Two statements of many rows and one of what is left.
-  const ClashModel m = row(41);
-  const auto rows = [&] {
-    std::vector<std::string> all;
-    Statement select = database_
-                           ->prepare("SELECT json_array(key,a_file,a_id,a_name,b_file,b_id,b_name,"
-                                     "class,relation,d_mm,x_mm,y_mm,z_mm,regions,first_run,new_run,"
-                                     "gone_run,unknown,decision) FROM clash WHERE test = (SELECT id "
-                                     "FROM test WHERE name = '') ORDER BY id")
-                           .value();
-    while (select.step().value()) all.emplace_back(select.text(0));
-    return all;
-  };
-  run(m);
-  const std::vector<std::string> at_once = rows();
-  EXPECT_EQ(at_once.size(), 40U);
-  EXPECT_EQ(clashes().back().row.id, 40);
-  Statement index =
-      database_->prepare("SELECT sql FROM sqlite_schema WHERE name = 'clash_key'").value();
-  ASSERT_TRUE(index.step().value());
-  EXPECT_EQ(index.text(0), kMakeKeyIndex);
-  // Where another test has more rows than come, the index of keys stays.
-  SetUp();
-  ASSERT_TRUE(database_->execute(
-      "INSERT INTO run VALUES (1, '', '', '', 1);"
-      "INSERT INTO test VALUES (7, 'other', '', 1, 2);"
-      "WITH RECURSIVE n(i) AS (VALUES (1) UNION ALL SELECT i + 1 FROM n WHERE i < 100) "
-      "INSERT INTO clash (key, test, a_file, a_id, a_name, b_file, b_id, b_name, class, relation, "
-      "d_mm, x_mm, y_mm, z_mm, regions, first_run, new_run) SELECT 'k' || i, 7, '', '', '', '', "
-      "'', '', 'HIT', 'CROSS', -1, 0, 0, 0, 1, 1, 1 FROM n;"
-      "DELETE FROM run"));
-  run(m);
-  EXPECT_EQ(rows(), at_once);
-  EXPECT_EQ(clashes().back().row.id, 140);
-}
-
-TEST_F(Remembered, results_of_one_key_have_one_row) {
-  // Bytes that are no UTF-8 are shown as another character: the two ids are one in files.
-  ClashModel m;
-  m.box("beam", {0, 0, 0}, {1000, 100, 100});
-  m.box("c\xfe", {0, 50, 0}, {100, 200, 100});
-  m.box("c\xff", {500, 50, 0}, {600, 200, 100});
-  is_forged_ = true;  // two results with the status of one row
-  run(m);
-  EXPECT_EQ(clashes().size(), 1U);
-  EXPECT_FALSE(
-      database_->execute("INSERT INTO clash (key, test, a_file, a_id, a_name, b_file, b_id, b_name, "
-                         "class, relation, d_mm, x_mm, y_mm, z_mm, regions, first_run, new_run) "
-                         "SELECT key, test, a_file, a_id, a_name, b_file, b_id, b_name, class, "
-                         "relation, d_mm, x_mm, y_mm, z_mm, regions, first_run, new_run FROM clash"));
-}
-
 TEST_F(Remembered, bytes_do_not_depend_on_the_number_of_workers) {
   // Two parts of 1,024 objects, and a change after it.
   const ClashModel before = row(1500), now = row(1501, 20, 1);

@@ -3,14 +3,19 @@
 
 #include <array>
 #include <string>
+#include <string_view>
 
 #include "core/text_encoding.hpp"
-#include "project/results/clash_rows.hpp"
 #include "strake/model/model.hpp"
 
 namespace strake::project {
 
-/// The texts of an object as rows show them.
+/// What rows show of an object.
+struct ShownTexts {
+  std::string_view file, id, name;
+};
+
+/// The texts of an object as rows show them: what is no UTF-8 lies here.
 class ShownSide {
  public:
   ShownSide(const model::Model& model, model::ObjectId id) {
@@ -20,11 +25,11 @@ class ShownSide {
   }
   ShownSide(const ShownSide&) = delete;
   ShownSide& operator=(const ShownSide&) = delete;
-  [[nodiscard]] const NewClash::Side& texts() const { return shown_; }
+  [[nodiscard]] const ShownTexts& texts() const { return shown_; }
 
  private:
   std::array<std::string, 3> rooms_;
-  NewClash::Side shown_;
+  ShownTexts shown_;
 };
 
 }  // namespace strake::project

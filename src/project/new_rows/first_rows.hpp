@@ -11,8 +11,8 @@
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 
-/// The rows of a test's first run, which come by the million: many to a statement, without the index
-/// of keys, which is made after them.
+/// The rows of a test's first run, which come by the million: many to a statement, without the
+/// index of keys, which is made after them.
 namespace strake::project {
 
 /// What a test that was never run found.
@@ -24,8 +24,8 @@ struct FirstResults {
 };
 
 /// Gives each result that no rule allows a row, in their order, and sets its entry of `rows` to
-/// that. Returns false, and does nothing, where the table has more rows than would come, or two
-/// results have the same key.
+/// that. Returns false, and does nothing, where the table has more rows than would come, or a key
+/// of theirs may be that of another of them or of a row that is there.
 [[nodiscard]] Result<bool> add_first_rows(Database& database, const FirstResults& results,
                                           std::span<std::int64_t> rows);
 
