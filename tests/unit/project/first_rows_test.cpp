@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "clash/results/clash_key.hpp"
+#include "project/database/exchange_tables.hpp"
 #include "project/database/history_tables.hpp"
 #include "project/database/result_tables.hpp"
 #include "project/results/clash_rows.hpp"
@@ -22,7 +23,7 @@ namespace {
 using test::ClashModel;
 
 /// Boxes of 100 mm, each 20 mm in the next.
-ClashModel row(int count) {
+ClashModel beams(int count) {
   ClashModel m;
   for (int i = 0; i < count; ++i)
     m.box("c" + std::to_string(i), {80.0 * i, 0, 0}, {80.0 * i + 100, 100, 100});
@@ -35,6 +36,7 @@ class FirstRows : public ::testing::Test {
     database_ = std::move(Database::in_memory()).value();
     ASSERT_TRUE(database_->execute(kResultTables));
     ASSERT_TRUE(database_->execute(kHistoryTables));
+    ASSERT_TRUE(database_->execute(kExchangeTables));
     ASSERT_TRUE(
         database_->execute("INSERT INTO run VALUES (1, '', '', '', 1);"
                            "INSERT INTO test VALUES (3, '', '', 1, 2), (4, 'other', '', 1, 2)"));
@@ -42,7 +44,7 @@ class FirstRows : public ::testing::Test {
 
   /// What add_first_rows() makes of a model; `rows_` is the row of each result then.
   bool add(const ClashModel& m, bool some_allowed = false) {
-    report_ = m.run();
+    report_ = m.detect();
     std::vector<Hash128> keys;
     for (clash::Pair& pair : report_.pairs) {
       if (some_allowed && keys.size() % 5 == 2) pair.allowed = 0;
@@ -104,7 +106,7 @@ TEST_F(FirstRows, are_those_that_come_one_by_one) {
   // Two statements of many rows and one of what is left; none; less than one statement has.
   for (const int objects : {48, 1, 3}) {
     SetUp();
-    const ClashModel m = row(objects);
+    const ClashModel m = beams(objects);
     ASSERT_TRUE(add(m, true));
     std::int64_t last = 0;
     for (std::size_t i = 0; i < rows_.size(); ++i)
@@ -123,12 +125,12 @@ TEST_F(FirstRows, are_those_that_come_one_by_one) {
 
 TEST_F(FirstRows, follow_those_of_other_tests_unless_these_are_more) {
   add_others(10);
-  EXPECT_TRUE(add(row(11)));
+  EXPECT_TRUE(add(beams(11)));
   EXPECT_EQ(rows_.front(), 11);
   EXPECT_EQ(count(), "20");
   SetUp();
   add_others(11);
-  EXPECT_FALSE(add(row(11)));
+  EXPECT_FALSE(add(beams(11)));
   EXPECT_EQ(count(), "11");
 }
 
@@ -142,9 +144,9 @@ TEST_F(FirstRows, of_one_key_come_one_by_one) {
   EXPECT_EQ(report_.pairs.size(), 2U);
   EXPECT_EQ(count(), "0");
   // Likewise where a row has the key, of a test that somebody gave another name.
-  EXPECT_TRUE(add(row(3)));
+  EXPECT_TRUE(add(beams(3)));
   ASSERT_TRUE(database_->execute("UPDATE clash SET test = 4"));
-  EXPECT_FALSE(add(row(3)));
+  EXPECT_FALSE(add(beams(3)));
   EXPECT_EQ(count(), "2");
 }
 
