@@ -98,6 +98,19 @@ Status Database::execute(std::string_view sql) {
   return {};
 }
 
+Status Database::rewrite_schema(std::string_view sql) {
+  if (sql.empty()) return {};
+  int was_defensive = 0;
+  sqlite3_db_config(handle_, SQLITE_DBCONFIG_DEFENSIVE, -1, &was_defensive);
+  sqlite3_db_config(handle_, SQLITE_DBCONFIG_DEFENSIVE, 0, nullptr);
+  Status done = execute("PRAGMA writable_schema = ON");
+  if (done) done = execute(sql);
+  // What this connection knows of tables is read again.
+  const Status ended = execute("PRAGMA writable_schema = RESET");
+  sqlite3_db_config(handle_, SQLITE_DBCONFIG_DEFENSIVE, was_defensive, nullptr);
+  return done ? ended : done;
+}
+
 std::int64_t Database::last_insert_id() const { return sqlite3_last_insert_rowid(handle_); }
 std::int64_t Database::changes() const { return sqlite3_changes64(handle_); }
 

@@ -88,6 +88,8 @@ class Database {
   [[nodiscard]] Result<Statement> prepare(std::string_view sql);
   /// Runs statements without parameters or rows.
   [[nodiscard]] Status execute(std::string_view sql);
+  /// Runs statements that write into the table of tables, sqlite_schema, which all others must not.
+  [[nodiscard]] Status rewrite_schema(std::string_view sql);
   [[nodiscard]] std::int64_t last_insert_id() const;
   [[nodiscard]] std::int64_t changes() const;
   /// Returns the error for what SQLite said last: it names the file, and how to mend it.

@@ -11,6 +11,9 @@ namespace strake::project {
 ///
 /// A row that comes by the thousand spells its words out: for a list of more than two after IN,
 /// SQLite makes a table of its own each time it inserts a row.
+///
+/// Keys come in no order: many rows at once are faster without their index, which is made again
+/// after them. So the index has a name, and the table no UNIQUE, which it had before version 5.
 inline constexpr const char* kResultTables = R"sql(
 CREATE TABLE run (
   id INTEGER PRIMARY KEY,
@@ -59,7 +62,7 @@ CREATE TABLE run_test (             -- what a run did and found, for the trend
 
 CREATE TABLE clash (
   id INTEGER PRIMARY KEY,
-  key TEXT NOT NULL UNIQUE,
+  key TEXT NOT NULL,
   test INTEGER NOT NULL REFERENCES test(id),
   a_file TEXT NOT NULL, a_id TEXT NOT NULL, a_name TEXT NOT NULL,
   b_file TEXT NOT NULL, b_id TEXT NOT NULL, b_name TEXT NOT NULL,
@@ -82,6 +85,7 @@ CREATE TABLE clash (
     decided_class = 'CLEARANCE_VIOLATION'),
   decided_d_mm REAL, decided_regions INTEGER  -- with its class: what was decided about
 ) STRICT;
+CREATE UNIQUE INDEX clash_key ON clash (key);
 CREATE INDEX clash_decided ON clash (test, decision) WHERE decision IS NOT NULL;
 CREATE INDEX clash_watched ON clash (test) WHERE gone_run IS NULL AND
   (decision IS NOT NULL OR unknown IS NOT NULL OR comment IS NOT NULL OR assignee IS NOT NULL);
@@ -106,6 +110,17 @@ CREATE VIEW clashes AS SELECT clash.*, test.name AS test_name,
        WHEN new_run = test.run THEN 'new' ELSE 'active' END AS status,
   CASE WHEN gone_run IS NOT NULL OR unknown IS NOT NULL THEN NULL ELSE test.run END AS last_run
   FROM clash JOIN test ON test.id = clash.test;
+)sql";
+
+/// Statements that take the index of keys away and make it again, and those that turn the UNIQUE of
+/// earlier versions into it in the table of tables: it is the same tree.
+inline constexpr const char* kDropKeyIndex = "DROP INDEX clash_key";
+inline constexpr const char* kMakeKeyIndex = "CREATE UNIQUE INDEX clash_key ON clash (key)";
+inline constexpr const char* kNameKeyIndex = R"sql(
+UPDATE sqlite_schema SET sql = replace(sql, 'key TEXT NOT NULL UNIQUE,', 'key TEXT NOT NULL,')
+  WHERE type = 'table' AND name = 'clash';
+UPDATE sqlite_schema SET name = 'clash_key', sql = 'CREATE UNIQUE INDEX clash_key ON clash (key)'
+  WHERE type = 'index' AND name = 'sqlite_autoindex_clash_1';
 )sql";
 
 }  // namespace strake::project

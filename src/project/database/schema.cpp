@@ -63,8 +63,10 @@ std::string all_tables() {
 }
 
 std::span<const MigrationStep> migration_steps() {
-  static constexpr std::array<MigrationStep, 4> kSteps{
-      {{1, kHistoryTables}, {2, kExchangeTables}, {3, kSnapshotTables}, {4, kMapAndDrawingTables}}};
+  static constexpr std::array<MigrationStep, 4> kSteps{{{1, kHistoryTables},
+                                                        {2, kExchangeTables},
+                                                        {3, kSnapshotTables},
+                                                        {4, kMapAndDrawingTables, kNameKeyIndex}}};
   return kSteps;
 }
 
@@ -90,6 +92,7 @@ Status migrate(Database& database, std::int64_t to, std::span<const MigrationSte
     if (step == nullptr)
       return database.damaged(fmt::format("no version {} has ever been written", *version));
     if (const Status done = database.execute(step->statements); !done) return done.error();
+    if (const Status done = database.rewrite_schema(step->rewriting); !done) return done.error();
     ++*version;
     const Status noted = database.execute(fmt::format("PRAGMA user_version = {}", *version));
     if (!noted) return noted.error();

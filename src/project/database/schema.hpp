@@ -22,6 +22,9 @@ inline constexpr std::int64_t kSchemaVersion = 5;
 struct MigrationStep {
   std::int64_t from = 0;
   const char* statements = "";
+  /// Statements that write into the table of tables itself, after those above, which tell other
+  /// connections that tables have changed.
+  const char* rewriting = "";
 };
 
 /// Returns the steps from the first version to this one.

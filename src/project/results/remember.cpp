@@ -42,7 +42,7 @@ Result<TestRow> add_test(Database& database, const std::string& name, std::int64
   if (!insert) return insert.error();
   insert->bind(1, std::string_view(name)).bind(2, run);
   if (const Status status = insert->run(); !status) return status.error();
-  const TestRow row{database.last_insert_id(), run};
+  const TestRow row{database.last_insert_id(), run, true};
   insert = database.prepare(
       "INSERT INTO report (test, snapshot, head, kept, seal) VALUES (?1, x'', x'', x'', x'')");
   if (!insert) return insert.error();

@@ -179,7 +179,7 @@ Result<std::optional<TestRow>> find_test(Database& database, const std::string& 
   const Result<bool> there = select->bind(1, std::string_view(name)).step();
   if (!there) return there.error();
   if (!*there) return std::optional<TestRow>();
-  return std::optional(TestRow{select->integer(0), select->integer(1)});
+  return std::optional(TestRow{select->integer(0), select->integer(1), false});
 }
 
 Result<std::optional<StoredSnapshot>> find_snapshot(Database& database, const std::string& test) {

@@ -36,6 +36,7 @@ struct StoredTest {
 /// A test and its last run.
 struct TestRow {
   std::int64_t id = 0, run = 0;
+  bool is_new = false;  ///< no run before this one ran it
 };
 /// Returns nothing where the test was never run.
 [[nodiscard]] Result<std::optional<TestRow>> find_test(Database& database, const std::string& name);

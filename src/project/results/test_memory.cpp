@@ -2,12 +2,13 @@
 #include "project/results/test_memory.hpp"
 
 #include <algorithm>
-#include <array>
 #include <tuple>
 #include <utility>
 
 #include "clash/results/clash_key.hpp"
 #include "core/text_encoding.hpp"
+#include "project/new_rows/first_rows.hpp"
+#include "project/new_rows/shown_side.hpp"
 #include "project/results/positional_rows.hpp"
 #include "report/decisions/decision_match.hpp"
 #include "strake/parallel/transform.hpp"
@@ -28,22 +29,7 @@ ClashSide side_of(const model::Model& model, model::ObjectId id) {
           valid_utf8(object.name)};
 }
 
-/// The texts of an object as rows show them.
-class ShownSide {
- public:
-  ShownSide(const model::Model& model, model::ObjectId id) {
-    const model::Object& object = model.object(id);
-    shown_ = {valid_utf8(model.files[object.file].label, rooms_[0]),
-              valid_utf8(object.id, rooms_[1]), valid_utf8(object.name, rooms_[2])};
-  }
-  ShownSide(const ShownSide&) = delete;
-  ShownSide& operator=(const ShownSide&) = delete;
-  [[nodiscard]] const NewClash::Side& texts() const { return shown_; }
-
- private:
-  std::array<std::string, 3> rooms_;
-  NewClash::Side shown_;
-};
+NewClash::Side side_of(const ShownTexts& texts) { return {texts.file, texts.id, texts.name}; }
 
 /// Returns the object of a label and an id, as rows show them. Objects are ordered by both.
 std::optional<model::ObjectId> find_object(const model::Model& model, const ClashSide& side) {
@@ -109,6 +95,11 @@ Status TestMemory::run(const parallel::Context& context) {
   if (!matched) return matched.error();
   match_ = std::move(*matched);
   is_new_.assign(report_.pairs.size(), false);
+  if (row_.is_new) {
+    const Result<bool> done = take_first(context);
+    if (!done) return done.error();
+    if (*done) return {};
+  }
   if (const Status status = take_match(context); !status) return status;
   if (const Status status = take_watched(); !status) return status;
   return take_positional();
@@ -148,6 +139,23 @@ Result<std::vector<Hash128>> TestMemory::keys_of_new(const parallel::Context& co
         const Pair& pair = report_.pairs[*now];
         return clash::pair_hash(report_.name, model_, pair.a, pair.b);
       });
+}
+
+/// The results of a test that was never run, all at once; false: they have to come one by one.
+Result<bool> TestMemory::take_first(const parallel::Context& context) {
+  const Result<std::vector<Hash128>> keys = keys_of_new(context);
+  if (!keys) return keys.error();
+  const FirstResults results{row_.id, run_, model_, report_, *keys};
+  Result<bool> done = add_first_rows(database_, results, match_.rows);
+  if (!done || !*done) return done;
+  for (std::size_t at = 0; at < match_.rows.size(); ++at) {
+    if (match_.rows[at] == 0) continue;
+    is_new_[at] = true;
+    looked_at_new_.push_back(at);
+  }
+  trend_.written += looked_at_new_.size();
+  trend_.appeared += looked_at_new_.size();
+  return true;
 }
 
 /// What measures something else, came or went since the run before.
@@ -219,8 +227,9 @@ Status TestMemory::add(std::size_t at, const std::string& key) {
 Result<bool> TestMemory::insert(std::size_t at, const std::string& key) {
   const Pair& pair = report_.pairs[at];
   const ShownSide a(model_, pair.a), b(model_, pair.b);
-  const Result<std::optional<std::int64_t>> row = table_.insert(
-      {row_.id, run_, key, a.texts(), b.texts(), measure_of(pair), pair.relation, pair.point_mm});
+  const Result<std::optional<std::int64_t>> row =
+      table_.insert({row_.id, run_, key, side_of(a.texts()), side_of(b.texts()), measure_of(pair),
+                     pair.relation, pair.point_mm});
   if (!row) return row.error();
   if (!*row) return false;
   ++trend_.written;

@@ -57,6 +57,7 @@ class TestMemory {
 
  private:
   [[nodiscard]] Result<ReportMatch> match(const parallel::Context& context) const;
+  [[nodiscard]] Result<bool> take_first(const parallel::Context& context);
   [[nodiscard]] Status take_match(const parallel::Context& context);
   [[nodiscard]] Status take_positional();
   [[nodiscard]] Status take_watched();

@@ -17,6 +17,7 @@
 #include <thread>
 #include <utility>
 
+#include "project/database/result_tables.hpp"
 #include "project/database/schema.hpp"
 #include "strake/project/check.hpp"
 #include "strake/project/project.hpp"
@@ -381,6 +382,32 @@ TEST(ProjectMigration, AStepThatFailsLeavesAllAsItWas) {
   // And where no step goes on.
   EXPECT_FALSE(migrate(**database, 5, std::span(kSteps).first(1)));
   EXPECT_EQ(schema_version(**database).value(), 1);
+}
+
+/// What was UNIQUE is an index with a name, of the same rows: nothing is copied.
+TEST(ProjectMigration, KeysOfClashesGetAnIndexWithAName) {
+  auto database = Database::in_memory();
+  ASSERT_TRUE(database);
+  ASSERT_TRUE((*database)->execute(
+      "CREATE TABLE clash (id INTEGER PRIMARY KEY, key TEXT NOT NULL UNIQUE, a TEXT) STRICT;"
+      "INSERT INTO clash (key) VALUES ('b'), ('a'); PRAGMA user_version = 1"));
+  constexpr std::array<MigrationStep, 1> kSteps{{{1, "CREATE TABLE other (a)", kNameKeyIndex}}};
+  ASSERT_TRUE(migrate(**database, 2, kSteps));
+  const auto text = [&](const char* sql) {
+    Statement select = std::move((*database)->prepare(sql)).value();
+    EXPECT_TRUE(select.step().value());
+    return std::string(select.text(0));
+  };
+  EXPECT_EQ(text("SELECT sql FROM sqlite_schema WHERE name = 'clash'"),
+            "CREATE TABLE clash (id INTEGER PRIMARY KEY, key TEXT NOT NULL, a TEXT) STRICT");
+  EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
+  EXPECT_FALSE((*database)->execute("INSERT INTO clash (key) VALUES ('a')"));
+  EXPECT_TRUE((*database)->execute("INSERT INTO clash (key) VALUES ('c')"));
+  ASSERT_TRUE((*database)->execute(kDropKeyIndex));
+  ASSERT_TRUE((*database)->execute(kMakeKeyIndex));
+  EXPECT_FALSE((*database)->execute("INSERT INTO clash (key) VALUES ('c')"));
+  // Nobody else writes into the table of tables.
+  EXPECT_FALSE((*database)->execute("DELETE FROM sqlite_schema"));
 }
 
 /// A step for every version that there has ever been, so that none is forgotten.
