@@ -18,16 +18,18 @@ printf '{ global: PyInit__core; local: *; };\n' >"$folder/exports"
 # What is linked in needs these in turn; glibc 2.28 has threads and loading in libraries of their own.
 libraries="-lz -ldl -lpthread -lm"
 rm -rf "$folder/built" "$folder/licensed" "$folder/dist"
+# ccache knows a compiler by its file, which here is a script that names folders: Zig's version says more.
+export CCACHE_COMPILERTYPE=clang CCACHE_COMPILERCHECK="string:$("$venv/bin/python" -m ziglang version) glibc 2.28 -g0"
 CMAKE_ARGS="-DCMAKE_C_COMPILER=$folder/bin/cc -DCMAKE_CXX_COMPILER=$folder/bin/c++ -DCMAKE_AR=$folder/bin/ar \
   -DCMAKE_RANLIB=$folder/bin/ranlib -DCMAKE_PREFIX_PATH=$folder/usr -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF \
   -DCMAKE_LIBRARY_ARCHITECTURE=$(uname -m)-linux-gnu \
   '-DCMAKE_CXX_STANDARD_LIBRARIES=-L$folder/usr/lib/$(uname -m)-linux-gnu $libraries' \
-  '-DCMAKE_MODULE_LINKER_FLAGS=-Wl,--version-script=$folder/exports' -DCMAKE_STRIP= ${CMAKE_ARGS:-}" \
+  '-DCMAKE_MODULE_LINKER_FLAGS=-Wl,--version-script=$folder/exports -s' -DCMAKE_EXE_LINKER_FLAGS=-s -DCMAKE_STRIP= ${CMAKE_ARGS:-}" \
   "$venv/bin/pip" wheel -q --disable-pip-version-check --no-build-isolation --no-deps \
   --config-settings "build-dir=$folder/wheel-{wheel_tag}" -w "$folder/built" .
 "$venv/bin/python" scripts/add_licences.py "$folder"/built/strake-*.whl "$folder/licensed" "$folder/licences" \
   "$venv"/lib/python3*/site-packages/nanobind-*.dist-info/licenses
-PATH="$PWD/$venv/bin:$PATH" "$venv/bin/auditwheel" -q repair --plat "manylinux_2_28_$(uname -m)" -w "$folder/dist" \
+PATH="$PWD/$venv/bin:$PATH" "$venv/bin/auditwheel" repair --plat "manylinux_2_28_$(uname -m)" -w "$folder/dist" \
   "$folder"/licensed/strake-*.whl
 "$venv/bin/auditwheel" show "$folder"/dist/strake-*.whl | tee "$folder/dist/audit.txt"
 

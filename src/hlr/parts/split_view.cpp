@@ -17,8 +17,9 @@ namespace {
 using geometry::Box3l;
 
 constexpr std::size_t kObjectsAtOnce = 1024;
-/// What lines take of a worker, beside a body that only hides: a ship has forty pieces an object.
-constexpr std::uint64_t kBytesOfLines = 8000;
+/// What lines take of a worker, beside a body that only hides: a ship has forty pieces an object,
+/// of which few stay where hidden ones are left out.
+constexpr std::uint64_t kBytesOfLines = 8000, kBytesOfVisibleLines = 2000;
 
 /// Where an object may be seen.
 struct PaperReach {
@@ -47,7 +48,7 @@ class ViewSplitter {
     if (!fits) most_bytes_ = UINT64_MAX;
     if (fits)
       if (const Status placed = place_on_paper(all); !placed) return placed.error();
-    if (const Status status = split(all, part_of(all, all, {})); !status) return status.error();
+    if (const Status status = split(all, all); !status) return status.error();
     return std::move(parts_);
   }
 
@@ -62,6 +63,11 @@ class ViewSplitter {
     if (!on_paper) return on_paper.error();
     on_paper_ = std::move(*on_paper);
     places_.resize(whole_.boxes.size());
+    // Boxes that meet in space overlap on paper, and neither lies behind the other: what may hide
+    // an object has among it what may cross it.
+    if (hides_ && !whole_.view.perspective &&
+        std::ranges::none_of(all, [&](std::uint32_t o) { return on_paper_[o].empty(); }))
+      crosses_ = false;
     for (const std::uint32_t o : all) {
       const ViewBox& box = on_paper_[o];
       if (!box.empty())
@@ -70,21 +76,34 @@ class ViewSplitter {
     return {};
   }
 
-  /// Returns the part that asks for some of these objects; `needed` says by place which others it
-  /// has.
-  [[nodiscard]] ViewPart part_of(const std::vector<std::uint32_t>& asked,
-                                 const std::vector<std::uint32_t>& objects,
-                                 const std::vector<bool>& needed) const {
-    ViewPart part;
+  /// Returns what a worker takes for an object.
+  [[nodiscard]] std::uint64_t bytes_of(std::uint32_t object, bool asked) const {
+    const std::uint64_t lines = whole_.options.hidden ? kBytesOfLines : kBytesOfVisibleLines;
+    return 2 * std::uint64_t{whole_.bytes[object]} + (asked ? lines : 0);
+  }
+
+  /// Returns by place in `objects` which of them are among those that are asked for; both ascend.
+  static std::vector<bool> asked_of(const std::vector<std::uint32_t>& objects,
+                                    const std::vector<std::uint32_t>& asked) {
+    std::vector<bool> is_asked(objects.size());
     auto next = asked.begin();
+    for (std::size_t i = 0; i < objects.size() && next != asked.end(); ++i) {
+      is_asked[i] = *next == objects[i];
+      if (is_asked[i]) ++next;
+    }
+    return is_asked;
+  }
+
+  /// Returns the part of the objects that `has` picks by place.
+  template <class Has>
+  [[nodiscard]] ViewPart part_of(const std::vector<std::uint32_t>& objects,
+                                 const std::vector<bool>& is_asked, Has&& has) const {
+    ViewPart part;
     for (std::size_t i = 0; i < objects.size(); ++i) {
-      const std::uint32_t object = objects[i];
-      const bool is_asked = next != asked.end() && *next == object;
-      if (is_asked) ++next;
-      if (!is_asked && !needed[i]) continue;
-      part.objects.push_back(object);
-      part.asked.push_back(is_asked);
-      part.bytes += bytes_in_part(whole_.bytes[object], is_asked);
+      if (!has(i)) continue;
+      part.objects.push_back(objects[i]);
+      part.asked.push_back(is_asked[i]);
+      part.bytes += bytes_of(objects[i], is_asked[i]);
     }
     return part;
   }
@@ -92,6 +111,9 @@ class ViewSplitter {
   /// Finds what of some objects may hide or cross those that are asked for.
   [[nodiscard]] Result<ViewPart> find_part(const std::vector<std::uint32_t>& asked,
                                            const std::vector<std::uint32_t>& objects) const {
+    const std::vector<bool> is_asked = asked_of(objects, asked);
+    if (asked.size() == objects.size())
+      return part_of(objects, is_asked, [](std::size_t) { return true; });
     std::vector<SegmentQuery> queries;
     std::vector<Box3l> boxes;
     for (const std::uint32_t o : asked) {
@@ -103,13 +125,41 @@ class ViewSplitter {
     const auto needed = parallel::transform(
         context_, {.name = "what a part needs", .n = objects.size(), .grain = kObjectsAtOnce},
         [&](std::size_t i) -> std::uint8_t {
+          if (is_asked[i]) return 1;
           const std::uint32_t o = objects[i];
           const bool any = (hides_ && hideable.may_be_hidden_by(on_paper_[o])) ||
                            (crosses_ && solid.any_meets(whole_.boxes[o])) || holds_eye(o);
           return any ? 1 : 0;
         });
     if (!needed) return needed.error();
-    return part_of(asked, objects, std::vector<bool>(needed->begin(), needed->end()));
+    return part_of(objects, is_asked, [&](std::size_t i) { return (*needed)[i] != 0; });
+  }
+
+  /// Finds those of some objects that find_part() may pick, and others, by the box of all that is
+  /// asked for: in a small part of the time.
+  [[nodiscard]] Result<std::vector<std::uint32_t>> near(
+      const std::vector<std::uint32_t>& asked, const std::vector<std::uint32_t>& objects) const {
+    ViewBox on_paper;
+    Box3l box = geometry::empty_box<std::int64_t>();
+    for (const std::uint32_t o : asked) {
+      if (!on_paper_[o].empty()) on_paper.include(on_paper_[o]);
+      box.include(whole_.boxes[o]);
+    }
+    const SegmentQuery hideable = on_paper.empty() ? SegmentQuery() : anything_in(on_paper);
+    const std::vector<bool> is_asked = asked_of(objects, asked);
+    const auto needed = parallel::transform(
+        context_, {.name = "what is near a part", .n = objects.size(), .grain = kObjectsAtOnce},
+        [&](std::size_t i) -> std::uint8_t {
+          const std::uint32_t o = objects[i];
+          const bool hides = hides_ && !on_paper.empty() && !on_paper_[o].empty() &&
+                             hideable.may_be_hidden_by(rounded_outwards(on_paper_[o]));
+          return is_asked[i] || hides || (crosses_ && whole_.boxes[o].meets(box)) || holds_eye(o);
+        });
+    if (!needed) return needed.error();
+    std::vector<std::uint32_t> found;
+    for (std::size_t i = 0; i < objects.size(); ++i)
+      if ((*needed)[i] != 0) found.push_back(objects[i]);
+    return found;
   }
 
   /// What the eye lies in is reported.
@@ -121,7 +171,7 @@ class ViewSplitter {
   /// Returns the two halves of some objects along the side of the paper where they lie farther
   /// apart, each ascending.
   [[nodiscard]] std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> halves(
-      std::vector<std::uint32_t> asked) const {
+      const std::vector<std::uint32_t>& asked) const {
     const auto spread = [&](auto along) {
       const auto [least, most] = std::ranges::minmax_element(
           asked, {}, [&](std::uint32_t o) { return places_[o].*along; });
@@ -129,20 +179,43 @@ class ViewSplitter {
     };
     const auto along =
         spread(&PaperReach::u) >= spread(&PaperReach::v) ? &PaperReach::u : &PaperReach::v;
-    const auto half = asked.begin() + static_cast<std::ptrdiff_t>(asked.size() / 2);
-    std::nth_element(asked.begin(), half, asked.end(), [&](std::uint32_t x, std::uint32_t y) {
+    const auto before = [&](std::uint32_t x, std::uint32_t y) {
       const std::int64_t of_x = places_[x].*along, of_y = places_[y].*along;
       return of_x != of_y ? of_x < of_y : x < y;
-    });
-    std::vector<std::uint32_t> second(half, asked.end());
-    asked.erase(half, asked.end());
-    std::ranges::sort(asked);
-    std::ranges::sort(second);
-    return {std::move(asked), std::move(second)};
+    };
+    std::vector<std::uint32_t> by_place = asked;
+    const auto middle = by_place.begin() + static_cast<std::ptrdiff_t>(by_place.size() / 2);
+    std::nth_element(by_place.begin(), middle, by_place.end(), before);
+    std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> parted;
+    for (const std::uint32_t o : asked)
+      (before(o, *middle) ? parted.first : parted.second).push_back(o);
+    return parted;
+  }
+
+  /// Returns what a worker takes at least for the lines of some objects.
+  [[nodiscard]] std::uint64_t least_bytes(const std::vector<std::uint32_t>& asked) const {
+    std::uint64_t bytes = 0;
+    for (const std::uint32_t o : asked) bytes += bytes_of(o, true);
+    return bytes;
+  }
+
+  /// Makes parts for the lines of some objects, of which `objects` has all that is needed.
+  Status split(const std::vector<std::uint32_t>& asked, const std::vector<std::uint32_t>& objects) {
+    if (asked.size() < 2 || least_bytes(asked) <= most_bytes_) {
+      auto part = find_part(asked, objects);
+      return part ? split_further(asked, std::move(*part)) : part.error();
+    }
+    const auto [first, second] = halves(asked);
+    for (const std::vector<std::uint32_t>* const half : {&first, &second}) {
+      const auto around = near(*half, objects);
+      if (!around) return around.error();
+      if (Status status = split(*half, *around); !status) return status;
+    }
+    return {};
   }
 
   /// Splits a part, as long as one of its halves is smaller for it.
-  Status split(const std::vector<std::uint32_t>& asked, ViewPart part) {
+  Status split_further(const std::vector<std::uint32_t>& asked, ViewPart part) {
     if (part.bytes <= most_bytes_ || asked.size() < 2) {
       parts_.push_back(std::move(part));
       return {};
@@ -157,25 +230,21 @@ class ViewSplitter {
       return {};
     }
     part = {};
-    if (const Status status = split(first, std::move(*of_first)); !status) return status;
-    return split(second, std::move(*of_second));
+    if (Status status = split_further(first, std::move(*of_first)); !status) return status;
+    return split_further(second, std::move(*of_second));
   }
 
   const ViewToSplit& whole_;
   std::uint64_t most_bytes_;
   const parallel::Context& context_;
   BoundsProjection paper_;
-  bool crosses_, hides_;
+  bool crosses_, hides_;           ///< whether what crosses or hides is to be looked for
   std::vector<ViewBox> on_paper_;  ///< by object
   std::vector<PaperReach> places_;
   std::vector<ViewPart> parts_;
 };
 
 }  // namespace
-
-std::uint64_t bytes_in_part(std::uint32_t bytes, bool asked) {
-  return 2 * std::uint64_t{bytes} + (asked ? kBytesOfLines : 0);
-}
 
 Result<std::vector<ViewPart>> split_view(const ViewToSplit& whole, std::uint64_t most_bytes,
                                          const parallel::Context& context) {

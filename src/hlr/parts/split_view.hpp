@@ -28,10 +28,6 @@ struct ViewToSplit {
   std::span<const std::uint32_t> bytes;    ///< about what each takes of a worker's memory
 };
 
-/// Returns what a part takes of a worker's memory for an object, where it takes `bytes` without its
-/// lines.
-[[nodiscard]] std::uint64_t bytes_in_part(std::uint32_t bytes, bool asked);
-
 /// Splits the objects of a view into parts that take no more than `most_bytes`, as far as halves of
 /// halves of the paper can be smaller: each object with a box is asked for in one part, and there
 /// is one part at least. Errors: cancelled.

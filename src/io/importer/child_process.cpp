@@ -20,6 +20,22 @@ namespace strake::io {
 
 namespace {
 
+#if defined(__GLIBC__) && !__GLIBC_PREREQ(2, 29)
+/// The C library cannot give a child a folder: a shell does, which reads none of the words.
+constexpr bool kShellSetsFolder = true;
+#else
+constexpr bool kShellSetsFolder = false;
+#endif
+
+/// Returns the words that start a program.
+std::vector<std::string> words_of(const ChildProgram& program) {
+  if (!kShellSetsFolder || program.folder.empty()) return program.words;
+  std::vector<std::string> words{"/bin/sh", "-c", "cd \"$0\" && exec \"$@\"",
+                                 program.folder.string()};
+  words.insert(words.end(), program.words.begin(), program.words.end());
+  return words;
+}
+
 /// How a child is started: its files, its group and its signals.
 class SpawnOptions {
  public:
@@ -31,8 +47,10 @@ class SpawnOptions {
                                        O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, kMode);
     ::posix_spawn_file_actions_adddup2(&files_, STDOUT_FILENO, STDERR_FILENO);
     // Behind the log, whose path may depend on our folder.
+#if !defined(__GLIBC__) || __GLIBC_PREREQ(2, 29)
     if (!program.folder.empty())
       ::posix_spawn_file_actions_addchdir_np(&files_, program.folder.c_str());
+#endif
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
     // Files that other threads have opened by streams, which do not close themselves.
     ::posix_spawn_file_actions_addclosefrom_np(&files_, STDERR_FILENO + 1);
@@ -177,13 +195,17 @@ ChildEnd end_of(Child& child, const std::optional<ChildEnd::How>& why,
 }  // namespace
 
 ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop) {
-  const pid_t process = SpawnOptions(program).start(program.words);
+  const pid_t process = SpawnOptions(program).start(words_of(program));
   if (process < 0) return {ChildEnd::How::not_started, 0, {}};
   Child child(process, program.killed_with);
   Log log(program);
   const std::optional<ChildEnd::How> why = wait_for(child, program, log, stop);
   ChildEnd end = end_of(child, why, stop);
   end.output = log.end();
+  // Thus a shell tells that it could not start a program.
+  const bool by_shell = kShellSetsFolder && !program.folder.empty();
+  if (by_shell && end.how == ChildEnd::How::exited && (end.code == 126 || end.code == 127))
+    end = {ChildEnd::How::not_started, 0, {}};
   return end;
 }
 
