@@ -18,7 +18,7 @@ clean=build/python-clean
 rm -rf "$clean"
 python3 -m venv "$clean"
 "$clean/bin/pip" install -q --disable-pip-version-check build/dist/strake-*.whl pytest ruff mypy trimesh pandas pyarrow distributed \
-  'cadquery-ocp-novtk>=7.9,<8'
+  'cadquery-ocp-novtk>=7.9,<8' ifcopenshell manifold3d
 "$clean/bin/ruff" check .
 "$clean/bin/ruff" format --check .
 "$clean/bin/mypy" -p strake
