@@ -18,8 +18,8 @@ printf '{ global: PyInit__core; local: *; };\n' >"$folder/exports"
 # What is linked in needs these in turn; glibc 2.28 has threads and loading in libraries of their own.
 libraries="-lz -ldl -lpthread -lm"
 rm -rf "$folder/built" "$folder/licensed" "$folder/dist"
-# ccache knows a compiler by its file, which here is a script that names folders: Zig's version says more.
-export CCACHE_COMPILERTYPE=clang CCACHE_COMPILERCHECK="string:$("$venv/bin/python" -m ziglang version) glibc 2.28 -g0"
+# ccache knows a compiler by its file, which here is a script that names folders: Zig's version and its options say more.
+export CCACHE_COMPILERTYPE=clang CCACHE_COMPILERCHECK="string:$("$venv/bin/python" -m ziglang version) $(sha256sum scripts/portable_root.sh)"
 CMAKE_ARGS="-DCMAKE_C_COMPILER=$folder/bin/cc -DCMAKE_CXX_COMPILER=$folder/bin/c++ -DCMAKE_AR=$folder/bin/ar \
   -DCMAKE_RANLIB=$folder/bin/ranlib -DCMAKE_PREFIX_PATH=$folder/usr -DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF \
   -DCMAKE_LIBRARY_ARCHITECTURE=$(uname -m)-linux-gnu \

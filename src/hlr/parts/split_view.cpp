@@ -199,6 +199,20 @@ class ViewSplitter {
     return bytes;
   }
 
+  /// Returns what a worker takes for the lines of some objects with others around them.
+  [[nodiscard]] std::uint64_t bytes_of(const std::vector<std::uint32_t>& asked,
+                                       const std::vector<std::uint32_t>& objects) const {
+    std::uint64_t bytes = 0;
+    for (const std::uint32_t o : objects) bytes += bytes_of(o, false);
+    for (const std::uint32_t o : asked) bytes += bytes_of(o, true) - bytes_of(o, false);
+    return bytes;
+  }
+
+  /// Whether neither half is smaller, to speak of, than the whole.
+  static bool gains_nothing(std::uint64_t first, std::uint64_t second, std::uint64_t whole) {
+    return std::min(first, second) / 8 >= whole / 9;
+  }
+
   /// Makes parts for the lines of some objects, of which `objects` has all that is needed.
   Status split(const std::vector<std::uint32_t>& asked, const std::vector<std::uint32_t>& objects) {
     if (asked.size() < 2 || least_bytes(asked) <= most_bytes_) {
@@ -206,12 +220,19 @@ class ViewSplitter {
       return part ? split_further(asked, std::move(*part)) : part.error();
     }
     const auto [first, second] = halves(asked);
-    for (const std::vector<std::uint32_t>* const half : {&first, &second}) {
-      const auto around = near(*half, objects);
-      if (!around) return around.error();
-      if (Status status = split(*half, *around); !status) return status;
+    auto near_first = near(first, objects);
+    if (!near_first) return near_first.error();
+    auto near_second = near(second, objects);
+    if (!near_second) return near_second.error();
+    if (gains_nothing(bytes_of(first, *near_first), bytes_of(second, *near_second),
+                      bytes_of(asked, objects))) {
+      // What lies near by boxes may not be near by what is drawn of it: that is asked for each
+      // half.
+      auto part = find_part(asked, objects);
+      return part ? split_further(asked, std::move(*part)) : part.error();
     }
-    return {};
+    if (Status status = split(first, *near_first); !status) return status;
+    return split(second, *near_second);
   }
 
   /// Splits a part, as long as one of its halves is smaller for it.
@@ -225,7 +246,7 @@ class ViewSplitter {
     if (!of_first) return of_first.error();
     auto of_second = find_part(second, part.objects);
     if (!of_second) return of_second.error();
-    if (std::min(of_first->bytes, of_second->bytes) / 8 >= part.bytes / 9) {
+    if (gains_nothing(of_first->bytes, of_second->bytes, part.bytes)) {
       parts_.push_back(std::move(part));
       return {};
     }

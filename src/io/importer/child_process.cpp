@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/importer/child_process.hpp"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -20,17 +22,33 @@ namespace strake::io {
 
 namespace {
 
-#if defined(__GLIBC__) && !__GLIBC_PREREQ(2, 29)
-/// The C library cannot give a child a folder: a shell does, which reads none of the words.
-constexpr bool kShellSetsFolder = true;
-#else
-constexpr bool kShellSetsFolder = false;
-#endif
+/// What newer C libraries have: a program that is linked for an older one looks for it when it
+/// runs. None: not there.
+struct SpawnExtensions {
+  int (*addchdir)(posix_spawn_file_actions_t*, const char*);  ///< glibc 2.29
+  int (*addclosefrom)(posix_spawn_file_actions_t*, int);      ///< glibc 2.34
 
-/// Returns the words that start a program.
+  static const SpawnExtensions& found() {
+    static const SpawnExtensions all = {
+        std::bit_cast<decltype(addchdir)>(
+            ::dlsym(RTLD_DEFAULT, "posix_spawn_file_actions_addchdir_np")),
+        std::bit_cast<decltype(addclosefrom)>(
+            ::dlsym(RTLD_DEFAULT, "posix_spawn_file_actions_addclosefrom_np"))};
+    return all;
+  }
+};
+
+/// Whether a shell gives the child its folder, as the C library cannot.
+bool needs_shell(const ChildProgram& program) {
+  return !program.folder.empty() && SpawnExtensions::found().addchdir == nullptr;
+}
+
+/// Returns the words that start a program. A shell reads none of them, and takes its own `cd` where
+/// the environment has a function of that name.
 std::vector<std::string> words_of(const ChildProgram& program) {
-  if (!kShellSetsFolder || program.folder.empty()) return program.words;
-  std::vector<std::string> words{"/bin/sh", "-c", "cd \"$0\" && exec \"$@\"",
+  if (!needs_shell(program)) return program.words;
+  std::vector<std::string> words{"/bin/sh", "-c",
+                                 "unset -f cd command 2>/dev/null; cd -P -- \"$0\" && exec \"$@\"",
                                  program.folder.string()};
   words.insert(words.end(), program.words.begin(), program.words.end());
   return words;
@@ -47,14 +65,11 @@ class SpawnOptions {
                                        O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, kMode);
     ::posix_spawn_file_actions_adddup2(&files_, STDOUT_FILENO, STDERR_FILENO);
     // Behind the log, whose path may depend on our folder.
-#if !defined(__GLIBC__) || __GLIBC_PREREQ(2, 29)
-    if (!program.folder.empty())
-      ::posix_spawn_file_actions_addchdir_np(&files_, program.folder.c_str());
-#endif
-#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
+    const SpawnExtensions& more = SpawnExtensions::found();
+    if (!program.folder.empty() && more.addchdir != nullptr)
+      more.addchdir(&files_, program.folder.c_str());
     // Files that other threads have opened by streams, which do not close themselves.
-    ::posix_spawn_file_actions_addclosefrom_np(&files_, STDERR_FILENO + 1);
-#endif
+    if (more.addclosefrom != nullptr) more.addclosefrom(&files_, STDERR_FILENO + 1);
     ::posix_spawnattr_init(&attributes_);
     sigset_t none, ignored_by_us;
     sigemptyset(&none);
@@ -195,6 +210,9 @@ ChildEnd end_of(Child& child, const std::optional<ChildEnd::How>& why,
 }  // namespace
 
 ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop) {
+  // A shell that can be started says nothing of whether the program can.
+  if (needs_shell(program) && ::access(program.words.front().c_str(), X_OK) != 0)
+    return {ChildEnd::How::not_started, 0, {}};
   const pid_t process = SpawnOptions(program).start(words_of(program));
   if (process < 0) return {ChildEnd::How::not_started, 0, {}};
   Child child(process, program.killed_with);
@@ -202,10 +220,6 @@ ChildEnd run_child(const ChildProgram& program, const std::stop_token& stop) {
   const std::optional<ChildEnd::How> why = wait_for(child, program, log, stop);
   ChildEnd end = end_of(child, why, stop);
   end.output = log.end();
-  // Thus a shell tells that it could not start a program.
-  const bool by_shell = kShellSetsFolder && !program.folder.empty();
-  if (by_shell && end.how == ChildEnd::How::exited && (end.code == 126 || end.code == 127))
-    end = {ChildEnd::How::not_started, 0, {}};
   return end;
 }
 

@@ -151,7 +151,12 @@ Result<bool> add_first_rows(Database& database, const FirstResults& results,
   if (const Status dropped = database.execute(kDropKeyIndex); !dropped) return dropped.error();
   const Status added = RowsAtOnce(database, results, rows).add(numbers);
   if (!added) return added.error();
-  if (const Status made = database.execute(kMakeKeyIndex); !made) return made.error();
+  if (const Status made = database.execute(kMakeKeyIndex); !made) {
+    // Keys of ours are no others': those that were there contradict each other.
+    if (made.error().message.find("UNIQUE") != std::string::npos)
+      return database.damaged("two clashes have one key");
+    return made.error();
+  }
   return true;
 }
 

@@ -172,5 +172,34 @@ TEST(PartsLaw, APartedDrawingIsTheDrawingOfTheWhole) {
   EXPECT_GT(seen_from, kModels / 10);
 }
 
+/// Plates of one outline, one behind the other in no order: each half of them needs nearly all as
+/// what may hide it.
+TEST(SplitView, LeavesTogetherWhatIsNoSmallerInHalves) {
+  constexpr std::int64_t kMm = 1000, kPlates = 200;
+  std::vector<geometry::Box3l> boxes;
+  geometry::Box3l drawn;
+  for (std::int64_t i = 0; i < kPlates; ++i) {
+    const std::int64_t z = i * 77 % kPlates * 100 * kMm;
+    boxes.push_back({{0, 0, z}, {1000 * kMm, 1000 * kMm, z + 10 * kMm}});
+    drawn.include(boxes.back());
+  }
+  const std::vector<std::uint32_t> bytes(kPlates, 3'000'000);
+  hlr::View view;
+  view.direction = {0, 0, -1};
+  view.up = {0, 1, 0};
+  const hlr::Options options;
+  const auto split = [&](std::uint64_t most) {
+    const auto parts = hlr::split_view({view, options, drawn, boxes, bytes}, most, {}).value();
+    std::uint64_t all = 0, asked = 0;
+    for (const hlr::ViewPart& part : parts) {
+      all += part.bytes;
+      asked += static_cast<std::uint64_t>(std::ranges::count(part.asked, true));
+    }
+    EXPECT_EQ(asked, boxes.size());
+    return all;
+  };
+  EXPECT_LT(split(std::uint64_t{128} << 20U), 3 * split(std::uint64_t{1} << 40U));
+}
+
 }  // namespace
 }  // namespace strake
