@@ -28,13 +28,11 @@ struct SpawnExtensions {
   int (*addchdir)(posix_spawn_file_actions_t*, const char*);  ///< glibc 2.29
   int (*addclosefrom)(posix_spawn_file_actions_t*, int);      ///< glibc 2.34
 
-  static const SpawnExtensions& found() {
-    static const SpawnExtensions all = {
-        std::bit_cast<decltype(addchdir)>(
-            ::dlsym(RTLD_DEFAULT, "posix_spawn_file_actions_addchdir_np")),
-        std::bit_cast<decltype(addclosefrom)>(
-            ::dlsym(RTLD_DEFAULT, "posix_spawn_file_actions_addclosefrom_np"))};
-    return all;
+  static SpawnExtensions found() {
+    return {std::bit_cast<decltype(addchdir)>(
+                ::dlsym(RTLD_DEFAULT, "posix_spawn_file_actions_addchdir_np")),
+            std::bit_cast<decltype(addclosefrom)>(
+                ::dlsym(RTLD_DEFAULT, "posix_spawn_file_actions_addclosefrom_np"))};
   }
 };
 
@@ -65,7 +63,7 @@ class SpawnOptions {
                                        O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, kMode);
     ::posix_spawn_file_actions_adddup2(&files_, STDOUT_FILENO, STDERR_FILENO);
     // Behind the log, whose path may depend on our folder.
-    const SpawnExtensions& more = SpawnExtensions::found();
+    const SpawnExtensions more = SpawnExtensions::found();
     if (!program.folder.empty() && more.addchdir != nullptr)
       more.addchdir(&files_, program.folder.c_str());
     // Files that other threads have opened by streams, which do not close themselves.
