@@ -206,6 +206,87 @@ def test_one_shape_with_other_openings_is_another(tmp_path: Path) -> None:
     assert outcome.output.read_bytes() == convert(tmp_path / "a.ifc", threads=1).output.read_bytes()
 
 
+def vertical_half(model: IfcModel, agree: bool | None, x: float = 1000) -> Any:
+    """What lies beyond a plane across x, or before it where the flag agrees."""
+    return model.file.create_entity("IfcHalfSpaceSolid", plane(model, (x, 0, 0), (1, 0, 0)), agree)
+
+
+def faults(model: IfcModel, products: Sequence[Any]) -> list[str]:
+    """Why manifold3d does not cut products, which Open CASCADE makes all the same."""
+    read = Model(model.file)
+    numbers = [product.id() for product in products]
+    ours, theirs = (shapes(read, numbers, kernel) for kernel in (CUT, EXACT))
+    assert all(theirs[number][1] is not None for number in numbers)
+    return [ours[number][0].fault for number in numbers]
+
+
+@pytest.mark.parametrize("shared", ["body", "opening", "item"])
+@pytest.mark.parametrize("bad", ["flat", "sphere", "swept"])
+def test_an_item_that_is_not_made_is_missing_from_no_product(shared: str, bad: str) -> None:
+    model = IfcModel()
+    make = model.file.create_entity
+    if bad == "flat":
+        item = model.extrusion((100, 400, 0), (1000, 0, 1000))
+    elif bad == "sphere":
+        item = make("IfcSphere", model.axes((1000, 0, 1000)), 300.0)
+    else:
+        ends = [make("IfcCartesianPoint", (1000.0, y, 1000.0)) for y in (-500.0, 500.0)]
+        item = make("IfcSweptDiskSolid", make("IfcPolyline", ends), 300.0)
+    source = model.mapped(model.body(model.extrusion((100, 400, 100), (0, 0, 400)), item))
+    products = []
+    for i in range(3):
+        body, opening = (model.body(model.extrusion(size)) for size in ((4000, 200, 2500), (50, 400, 2000)))
+        if shared == "body":
+            body = model.body(model.use(source), kind="MappedRepresentation")
+        elif shared == "opening":
+            opening = model.body(model.use(source), kind="MappedRepresentation")
+        else:
+            opening = model.body(model.extrusion((100, 400, 100 + i), (0, 0, 400)), item)
+        products.append(model.product("IfcPlate", f"p{i}", body, (i * 9000, 0, 0)))
+        model.void(products[-1], opening)
+    assert all(faults(model, products))
+
+
+def test_what_is_said_of_an_item_is_told_of_its_product(tmp_path: Path) -> None:
+    model = IfcModel()
+    wall = model.product("IfcWall", "w", model.body(model.extrusion((4000, 200, 2500))))
+    model.void(wall, model.body(model.extrusion((100, 200, 0), (0, 0, 400)), model.extrusion((100, 200, 100), (500, 0, 400))))
+    whole = model.product("IfcWall", "v", model.body(model.extrusion((4000, 200, 2500))), (0, 9000, 0))
+    model.void(whole, model.body(model.extrusion((100, 200, 100))))
+    read = Model(model.file)
+    ours = shapes(read, [wall.id(), whole.id()], CUT)
+    assert ours[wall.id()][0].fault and not ours[whole.id()][0].fault
+    outcome = convert(model.write(tmp_path / "a.ifc"))
+    assert "Non-positive extrusion height" in str(outcome.told("warning"))
+
+
+def test_what_several_results_cut_is_left_to_others() -> None:
+    model = IfcModel()
+    make = model.file.create_entity
+    solid = model.extrusion((4000, 200, 2500))
+    halves = [make("IfcBooleanClippingResult", "DIFFERENCE", solid, vertical_half(model, agree)) for agree in (False, True)]
+    assert all(faults(model, [model.product("IfcWall", "w", model.body(*halves, kind="Clipping"))]))
+    for half, red in zip(halves, (1, 0), strict=True):
+        model.color(half, red, 0, 1 - red)
+    walls = [model.product("IfcWall", "w", model.body(half, kind="Clipping")) for half in halves]
+    walls.append(model.product("IfcWall", "w", model.body(halves[0], solid, kind="Clipping")))
+    assert all(faults(model, walls))
+    # A plain product with the same body keeps its colour.
+    plain = model.product("IfcWall", "w", model.body(solid))
+    model.void(plain, model.body(model.extrusion((100, 500, 100), (0, 0, 400))))
+    ours = shapes(Model(model.file), [wall.id() for wall in [*walls, plain]], CUT)[plain.id()][1]
+    theirs = shapes(Model(model.file), [plain.id()], EXACT)[plain.id()][1]
+    assert ours is not None and theirs is not None
+    assert [part.color for part in ours.parts] == [part.color for part in theirs.parts]
+    # A step of a cut that is the body of another product.
+    model = IfcModel()
+    make = model.file.create_entity
+    inner = make("IfcBooleanClippingResult", "DIFFERENCE", model.extrusion((4000, 200, 2500)), vertical_half(model, False))
+    outer = make("IfcBooleanClippingResult", "DIFFERENCE", inner, vertical_half(model, True, -1000))
+    walls = [model.product("IfcWall", "w", model.body(result, kind="Clipping")) for result in (outer, inner)]
+    assert faults(model, walls)[0]
+
+
 def test_without_manifold3d_open_cascade_cuts_and_a_note_says_so(tmp_path: Path) -> None:
     model = IfcModel()
     wall = model.product("IfcWall", "w", model.body(model.extrusion((4000, 200, 2500))))
