@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,12 +21,14 @@ pytest.importorskip("manifold3d", reason="needs manifold3d: pip install 'strake[
 
 from conversions import convert
 from ifc_model import IfcModel
-from strake.importers.ifc.chunks import Chunk, Converted, convert_chunk
+from strake.importers.ifc import conversion
+from strake.importers.ifc.chunks import Answer, Chunk, Converted, convert_chunk
 from strake.importers.ifc.entity import Model
 from strake.importers.ifc.kernels import CUT, EXACT, kernels_for
 from strake.importers.ifc.products import choose_products
 from strake.importers.ifc.solids import Mesh, Unfit, difference
 from strake.importers.ifc.source import open_model
+from strake.importers.ifc.workers import Workers
 from strake.importers.report import Report
 from strake.importers.shapes import PreparedShape
 
@@ -310,6 +314,96 @@ def test_what_several_results_cut_is_left_to_others() -> None:
     outer = make("IfcBooleanClippingResult", "DIFFERENCE", inner, vertical_half(model, True, -1000))
     walls = [model.product("IfcWall", "w", model.body(result, kind="Clipping")) for result in (outer, inner)]
     assert faults(model, walls)[0]
+
+
+@pytest.mark.parametrize("schema", ["IFC2X3", "IFC4"])
+@pytest.mark.parametrize("relation", ["IfcRelAggregates", "IfcRelNests"])
+def test_what_cuts_a_whole_cuts_its_parts_and_not_what_is_nested(schema: str, relation: str) -> None:
+    model = IfcModel(schema=schema)
+    make = model.file.create_entity
+    whole = make("IfcWall", GlobalId=model.guid(), ObjectPlacement=model.placed())
+    part = model.product("IfcBuildingElementPart", "p", model.body(model.extrusion((4000, 200, 2500))))
+    make(relation, GlobalId=model.guid(), RelatingObject=whole, RelatedObjects=[part])
+    model.void(whole, model.body(model.extrusion((500, 400, 500))), (1000, 0, 1000))
+    model.void(part, model.body(model.extrusion((300, 400, 300))), (-1000, 0, 1000))
+    read = Model(model.file)
+    ours, theirs = (shapes(read, [part.id()], kernel)[part.id()][1] for kernel in (CUT, EXACT))
+    assert ours is not None and theirs is not None
+    assert of_shape(ours) == pytest.approx(of_shape(theirs), rel=1e-6)
+    taken = 300 * 300 + (500 * 500 if relation == "IfcRelAggregates" else 0)
+    assert of_shape(ours)[0] == pytest.approx((4000 * 2500 - taken) * 200, rel=1e-6)
+
+
+@pytest.mark.parametrize(("agree", "x"), [(None, 1000), (False, 1e300), (False, 2e12), (True, -2e12)])
+def test_a_half_space_without_a_side_or_far_out_is_left_to_others(agree: bool | None, x: float) -> None:
+    model = IfcModel()
+    result = model.file.create_entity(
+        "IfcBooleanClippingResult", "DIFFERENCE", model.extrusion((4000, 200, 2500)), vertical_half(model, agree, x)
+    )
+    wall = model.product("IfcWall", "w", model.body(result, kind="Clipping"))
+    fault = shapes(Model(model.file), [wall.id()], CUT)[wall.id()][0].fault
+    assert ("side" if agree is None else "too far out") in fault
+
+
+BOUNDARIES = [
+    ([(0, -500), (1500, 500), (1500, -500), (0, 400)], False),  # a bow-tie
+    ([(0, -500), (0, 400), (1500, -500), (1500, 500)], False),
+    ([(0, -500), (1500, -500), (1500, 500), (0, 500), (0, -500), (1500, -500), (1500, 500), (0, 500)], False),  # twice round
+    ([(0, -500), (1500, -500), (1500, 500), (1500, -500), (1500, 500), (0, 500)], False),  # there and back
+    ([(0, -500), (750, 0), (1500, -500), (1500, 500), (750, 0), (0, 500)], False),  # it touches itself in a point
+    ([(0, -500), (1500, -500), (1500, 500), (750, 500), (750, 0), (500, 0), (500, 500), (0, 500)], True),
+    ([(0, -500), (700, -500), (1500, -500), (1500, 500), (0, 500)], True),  # a corner on a straight side
+]
+
+
+@pytest.mark.parametrize(("boundary", "simple"), BOUNDARIES)
+@pytest.mark.parametrize("turn", [1, -1])
+def test_a_boundary_that_crosses_itself_is_left_to_others(boundary: list[tuple[float, float]], simple: bool, turn: int) -> None:
+    model = IfcModel()
+    make = model.file.create_entity
+    outline = boundary[::turn]
+    points = [make("IfcCartesianPoint", [float(v) for v in at]) for at in [*outline, outline[0]]]
+    half = make("IfcPolygonalBoundedHalfSpace", plane(model, (0, 0, 2000), (0, 0, 1)), False, model.axes(), make("IfcPolyline", points))
+    solid = model.extrusion((4000, 200, 2500))
+    wall = model.product("IfcWall", "w", model.body(make("IfcBooleanClippingResult", "DIFFERENCE", solid, half), kind="Clipping"))
+    read = Model(model.file)
+    ours, theirs = (shapes(read, [wall.id()], kernel)[wall.id()] for kernel in (CUT, EXACT))
+    if not simple:
+        assert "crosses itself" in ours[0].fault
+        return
+    assert ours[1] is not None and theirs[1] is not None
+    assert of_shape(ours[1]) == pytest.approx(of_shape(theirs[1]), rel=1e-6)
+
+
+def test_what_openings_take_away_aslant_is_cut_away(tmp_path: Path) -> None:
+    model = IfcModel()
+    model.product("IfcSlab", "s", model.body(model.extrusion((100, 100, 100))))
+    wall = model.product("IfcWall", "w", model.body(model.extrusion((4000, 200, 2500))))
+    for entity in (wall, model.void(wall, model.body(model.extrusion((4000, 200, 2500))))):
+        entity.Representation.Representations[0].Items[0].Position = model.axes(x=(math.cos(0.3), math.sin(0.3), 0))
+    assert "aslant" in shapes(Model(model.file), [wall.id()], CUT)[wall.id()][0].fault
+    outcome = convert(model.write(tmp_path / "a.ifc"))
+    assert [line["code"] for line in outcome.told("warning")] == ["ifc-cut-away"]
+
+
+def test_a_cut_that_hangs_is_made_by_open_cascade_with_all_beside_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    model = IfcModel()
+    walls = [model.product("IfcWall", "w", model.body(model.extrusion((4000, 200, 2500))), (0, i * 900, 0)) for i in range(3)]
+    for wall in walls:
+        model.void(wall, model.body(model.extrusion((1000, 400, 1000), (0, 0, 900))))
+
+    def hanging(read: Model, chunk: Chunk, sag_m: float) -> Iterator[Answer]:
+        while chunk.kernel == CUT:
+            pass
+        yield from convert_chunk(read, chunk, sag_m)
+
+    monkeypatch.setattr(conversion, "convert_chunk", hanging)
+    monkeypatch.setattr(conversion, "Workers", partial(Workers, silent_s=2))
+    read = Model(model.file)
+    with Report(tmp_path / "report") as report:
+        made = conversion.convert_products(read, [read.by_id(wall.id()) for wall in walls], 1, report, tmp_path)
+    assert [made.placed[wall.id()].kernel for wall in walls] == [EXACT] * 3
+    assert [made.remarks[wall.id()] for wall in walls] == [[(CUT, "no answer for 2 s")]] * 3
 
 
 def test_without_manifold3d_open_cascade_cuts_and_a_note_says_so(tmp_path: Path) -> None:

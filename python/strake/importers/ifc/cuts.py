@@ -177,7 +177,7 @@ def _openings_of(product: Entity) -> list[int]:
     openings = [relation.RelatedOpeningElement for relation in product.HasOpenings or ()]
     part, depth = product, 0
     # Parts of a whole are cut by what cuts the whole.
-    while wholes := [relation.RelatingObject for relation in getattr(part, "Decomposes", None) or ()]:
+    while wholes := _wholes_of(part):
         part, depth = wholes[0], depth + 1
         cutting = [relation.RelatedOpeningElement for relation in getattr(part, "HasOpenings", None) or ()]
         if len(wholes) > 1 or depth > _MOST_DEPTH or (cutting and (depth > 1 or part.is_a("IfcElementAssembly"))):
@@ -188,6 +188,12 @@ def _openings_of(product: Entity) -> list[int]:
         if [name for name in names if name not in NO_BODY] != ["Body"]:
             raise Unfit("an opening of several bodies")
     return sorted({opening.id() for opening in openings})
+
+
+def _wholes_of(part: Entity) -> list[Entity]:
+    # In IFC2X3 what is nested is among them, too, which has the openings of no other.
+    relations = getattr(part, "Decomposes", None) or ()
+    return [relation.RelatingObject for relation in relations if relation.is_a("IfcRelAggregates")]
 
 
 def _plan_item(model: Model, item: Entity, representation: int, plan: _Plan) -> None:
