@@ -276,6 +276,19 @@ def test_an_item_that_is_not_made_is_missing_from_no_product(shared: str, bad: s
     assert all(faults(model, products))
 
 
+@pytest.mark.parametrize("kind", ["IfcFaceBasedSurfaceModel", "IfcShellBasedSurfaceModel"])
+def test_surface_models_are_cut_and_boxes_around_bodies_are_none(kind: str) -> None:
+    model = IfcModel()
+    corners = [(x, y, z) for x in (0, 1000) for y in (0, 200) for z in (0, 1000)]
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    shell = model.faceted(corners, faces).Outer
+    around = model.file.create_entity("IfcBoundingBox", model.file.create_entity("IfcCartesianPoint", (0.0, 0.0, 0.0)), 1e3, 2e2, 1e3)
+    wall = model.product("IfcWall", "w", model.body(model.file.create_entity(kind, [shell]), around, kind="SurfaceModel"))
+    model.void(wall, model.body(model.extrusion((100, 800, 100), (500, 0, 400))))
+    ours = shapes(Model(model.file), [wall.id()], CUT)[wall.id()][1]
+    assert ours is not None and of_shape(ours)[0] == pytest.approx(990_000 * 200, rel=1e-6)
+
+
 def test_what_is_said_of_an_item_is_told_of_its_product(tmp_path: Path) -> None:
     model = IfcModel()
     wall = model.product("IfcWall", "w", model.body(model.extrusion((4000, 200, 2500))))

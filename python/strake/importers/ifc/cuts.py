@@ -201,10 +201,10 @@ def _plan_item(model: Model, item: Entity, representation: int, plan: _Plan) -> 
         inner = item.MappingSource.MappedRepresentation.Items or ()
         if any(one.is_a() in (*_BOOLEANS, "IfcMappedItem", "IfcCsgSolid") for one in inner):
             raise Unfit("a mapped item that is cut")
-        plan.items.update(one.id() for one in inner)
+        plan.items.update(*map(_made_of, inner))
         return
     if item.is_a() not in _BOOLEANS:
-        plan.items.add(item.id())
+        plan.items.update(_made_of(item))
         return
     clips: list[Entity] = []
     at = item
@@ -227,6 +227,18 @@ def _plan_item(model: Model, item: Entity, representation: int, plan: _Plan) -> 
     plan.clips[at.id()] = clips[::-1]
     plan.replaced.setdefault(representation, {})[item.id()] = at.id()
     plan.styled.update({style.id(): at.id() for style in styled})
+
+
+def _made_of(item: Entity) -> list[int]:
+    """Returns what the kernel calls the shapes of an item: of surface models each surface is one, and boxes around a body are none."""
+    kind = item.is_a()
+    if kind == "IfcBoundingBox":
+        return []
+    if kind == "IfcFaceBasedSurfaceModel":
+        return [one.id() for one in item.FbsmFaces]
+    if kind == "IfcShellBasedSurfaceModel":
+        return [one.id() for one in item.SbsmBoundary]
+    return [item.id()]
 
 
 def _users(model: Model, item: Entity) -> int:
