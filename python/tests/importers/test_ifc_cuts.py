@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import math
 import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,12 +21,14 @@ pytest.importorskip("manifold3d", reason="needs manifold3d: pip install 'strake[
 
 from conversions import convert
 from ifc_model import IfcModel
-from strake.importers.ifc.chunks import Chunk, Converted, convert_chunk
+from strake.importers.ifc import conversion
+from strake.importers.ifc.chunks import Answer, Chunk, Converted, convert_chunk
 from strake.importers.ifc.entity import Model
 from strake.importers.ifc.kernels import CUT, EXACT, kernels_for
 from strake.importers.ifc.products import choose_products
 from strake.importers.ifc.solids import Mesh, Unfit, difference
 from strake.importers.ifc.source import open_model
+from strake.importers.ifc.workers import Workers
 from strake.importers.report import Report
 from strake.importers.shapes import PreparedShape
 
@@ -65,6 +69,31 @@ def test_an_opening_that_ends_nearly_in_a_face_leaves_no_skin(off: float) -> Non
     volume, area = measures([left])
     assert volume == pytest.approx((4000 * 2500 - 1000 * 1000) * 200, rel=1e-9)
     assert area == pytest.approx(2 * (4000 * 2500 - 1000 * 1000) + 2 * (4000 + 2500) * 200 + 4 * 1000 * 200, rel=1e-9)
+
+
+@pytest.mark.parametrize("off", [0.011, 0.02, 0.05, 0.09, 0.1])
+@pytest.mark.parametrize("angle", [0.0, 0.3])
+def test_an_opening_that_ends_near_a_face_is_left_to_others(off: float, angle: float) -> None:
+    # Open CASCADE takes them for one where they are nearer than 0.1 mm.
+    for offset in (off, -off):
+        with pytest.raises(Unfit, match="nearly on each other"):
+            difference([turned(WALL, angle)], [turned(box((1000, offset, 500), (2000, 200 - offset, 1500)), angle)])
+    with pytest.raises(Unfit, match="nearly on each other"):
+        difference([WALL], [box((1000, -5, 500), (1500, 205, 1500)), box((1500 + off, -5, 500), (2000, 205, 1500))])
+    ((left,),) = difference([WALL], [box((1000, 0.11, 500), (2000, 199.89, 1500))])
+    assert measures([left])[0] == pytest.approx(4000 * 2500 * 200 - 1000 * 1000 * 199.78, rel=1e-9)
+
+
+@pytest.mark.parametrize("length", [4000, 20000])
+@pytest.mark.parametrize("angle", [1e-6, 3e-6, 5e-6, 7e-6, 1e-5, 3e-5])
+def test_a_wall_that_is_hardly_aslant_keeps_no_skin(length: float, angle: float) -> None:
+    opening = box((500, 0, 500), (1500, 200, 1500))
+    try:
+        ((left,),) = difference([turned(box((0, 0, 0), (length, 200, 2500)), angle)], [turned(opening, angle)])
+    except Unfit:
+        assert length * angle > 0.009
+        return
+    assert measures([left])[1] == pytest.approx(2 * (length * 2500 - 1e6) + 2 * (length + 2500) * 200 + 4 * 1000 * 200, rel=1e-6)
 
 
 def test_openings_side_by_side_leave_no_skin_between() -> None:
@@ -204,6 +233,190 @@ def test_one_shape_with_other_openings_is_another(tmp_path: Path) -> None:
     meshes = [outcome.glb.node(one.GlobalId)["mesh"] for one in panels]
     assert meshes[1] == meshes[3] and len(set(meshes)) == 3
     assert outcome.output.read_bytes() == convert(tmp_path / "a.ifc", threads=1).output.read_bytes()
+
+
+def vertical_half(model: IfcModel, agree: bool | None, x: float = 1000) -> Any:
+    """What lies beyond a plane across x, or before it where the flag agrees."""
+    return model.file.create_entity("IfcHalfSpaceSolid", plane(model, (x, 0, 0), (1, 0, 0)), agree)
+
+
+def faults(model: IfcModel, products: Sequence[Any]) -> list[str]:
+    """Why manifold3d does not cut products, which Open CASCADE makes all the same."""
+    read = Model(model.file)
+    numbers = [product.id() for product in products]
+    ours, theirs = (shapes(read, numbers, kernel) for kernel in (CUT, EXACT))
+    assert all(theirs[number][1] is not None for number in numbers)
+    return [ours[number][0].fault for number in numbers]
+
+
+@pytest.mark.parametrize("shared", ["body", "opening", "item"])
+@pytest.mark.parametrize("bad", ["flat", "sphere", "swept"])
+def test_an_item_that_is_not_made_is_missing_from_no_product(shared: str, bad: str) -> None:
+    model = IfcModel()
+    make = model.file.create_entity
+    if bad == "flat":
+        item = model.extrusion((100, 400, 0), (1000, 0, 1000))
+    elif bad == "sphere":
+        item = make("IfcSphere", model.axes((1000, 0, 1000)), 300.0)
+    else:
+        ends = [make("IfcCartesianPoint", (1000.0, y, 1000.0)) for y in (-500.0, 500.0)]
+        item = make("IfcSweptDiskSolid", make("IfcPolyline", ends), 300.0)
+    source = model.mapped(model.body(model.extrusion((100, 400, 100), (0, 0, 400)), item))
+    products = []
+    for i in range(3):
+        body, opening = (model.body(model.extrusion(size)) for size in ((4000, 200, 2500), (50, 400, 2000)))
+        if shared == "body":
+            body = model.body(model.use(source), kind="MappedRepresentation")
+        elif shared == "opening":
+            opening = model.body(model.use(source), kind="MappedRepresentation")
+        else:
+            opening = model.body(model.extrusion((100, 400, 100 + i), (0, 0, 400)), item)
+        products.append(model.product("IfcPlate", f"p{i}", body, (i * 9000, 0, 0)))
+        model.void(products[-1], opening)
+    assert all(faults(model, products))
+
+
+@pytest.mark.parametrize("kind", ["IfcFaceBasedSurfaceModel", "IfcShellBasedSurfaceModel"])
+def test_surface_models_are_cut_and_boxes_around_bodies_are_none(kind: str) -> None:
+    model = IfcModel()
+    corners = [(x, y, z) for x in (0, 1000) for y in (0, 200) for z in (0, 1000)]
+    faces = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    shell = model.faceted(corners, faces).Outer
+    around = model.file.create_entity("IfcBoundingBox", model.file.create_entity("IfcCartesianPoint", (0.0, 0.0, 0.0)), 1e3, 2e2, 1e3)
+    wall = model.product("IfcWall", "w", model.body(model.file.create_entity(kind, [shell]), around, kind="SurfaceModel"))
+    model.void(wall, model.body(model.extrusion((100, 800, 100), (500, 0, 400))))
+    ours = shapes(Model(model.file), [wall.id()], CUT)[wall.id()][1]
+    assert ours is not None and of_shape(ours)[0] == pytest.approx(990_000 * 200, rel=1e-6)
+
+
+def test_what_is_said_of_an_item_is_told_of_its_product(tmp_path: Path) -> None:
+    model = IfcModel()
+    wall = model.product("IfcWall", "w", model.body(model.extrusion((4000, 200, 2500))))
+    model.void(wall, model.body(model.extrusion((100, 200, 0), (0, 0, 400)), model.extrusion((100, 200, 100), (500, 0, 400))))
+    whole = model.product("IfcWall", "v", model.body(model.extrusion((4000, 200, 2500))), (0, 9000, 0))
+    model.void(whole, model.body(model.extrusion((100, 200, 100))))
+    read = Model(model.file)
+    ours = shapes(read, [wall.id(), whole.id()], CUT)
+    assert ours[wall.id()][0].fault and not ours[whole.id()][0].fault
+    outcome = convert(model.write(tmp_path / "a.ifc"))
+    assert "Non-positive extrusion height" in str(outcome.told("warning"))
+
+
+def test_what_several_results_cut_is_left_to_others() -> None:
+    model = IfcModel()
+    make = model.file.create_entity
+    solid = model.extrusion((4000, 200, 2500))
+    halves = [make("IfcBooleanClippingResult", "DIFFERENCE", solid, vertical_half(model, agree)) for agree in (False, True)]
+    assert all(faults(model, [model.product("IfcWall", "w", model.body(*halves, kind="Clipping"))]))
+    for half, red in zip(halves, (1, 0), strict=True):
+        model.color(half, red, 0, 1 - red)
+    walls = [model.product("IfcWall", "w", model.body(half, kind="Clipping")) for half in halves]
+    walls.append(model.product("IfcWall", "w", model.body(halves[0], solid, kind="Clipping")))
+    assert all(faults(model, walls))
+    # A plain product with the same body keeps its colour.
+    plain = model.product("IfcWall", "w", model.body(solid))
+    model.void(plain, model.body(model.extrusion((100, 500, 100), (0, 0, 400))))
+    ours = shapes(Model(model.file), [wall.id() for wall in [*walls, plain]], CUT)[plain.id()][1]
+    theirs = shapes(Model(model.file), [plain.id()], EXACT)[plain.id()][1]
+    assert ours is not None and theirs is not None
+    assert [part.color for part in ours.parts] == [part.color for part in theirs.parts]
+    # A step of a cut that is the body of another product.
+    model = IfcModel()
+    make = model.file.create_entity
+    inner = make("IfcBooleanClippingResult", "DIFFERENCE", model.extrusion((4000, 200, 2500)), vertical_half(model, False))
+    outer = make("IfcBooleanClippingResult", "DIFFERENCE", inner, vertical_half(model, True, -1000))
+    walls = [model.product("IfcWall", "w", model.body(result, kind="Clipping")) for result in (outer, inner)]
+    assert faults(model, walls)[0]
+
+
+@pytest.mark.parametrize("schema", ["IFC2X3", "IFC4"])
+@pytest.mark.parametrize("relation", ["IfcRelAggregates", "IfcRelNests"])
+def test_what_cuts_a_whole_cuts_its_parts_and_not_what_is_nested(schema: str, relation: str) -> None:
+    model = IfcModel(schema=schema)
+    make = model.file.create_entity
+    whole = make("IfcWall", GlobalId=model.guid(), ObjectPlacement=model.placed())
+    part = model.product("IfcBuildingElementPart", "p", model.body(model.extrusion((4000, 200, 2500))))
+    make(relation, GlobalId=model.guid(), RelatingObject=whole, RelatedObjects=[part])
+    model.void(whole, model.body(model.extrusion((500, 400, 500))), (1000, 0, 1000))
+    model.void(part, model.body(model.extrusion((300, 400, 300))), (-1000, 0, 1000))
+    read = Model(model.file)
+    ours, theirs = (shapes(read, [part.id()], kernel)[part.id()][1] for kernel in (CUT, EXACT))
+    assert ours is not None and theirs is not None
+    assert of_shape(ours) == pytest.approx(of_shape(theirs), rel=1e-6)
+    taken = 300 * 300 + (500 * 500 if relation == "IfcRelAggregates" else 0)
+    assert of_shape(ours)[0] == pytest.approx((4000 * 2500 - taken) * 200, rel=1e-6)
+
+
+@pytest.mark.parametrize(("agree", "x"), [(None, 1000), (False, 1e300), (False, 2e12), (True, -2e12)])
+def test_a_half_space_without_a_side_or_far_out_is_left_to_others(agree: bool | None, x: float) -> None:
+    model = IfcModel()
+    result = model.file.create_entity(
+        "IfcBooleanClippingResult", "DIFFERENCE", model.extrusion((4000, 200, 2500)), vertical_half(model, agree, x)
+    )
+    wall = model.product("IfcWall", "w", model.body(result, kind="Clipping"))
+    fault = shapes(Model(model.file), [wall.id()], CUT)[wall.id()][0].fault
+    assert ("side" if agree is None else "too far out") in fault
+
+
+BOUNDARIES = [
+    ([(0, -500), (1500, 500), (1500, -500), (0, 400)], False),  # a bow-tie
+    ([(0, -500), (0, 400), (1500, -500), (1500, 500)], False),
+    ([(0, -500), (1500, -500), (1500, 500), (0, 500), (0, -500), (1500, -500), (1500, 500), (0, 500)], False),  # twice round
+    ([(0, -500), (1500, -500), (1500, 500), (1500, -500), (1500, 500), (0, 500)], False),  # there and back
+    ([(0, -500), (750, 0), (1500, -500), (1500, 500), (750, 0), (0, 500)], False),  # it touches itself in a point
+    ([(0, -500), (1500, -500), (1500, 500), (750, 500), (750, 0), (500, 0), (500, 500), (0, 500)], True),
+    ([(0, -500), (700, -500), (1500, -500), (1500, 500), (0, 500)], True),  # a corner on a straight side
+]
+
+
+@pytest.mark.parametrize(("boundary", "simple"), BOUNDARIES)
+@pytest.mark.parametrize("turn", [1, -1])
+def test_a_boundary_that_crosses_itself_is_left_to_others(boundary: list[tuple[float, float]], simple: bool, turn: int) -> None:
+    model = IfcModel()
+    make = model.file.create_entity
+    outline = boundary[::turn]
+    points = [make("IfcCartesianPoint", [float(v) for v in at]) for at in [*outline, outline[0]]]
+    half = make("IfcPolygonalBoundedHalfSpace", plane(model, (0, 0, 2000), (0, 0, 1)), False, model.axes(), make("IfcPolyline", points))
+    solid = model.extrusion((4000, 200, 2500))
+    wall = model.product("IfcWall", "w", model.body(make("IfcBooleanClippingResult", "DIFFERENCE", solid, half), kind="Clipping"))
+    read = Model(model.file)
+    ours, theirs = (shapes(read, [wall.id()], kernel)[wall.id()] for kernel in (CUT, EXACT))
+    if not simple:
+        assert "crosses itself" in ours[0].fault
+        return
+    assert ours[1] is not None and theirs[1] is not None
+    assert of_shape(ours[1]) == pytest.approx(of_shape(theirs[1]), rel=1e-6)
+
+
+def test_what_openings_take_away_aslant_is_cut_away(tmp_path: Path) -> None:
+    model = IfcModel()
+    model.product("IfcSlab", "s", model.body(model.extrusion((100, 100, 100))))
+    wall = model.product("IfcWall", "w", model.body(model.extrusion((4000, 200, 2500))))
+    for entity in (wall, model.void(wall, model.body(model.extrusion((4000, 200, 2500))))):
+        entity.Representation.Representations[0].Items[0].Position = model.axes(x=(math.cos(0.3), math.sin(0.3), 0))
+    assert "aslant" in shapes(Model(model.file), [wall.id()], CUT)[wall.id()][0].fault
+    outcome = convert(model.write(tmp_path / "a.ifc"))
+    assert [line["code"] for line in outcome.told("warning")] == ["ifc-cut-away"]
+
+
+def test_a_cut_that_hangs_is_made_by_open_cascade_with_all_beside_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    model = IfcModel()
+    walls = [model.product("IfcWall", "w", model.body(model.extrusion((4000, 200, 2500))), (0, i * 900, 0)) for i in range(3)]
+    for wall in walls:
+        model.void(wall, model.body(model.extrusion((1000, 400, 1000), (0, 0, 900))))
+
+    def hanging(read: Model, chunk: Chunk, sag_m: float) -> Iterator[Answer]:
+        while chunk.kernel == CUT:
+            pass
+        yield from convert_chunk(read, chunk, sag_m)
+
+    monkeypatch.setattr(conversion, "convert_chunk", hanging)
+    monkeypatch.setattr(conversion, "Workers", partial(Workers, silent_s=2))
+    read = Model(model.file)
+    with Report(tmp_path / "report") as report:
+        made = conversion.convert_products(read, [read.by_id(wall.id()) for wall in walls], 1, report, tmp_path)
+    assert [made.placed[wall.id()].kernel for wall in walls] == [EXACT] * 3
+    assert [made.remarks[wall.id()] for wall in walls] == [[(CUT, "no answer for 2 s")]] * 3
 
 
 def test_without_manifold3d_open_cascade_cuts_and_a_note_says_so(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ import pytest
 pytest.importorskip("ifcopenshell")
 
 from strake.importers.ifc.chunks import Answer, Chunk, Converted
+from strake.importers.ifc.kernels import CUT
 from strake.importers.ifc.workers import Ended, Workers
 
 CRASHES, HANGS, RAISES, WAITS = 13, 17, 19, 99
@@ -51,6 +52,15 @@ def test_a_worker_that_only_waits_has_longer_and_no_end() -> None:
         workers.add(Chunk((WAITS,), "k"))
         ended = [event for event in workers.answers() if isinstance(event, Ended)]
     assert ended[0].hung and time.monotonic() - began > 1.4
+
+
+def test_each_hang_halves_the_limit_but_those_of_cuts(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("strake.importers.ifc.workers.LEAST_SILENT_S", 0.25)
+    with Workers(None, 1, silent_s=0.5, convert=fake) as workers:
+        for kernel in (CUT, CUT, "k", "k"):
+            workers.add(Chunk((HANGS,), kernel))
+        faults = [event.fault for event in workers.answers() if isinstance(event, Ended)]
+    assert faults == ["no answer for 0.5 s"] * 3 + ["no answer for 0.25 s"]
 
 
 def test_an_exception_ends_the_chunk_and_not_the_worker() -> None:

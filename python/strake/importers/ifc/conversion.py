@@ -168,7 +168,8 @@ def _go_on(ended: Ended, kernels_of: dict[int, tuple[str, ...]], workers: Worker
     chunk, missing = ended.chunk, ended.missing
     if ended.fault and len(chunk.products) > 1 and missing:
         # Products are converted in their order, so that the first one that is missing is to be suspected.
-        suspect, rest = missing[:1], missing[1:]
+        # But for cuts, before which all bodies are made: any may have hung.
+        suspect, rest = (missing, ()) if ended.hung and chunk.kernel == CUT else (missing[:1], missing[1:])
         if rest:
             workers.add(Chunk(rest, chunk.kernel, chunk.attempt))
         if not ended.hung:
@@ -203,5 +204,6 @@ def _fail(number: int, result: Conversion) -> None:
     # A kernel says the same thing several times, each time with more around it.
     longest = dict(sorted(said, key=lambda remark: len(remark[1])))
     result.failed[number] = "; ".join(f"{kernel}: {longest[kernel]}" for kernel in dict.fromkeys(k for k, _ in said))
-    if all(text == EMPTY for _, text in said):
+    # What manifold3d does not cut says nothing of what is left.
+    if all(text == EMPTY for kernel, text in said if kernel != CUT):
         result.empty.add(number)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.half_spaces import half_space
-from strake.importers.ifc.kernels import FAST, NO_BODY, geometry_settings, shapes_of
+from strake.importers.ifc.kernels import FAST, NO_BODY, geometry_settings, shapes_of, slow_items_of
 from strake.importers.ifc.solids import Corners, Mesh, Unfit, difference
 from strake.importers.shapes import Color
 
@@ -39,6 +39,8 @@ class _Plan:
     """How the body of a product, or of an opening, comes about: items, by number, and what is taken from each."""
 
     openings: list[int] = field(default_factory=list)
+    # What the kernel is to make: the items, those within mapped items, and first operands in the place of results.
+    items: set[int] = field(default_factory=set)
     clips: dict[int, list[Entity]] = field(default_factory=dict)
     # Boolean results in the place of which the kernel is to find their first operand, by representation.
     replaced: dict[int, dict[int, int]] = field(default_factory=dict)
@@ -55,25 +57,26 @@ def cut_products(model: Model, products: Sequence[int], sag_m: float, log: Any, 
     """Yields what openings and half-spaces leave of products, or why that is not told."""
     plans: dict[int, _Plan | str] = {}
     for number in products:
-        plans[number] = _planned(model.by_id(number), with_openings=True)
+        plans[number] = _planned(model, number, with_openings=True)
     for plan in list(plans.values()):
         for opening in plan.openings if isinstance(plan, _Plan) else ():
             if opening not in plans:
-                plans[opening] = _planned(model.by_id(opening), with_openings=False)
+                plans[opening] = _planned(model, opening, with_openings=False)
     sound = {number: plan for number, plan in plans.items() if isinstance(plan, _Plan)}
     settings = geometry_settings(sag_m)
     settings.set("disable-opening-subtractions", True)
     bodies: dict[int, _Body | str] = {number: plan for number, plan in plans.items() if isinstance(plan, str)}
+    shape_of: dict[int, str] = {}
     with _first_operands(model, sound.values()):
         iterator = shapes_of(model, sorted(sound), settings, FAST, log)
         unit_mm = float(iterator.unit_magnitude()) * _MM_PER_M
         going = iterator.initialize()
         while going:
             element = iterator.get()
+            shape_of[element.id] = element.geometry.id
             bodies[element.id] = _body(element, color_of) if element.id not in bodies else "several bodies"
             going = bool(iterator.next())
-    for number, fault in _faults(log).items():
-        bodies[number] = fault
+    bodies.update(_faults(model, log, sound, shape_of))
     for number in products:
         try:
             yield _cut(number, sound, bodies, unit_mm)
@@ -105,7 +108,7 @@ def _whole(number: int, bodies: dict[int, _Body | str]) -> _Body:
 
 def _clipped(body: _Body, plan: _Plan, unit_mm: float) -> list[tuple[Mesh, Color]]:
     """Returns what half-spaces leave of the items of a body."""
-    if missing := plan.clips.keys() - body.items.keys():
+    if missing := plan.items - body.items.keys():
         raise Unfit(f"no shape of #{min(missing)}")
     pieces: list[tuple[Mesh, Color]] = []
     for item, (mesh, color) in body.items.items():
@@ -147,10 +150,13 @@ def _body(element: Any, color_of: Any) -> _Body | str:
     return _Body(items, placement)
 
 
-def _planned(product: Entity, with_openings: bool) -> _Plan | str:
+def _planned(model: Model, number: int, with_openings: bool) -> _Plan | str:
     """Returns the plan for a product; why there is none where it is more than openings and half-spaces."""
     plan = _Plan()
     try:
+        product = model.by_id(number)
+        if slow := slow_items_of(product):
+            return f"{min(slow)}, which the fast kernel does not make"
         if with_openings:
             plan.openings = _openings_of(product)
         elif getattr(product, "HasOpenings", None):
@@ -161,7 +167,7 @@ def _planned(product: Entity, with_openings: bool) -> _Plan | str:
             if (representation.RepresentationIdentifier or "Body") in NO_BODY:
                 continue
             for item in representation.Items or ():
-                _plan_item(item, representation.id(), plan)
+                _plan_item(model, item, representation.id(), plan)
         return plan
     except (AttributeError, RuntimeError, TypeError, Unfit) as fault:
         return str(fault)
@@ -171,7 +177,7 @@ def _openings_of(product: Entity) -> list[int]:
     openings = [relation.RelatedOpeningElement for relation in product.HasOpenings or ()]
     part, depth = product, 0
     # Parts of a whole are cut by what cuts the whole.
-    while wholes := [relation.RelatingObject for relation in getattr(part, "Decomposes", None) or ()]:
+    while wholes := _wholes_of(part):
         part, depth = wholes[0], depth + 1
         cutting = [relation.RelatedOpeningElement for relation in getattr(part, "HasOpenings", None) or ()]
         if len(wholes) > 1 or depth > _MOST_DEPTH or (cutting and (depth > 1 or part.is_a("IfcElementAssembly"))):
@@ -184,13 +190,21 @@ def _openings_of(product: Entity) -> list[int]:
     return sorted({opening.id() for opening in openings})
 
 
-def _plan_item(item: Entity, representation: int, plan: _Plan) -> None:
+def _wholes_of(part: Entity) -> list[Entity]:
+    # In IFC2X3 what is nested is among them, too, which has the openings of no other.
+    relations = getattr(part, "Decomposes", None) or ()
+    return [relation.RelatingObject for relation in relations if relation.is_a("IfcRelAggregates")]
+
+
+def _plan_item(model: Model, item: Entity, representation: int, plan: _Plan) -> None:
     if item.is_a("IfcMappedItem"):
         inner = item.MappingSource.MappedRepresentation.Items or ()
         if any(one.is_a() in (*_BOOLEANS, "IfcMappedItem", "IfcCsgSolid") for one in inner):
             raise Unfit("a mapped item that is cut")
+        plan.items.update(*map(_made_of, inner))
         return
     if item.is_a() not in _BOOLEANS:
+        plan.items.update(_made_of(item))
         return
     clips: list[Entity] = []
     at = item
@@ -201,12 +215,36 @@ def _plan_item(item: Entity, representation: int, plan: _Plan) -> None:
         if at.id() != item.id() and at.StyledByItem:
             raise Unfit("a style of a step of a cut")
         at = at.FirstOperand
+        if _users(model, at) > 1:
+            # It stands in the place of this result, with its style and for its cuts alone.
+            raise Unfit("a cut of what is used elsewhere, too")
     styled = item.StyledByItem
     if styled and at.StyledByItem:
         raise Unfit("several styles of what is cut")
+    if at.id() in plan.clips:
+        raise Unfit("two items that are cut out of one")
+    plan.items.add(at.id())
     plan.clips[at.id()] = clips[::-1]
     plan.replaced.setdefault(representation, {})[item.id()] = at.id()
     plan.styled.update({style.id(): at.id() for style in styled})
+
+
+def _made_of(item: Entity) -> list[int]:
+    """Returns what the kernel calls the shapes of an item: of surface models each surface is one, and boxes around a body are none."""
+    kind = item.is_a()
+    if kind == "IfcBoundingBox":
+        return []
+    if kind == "IfcFaceBasedSurfaceModel":
+        return [one.id() for one in item.FbsmFaces]
+    if kind == "IfcShellBasedSurfaceModel":
+        return [one.id() for one in item.SbsmBoundary]
+    return [item.id()]
+
+
+def _users(model: Model, item: Entity) -> int:
+    """Returns how many items and representations are made of an item; styles and layers of it are none."""
+    users = model.file.get_inverse(model.file.by_id(item.id()))
+    return sum(one.is_a("IfcRepresentation") or (one.is_a("IfcRepresentationItem") and not one.is_a("IfcStyledItem")) for one in users)
 
 
 @contextmanager
@@ -234,10 +272,29 @@ def _first_operands(model: Model, plans: Iterable[_Plan]) -> Iterator[None]:
             model.file.by_id(number).Item = item
 
 
-def _faults(log: Any) -> dict[int, str]:
-    faults = {}
+def _faults(model: Model, log: Any, plans: dict[int, _Plan], shape_of: dict[int, str]) -> dict[int, str]:
+    """Returns what is wrong with bodies. What is said of a shape or of an item is said once, however many products have it."""
+    faults: dict[int, str] = {}
+    reached: dict[int, set[int]] = {}
     for message in log.log_messages():
-        if message.severity_string == "ERROR":
-            for number in re.findall(r"#(\d+)=", f"{message.product} {message.instance}"):
-                faults[int(number)] = " ".join(message.message.split())
+        if message.severity_string != "ERROR":
+            continue
+        fault = " ".join(message.message.split())
+        named = {int(number) for number in re.findall(r"#(\d+)=", f"{message.product} {message.instance}")}
+        if not reached:
+            reached = {number: _reached(model, number) for number in plans}
+        items = set().union(*(plans[number].items for number in named & plans.keys()))
+        shapes = {shape_of[number] for number in named & shape_of.keys()}
+        blamed = [
+            number
+            for number, plan in plans.items()
+            if named & reached[number] or items & plan.items or (number in shape_of and shape_of[number] in shapes)
+        ]
+        faults.update(dict.fromkeys(blamed or plans, fault))
     return faults
+
+
+def _reached(model: Model, number: int) -> set[int]:
+    """Returns the numbers of a product, and of all that its body is made of."""
+    whole = model.file.by_id(number).Representation
+    return {number, *(one.id() for one in model.file.traverse(whole))}

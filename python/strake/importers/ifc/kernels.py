@@ -85,6 +85,11 @@ def items_of(product: Entity) -> set[str]:
     return result
 
 
+def slow_items_of(product: Entity) -> set[str]:
+    """Returns the classes of the items that the fast kernel does not make, but for cuts."""
+    return items_of(product) & _NOT_FAST - _CUTS
+
+
 def has_body(product: Entity) -> bool:
     """Whether a product states more than axes, outlines and boxes around it."""
     items = _stated_items(product)

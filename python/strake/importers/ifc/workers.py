@@ -18,6 +18,7 @@ from typing import Any
 
 from strake.importers.ifc.chunks import Again, Answer, Chunk, Converted, Remark, convert_chunk
 from strake.importers.ifc.entity import Model
+from strake.importers.ifc.kernels import CUT
 from strake.importers.supervision import end_with_parent, signal_name
 
 # How long a worker may work in silence before it counts as hung, in seconds of CPU time: one product takes longer than
@@ -152,8 +153,10 @@ class Workers:
 
     def _hung(self, worker: _Worker) -> Ended:
         ended = self._lost(worker, f"no answer for {self._silent_s:g} s")
-        # Where one product has no end others have none either, and a hundred of them must not take hours.
-        self._silent_s = max(min(self._silent_s, LEAST_SILENT_S), self._silent_s / 2)
+        # Where one product has no end others have none either, and a hundred of them must not take hours. A chunk that is cut
+        # goes on as a whole, and says nothing of the kernels that come after.
+        if ended.chunk.kernel != CUT:
+            self._silent_s = max(min(self._silent_s, LEAST_SILENT_S), self._silent_s / 2)
         return replace(ended, hung=True)
 
     def _lost(self, worker: _Worker, fault: str) -> Ended:
