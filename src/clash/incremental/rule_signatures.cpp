@@ -31,7 +31,7 @@ void add_relations(WordHash& hash, const RelationSet& relations) {
 
 void add_tolerances(WordHash& hash, const Tolerances& t) {
   const auto& [clearance, gap, overlap, cap, clearances] = t;
-  for (const double length : {clearance, gap, overlap}) hash.add(length);
+  for (const ToleranceLength& length : kToleranceLengths) hash.add(t.*length.value_mm);
   hash.add(static_cast<std::uint8_t>(cap)).add(clearances != nullptr);
   if (clearances) hash.add(std::string_view(clearances->attribute));
 }

@@ -192,14 +192,8 @@ class ViewSplitter {
     return parted;
   }
 
-  /// Returns what a worker takes at least for the lines of some objects.
-  [[nodiscard]] std::uint64_t least_bytes(const std::vector<std::uint32_t>& asked) const {
-    std::uint64_t bytes = 0;
-    for (const std::uint32_t o : asked) bytes += bytes_of(o, true);
-    return bytes;
-  }
-
-  /// Returns what a worker takes for the lines of some objects with others around them.
+  /// Returns what a worker takes for the lines of some objects, of which `objects` are all that it
+  /// has.
   [[nodiscard]] std::uint64_t bytes_of(const std::vector<std::uint32_t>& asked,
                                        const std::vector<std::uint32_t>& objects) const {
     std::uint64_t bytes = 0;
@@ -215,7 +209,7 @@ class ViewSplitter {
 
   /// Makes parts for the lines of some objects, of which `objects` has all that is needed.
   Status split(const std::vector<std::uint32_t>& asked, const std::vector<std::uint32_t>& objects) {
-    if (asked.size() < 2 || least_bytes(asked) <= most_bytes_) {
+    if (asked.size() < 2 || bytes_of(asked, asked) <= most_bytes_) {
       auto part = find_part(asked, objects);
       return part ? split_further(asked, std::move(*part)) : part.error();
     }

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from strake.importers.ifc.entity import Entity
-from strake.importers.ifc.solids import Corners, Mesh, Unfit, mesh_of
+from strake.importers.ifc.solids import Corners, Mesh, Unfit, mesh_of, solid_of
 
 _BEYOND_MM = 1000.0
 _LEAST_LENGTH = 1e-9
@@ -77,10 +77,8 @@ def _unit(vector: Corners) -> Corners:
 
 
 def _solid(mesh: Mesh) -> Any:
-    from manifold3d import Error, Manifold, Mesh64
-
-    solid = Manifold(Mesh64(mesh.vertices, mesh.triangles.astype(np.uint64)))
-    if solid.status() != Error.NoError or solid.volume() <= 0:
+    solid = solid_of(mesh)
+    if solid.volume() <= 0:
         raise Unfit("a half-space whose boundary crosses itself")
     return solid
 

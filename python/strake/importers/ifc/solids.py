@@ -62,7 +62,7 @@ def difference(bodies: Sequence[Mesh], cutters: Sequence[Mesh]) -> list[list[Mes
     moved = _snapped([*pieces, *tools])
     if _lie_nearly_on_each_other(moved, len(pieces)):
         raise Unfit("faces that lie nearly on each other, and aslant or apart")
-    solids = [_solid(mesh) for mesh in moved]
+    solids = [solid_of(mesh) for mesh in moved]
     left = [Manifold.batch_boolean([solid, *solids[len(pieces) :]], OpType.Subtract) for solid in solids[: len(pieces)]]
     meshes = iter([mesh_of(solid) for solid in left])
     return [[mesh for mesh in (next(meshes) for _ in body) if len(mesh.triangles)] for body in bodies_of]
@@ -77,9 +77,9 @@ def mesh_of(solid: Any) -> Mesh:
 def _closed(mesh: Mesh) -> list[Mesh]:
     """Returns the parts of a mesh that do not hang together, each closed and its inside within."""
     try:
-        solid = _solid(mesh)
+        solid = solid_of(mesh)
     except Unfit:
-        solid = _solid(_welded(mesh))
+        solid = solid_of(_welded(mesh))
     parts = solid.decompose()
     volumes = [part.volume() for part in parts]
     if all(volume > _LEAST_MM3 for volume in volumes):
@@ -89,7 +89,8 @@ def _closed(mesh: Mesh) -> list[Mesh]:
     raise Unfit("a body with a hollow, or that encloses nothing")
 
 
-def _solid(mesh: Mesh) -> Any:
+def solid_of(mesh: Mesh) -> Any:
+    """Returns the solid of manifold3d that a mesh bounds. Raises Unfit."""
     from manifold3d import Error, Manifold, Mesh64
 
     solid = Manifold(Mesh64(np.ascontiguousarray(mesh.vertices), np.ascontiguousarray(mesh.triangles.astype(np.uint64))))
