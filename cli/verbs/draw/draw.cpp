@@ -218,7 +218,8 @@ void add_lines(CLI::App& command, DrawOptions& options) {
       ->group("Lines");
   command
       .add_flag("--visible-only", options.visible_only,
-                fmt::format("Leave hidden lines out of everything, of {} too: less time and memory",
+                fmt::format("Leave hidden and clipped lines out of everything, of {} too: less time "
+                            "and memory",
                             suffixes_by_ink(false)))
       ->group("Lines");
   add_choice(command, "--stage", options.stage, {"none", "local", "global"},

@@ -143,6 +143,10 @@ struct Options {
   /// visible, a drawing takes less time and memory; its other pieces and the fates of its objects
   /// are the same.
   bool hidden = true;
+  /// Keep the pieces of edges of which nothing but clipped pieces would be kept. Without them a
+  /// view of a part of a model takes time and memory for that part; they are counted
+  /// (Drawing::clipped_left_out), and the other pieces and the fates of objects are the same.
+  bool clipped = true;
   /// Keep specks, pieces shorter than the precision of the sources can tell, each in its exact
   /// state. Otherwise their neighbours absorb them, and specks that join nothing become points.
   bool keep_specks = false;
@@ -260,6 +264,8 @@ struct Drawing {
   Curves curves;
   /// By object, how many edges had hidden pieces left out, see Options::hidden. Empty: none had.
   std::vector<std::uint32_t> left_out;
+  /// By object, how many clipped pieces were left out, see Options::clipped. Empty: none was.
+  std::vector<std::uint32_t> clipped_left_out;
   std::vector<LineCount> counted;  ///< by object
   std::vector<Hatch> hatches;      ///< by object, as sections chose them; empty: nothing is hatched
   /// A reference point, grid units: the middle of all that is drawn; in perspective the target.

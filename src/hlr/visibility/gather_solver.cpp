@@ -450,7 +450,13 @@ class Drawer {
   }
 
   void run_edges(const EdgeRange& item, std::vector<EdgePiece>& out) {
-    const auto& edges = visibility_.placed[item.body].shape->edges;
+    const BodyInstance& placed = visibility_.placed[item.body];
+    const auto& edges = placed.shape->edges;
+    if (placed.outside && !visibility_.job.options.clipped) {
+      gatherer_.work.edges += item.last - item.first;
+      gatherer_.work.clipped += item.last - item.first;
+      return;
+    }
     const bool hidden = gatherer_.hides_item();
     bool spared = false;
     const std::size_t first = out.size();
@@ -483,10 +489,14 @@ class Drawer {
         ++gatherer_.work.left_out;
         return;
       }
+    } else if (piece_builder_.is_clipped() && !visibility_.job.options.clipped) {
+      ++gatherer_.work.clipped;
+      return;
     }
     const EdgePieceBuilder::Outcome outcome = piece_builder_.finish(number, intervals, out);
     gatherer_.work.specks += outcome.specks;
-    if (outcome.left_out) ++gatherer_.work.left_out;
+    if (outcome.left_out.hidden) ++gatherer_.work.left_out;
+    gatherer_.work.clipped += outcome.left_out.clipped;
     if (outcome.specked) gatherer_.work.specked = true;
   }
 
