@@ -217,10 +217,11 @@ void add_lines(CLI::App& command, DrawOptions& options) {
       ->type_name("STYLE")
       ->group("Lines");
   command
-      .add_flag("--visible-only", options.visible_only,
-                fmt::format("Leave hidden and clipped lines out of everything, of {} too: less time "
-                            "and memory",
-                            suffixes_by_ink(false)))
+      .add_flag(
+          "--visible-only", options.visible_only,
+          fmt::format("Leave hidden and clipped lines out of everything, of {} too: less time "
+                      "and memory",
+                      suffixes_by_ink(false)))
       ->group("Lines");
   add_choice(command, "--stage", options.stage, {"none", "local", "global"},
              "Hide nothing, within each object, or among all (default global)")

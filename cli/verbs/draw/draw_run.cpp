@@ -156,8 +156,7 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
       std::accumulate(drawing.count.begin(), drawing.count.end(), std::uint64_t{0});
   console.note(object_summary_line(drawing.account, model));
   console.note(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible, lines,
-                           scale_words(drawing), drawing.sheet.width_mm,
-                           drawing.sheet.height_mm));
+                           scale_words(drawing), drawing.sheet.width_mm, drawing.sheet.height_mm));
   for (const std::string& line : left_alone_lines(drawing)) console.note(line);
   if (visible > 0) return;
   console.note(of(drawing::LineState::clipped) > 0

@@ -91,8 +91,7 @@ bool PartJoin::add(const Drawing& part, const PartCounts& counts,
       drawing_.curves.all[at.curve + k] = part.curves.all[curve++];
     drawing_.counted[o] = part.counted[i];
     if (!drawing_.left_out.empty()) drawing_.left_out[o] = part.left_out[i];
-    if (!drawing_.clipped_left_out.empty())
-      drawing_.clipped_left_out[o] = part.clipped_left_out[i];
+    if (!drawing_.clipped_left_out.empty()) drawing_.clipped_left_out[o] = part.clipped_left_out[i];
     drawing_.account.fates[o] = part.account.fates[i];
   }
   for (const Defect& defect : part.account.defects)

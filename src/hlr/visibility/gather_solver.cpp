@@ -432,6 +432,10 @@ class Drawer {
       : visibility_(visibility), gatherer_(visibility), piece_builder_(visibility, rule) {}
 
   SolverWork run(const EdgeRange& item, bool timed, std::vector<EdgePiece>& out) {
+    // No edge is looked at where the limits leave nothing of the body.
+    const std::uint64_t edges = item.last - item.first;
+    if (!visibility_.job.options.clipped && !item.lines && visibility_.placed[item.body].outside)
+      return {.edges = edges, .clipped = edges};
     const Stopwatch watch;
     gatherer_.start(item, timed);
     if (item.lines)
@@ -450,13 +454,7 @@ class Drawer {
   }
 
   void run_edges(const EdgeRange& item, std::vector<EdgePiece>& out) {
-    const BodyInstance& placed = visibility_.placed[item.body];
-    const auto& edges = placed.shape->edges;
-    if (placed.outside && !visibility_.job.options.clipped) {
-      gatherer_.work.edges += item.last - item.first;
-      gatherer_.work.clipped += item.last - item.first;
-      return;
-    }
+    const auto& edges = visibility_.placed[item.body].shape->edges;
     const bool hidden = gatherer_.hides_item();
     bool spared = false;
     const std::size_t first = out.size();

@@ -66,7 +66,8 @@ struct UnwantedPieces {
   std::uint32_t clipped = 0;  ///< clipped ones
 };
 
-/// Removes the pieces of an edge, which begin at `first`, that the options do not ask for.
+/// Removes the pieces of an edge, which begin at `first`, that the options do not ask for. Decision
+/// 0125 says why clipped ones are counted.
 UnwantedPieces leave_out_unwanted(const Options& options, std::size_t first,
                                   std::vector<EdgePiece>& pieces);
 

@@ -168,15 +168,15 @@ void write(BlobWriter& out, const LinesOfObjects& lines) {
 /// Appends all lines, as they are.
 void write_all_lines(BlobWriter& out, const hlr::Drawing& drawing) {
   using Counts = std::optional<std::span<const std::uint32_t>>;
-  write(out, LinesOfObjects{.left_out = drawing.left_out,
-                            .clipped_left_out = drawing.options.clipped
-                                                    ? Counts()
-                                                    : Counts(drawing.clipped_left_out),
-                            .counted = drawing.counted,
-                            .hatches = drawing.hatches,
-                            .curves = drawing.curves.all,
-                            .edges = drawing.curves.edges,
-                            .pieces = drawing.pieces});
+  write(out,
+        LinesOfObjects{.left_out = drawing.left_out,
+                       .clipped_left_out =
+                           drawing.options.clipped ? Counts() : Counts(drawing.clipped_left_out),
+                       .counted = drawing.counted,
+                       .hatches = drawing.hatches,
+                       .curves = drawing.curves.all,
+                       .edges = drawing.curves.edges,
+                       .pieces = drawing.pieces});
 }
 
 std::vector<hlr::LineCount> read_line_counts(BlobReader& in, std::size_t objects) {
@@ -351,9 +351,8 @@ Status write_lines(BlobWriter& out, const hlr::Drawing& drawing, ObjectRange obj
 Result<hlr::Drawing> read_drawing(BlobReader& in, const parallel::Context& context) {
   ReadHead head = read_head(in);
   if (head.form != kFormOfOne && head.form != kFormWithoutHatches) in.refuse(kUnknownForm);
-  const ReadLines lines =
-      read_lines(in, {0, head.drawing.account.fates.size()}, head.drawing.options,
-                 head.form == kFormOfOne);
+  const ReadLines lines = read_lines(in, {0, head.drawing.account.fates.size()},
+                                     head.drawing.options, head.form == kFormOfOne);
   if (const Status status = join(std::span(&lines, 1), in, head.drawing, context); !status)
     return status.error();
   return std::move(head.drawing);
@@ -369,12 +368,11 @@ Result<hlr::Drawing> read_parts_of_drawing(BlobReader& in,
   if (parts.size() != count_drawing_parts(objects))
     in.refuse("it has not the parts that it should have");
   if (in.failed()) return hlr::Drawing{};
-  Result<std::vector<OpenedPart>> opened =
-      parallel::transform(context, {.name = "unpack stored lines", .n = parts.size()},
-                          [&](std::size_t k) -> Result<OpenedPart> {
-                            return open_part(parts[k], objects_of_drawing_part(k, objects),
-                                             head.drawing.options, what);
-                          });
+  Result<std::vector<OpenedPart>> opened = parallel::transform(
+      context, {.name = "unpack stored lines", .n = parts.size()},
+      [&](std::size_t k) -> Result<OpenedPart> {
+        return open_part(parts[k], objects_of_drawing_part(k, objects), head.drawing.options, what);
+      });
   if (!opened) return opened.error();
   std::vector<ReadLines> ranges;
   ranges.reserve(opened->size());

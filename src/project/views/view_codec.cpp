@@ -128,8 +128,8 @@ constexpr std::uint64_t kKeepsHidden = 1, kCountsClipped = 2;
 /// Takes all options apart: one more does not compile, here or in read_options().
 void write(BlobWriter& out, const hlr::Options& options) {
   const auto& [stage, solver, sharp_angle, smooth, contact_distance, intersections, own_polylines,
-               flush_seams, sag, culling, bucketing, hidden, clipped, keep_specks,
-               hatch_spacing, hatches, uncut] = options;
+               flush_seams, sag, culling, bucketing, hidden, clipped, keep_specks, hatch_spacing,
+               hatches, uncut] = options;
   write_enum(out, stage);
   write_enum(out, solver);
   out.real(sharp_angle);

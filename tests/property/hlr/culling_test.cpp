@@ -215,7 +215,7 @@ TEST(Culling, LeavingClippedEdgesOutChangesNoOther) {
     options.hidden = random.one_in(2);
     options.keep_specks = random.one_in(4);
     if (random.one_in(4)) options.contact_distance_mm = 0.5;
-    options.solver = seed % 8 == 0                         ? hlr::Solver::brute_force
+    options.solver = seed % 8 == 0                        ? hlr::Solver::brute_force
                      : seed % 8 == 4 && !view.perspective ? hlr::Solver::push
                                                           : hlr::Solver::gather;
     auto full = hlr::draw(scene.scene(), {}, view, options, {});

@@ -306,8 +306,7 @@ TEST(DrawingCodec, WhatCannotBeADrawingIsRefused) {
         !std::ranges::is_sorted(wrong.curves.edges, {}, number) ||
         number(wrong.pieces.back()) >= 5 || number(wrong.curves.edges.back()) >= 5 ||
         wrong.counted != sound.counted || wrong.left_out != sound.left_out ||
-        wrong.clipped_left_out != sound.clipped_left_out ||
-        !write_lines(part, wrong, {0, 5}))
+        wrong.clipped_left_out != sound.clipped_left_out || !write_lines(part, wrong, {0, 5}))
       continue;
     ++in_parts;
     const auto of_parts = read_parts_back(parts_of(wrong));
