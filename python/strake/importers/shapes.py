@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from strake.importers.diagonals import settled
+
 Color = tuple[float, float, float, float]
 
 # Corners are rounded to 2^-12 mm, a quarter of the grid of the program, so that the same shape at two places of
@@ -82,7 +84,7 @@ def prepare_shape(parts: Sequence[Part], unit_mm: float = 1.0, sag_mm: float | N
     prepared = []
     for vertices, triangles, color in checked:
         rounded = np.round((vertices - low) * steps) / steps - half
-        part = _prepared(rounded, triangles, color)
+        part = _prepared(rounded, settled(rounded * unit_mm, triangles), color)
         digest.update(repr((part.vertex_count, part.index_count, color)).encode())
         digest.update(part.positions)
         digest.update(part.indices)

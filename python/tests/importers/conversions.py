@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -33,14 +34,17 @@ class Outcome:
         return [line for line in self.lines if line.get("severity") == severity]
 
 
-def convert(path: Path, threads: int = 2, module: str = "strake.importers.ifc") -> Outcome:
+def convert(path: Path, threads: int = 2, module: str = "strake.importers.ifc", hash_seed: int | None = None) -> Outcome:
     """Converts a file; scene and report lie beside each other in a new folder."""
     folder = path.parent / f"{path.name}.{threads}.out"
     folder.mkdir(exist_ok=True)
     output, report = folder / "scene.glb", folder / "report.jsonl"
     output.unlink(missing_ok=True)
     arguments = ["--input", str(path), "--output", str(output), "--report", str(report), "--threads", str(threads)]
-    ended = subprocess.run([sys.executable, "-m", module, *arguments], capture_output=True, text=True, timeout=600, check=False)
+    seeded = {} if hash_seed is None else {"PYTHONHASHSEED": str(hash_seed)}
+    ended = subprocess.run(
+        [sys.executable, "-m", module, *arguments], capture_output=True, text=True, timeout=600, check=False, env={**os.environ, **seeded}
+    )
     lines = [json.loads(line) for line in report.read_text("utf-8").splitlines()]
     assert {path.name for path in folder.iterdir()} <= {"scene.glb", "report.jsonl"}, "something is left behind"
     return Outcome(ended.returncode, lines, output, ended.stderr)
