@@ -16,6 +16,12 @@ The program is called `strake-import-SUFFIX`, or `convert` is an entry point of 
 suffix. What it is called with and what it answers is decision 0072.
 """
 
+import os
+
+# NumPy's library of linear algebra starts a thread for each core when it is loaded, and they look for work for 40 ms of CPU time.
+# Importers multiply matrices of four rows.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 from strake.importers.command import Job, run
 from strake.importers.report import ImportFailed, Report
 from strake.importers.scene_writer import Group, SceneWriter

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import os
 import sys
 import traceback
@@ -54,6 +55,9 @@ class Job:
 
 Convert = Callable[[Job], None]
 
+# How many objects come before those are looked for that hold each other: importers make many, and few such.
+_NEW_OBJECTS = 100_000
+
 
 def run(convert: Convert, arguments: Sequence[str] | None = None) -> int:
     """Converts the file that the arguments name and returns the exit status.
@@ -68,6 +72,9 @@ def run(convert: Convert, arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--sag", type=float, metavar="MM", help="the largest distance of triangles from the true surface")
     options = parser.parse_args(arguments)
     options.report.write_bytes(b"")
+    # What is loaded by now stays: no collection need look at it, nor write into pages that processes to come share with this one.
+    gc.freeze()
+    gc.set_threshold(_NEW_OBJECTS)
     with Report(options.report) as report:
         job = Job(options.input, options.output, report, max(1, options.threads), options.sag)
         crash = crash_of(lambda: _converted(convert, job))

@@ -26,6 +26,8 @@ Attributes = Mapping[str, Any]
 _MOST_BYTES = 2**32 - 1
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
 _FLOAT, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5123, 5125
+# json.dumps would make an encoder for each of many short values.
+_encode = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode
 
 
 @dataclass(frozen=True)
@@ -335,8 +337,8 @@ def _material(color: Color) -> dict[str, Any]:
 
 
 def _json(value: Any) -> str:
-    if isinstance(value, _Encoded):
+    if type(value) is _Encoded:
         return value
-    if isinstance(value, Mapping) and any(isinstance(v, _Encoded) for v in value.values()):
-        return "{" + ",".join(f"{_json(str(k))}:{_json(v)}" for k, v in value.items()) + "}"
-    return json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    if isinstance(value, dict) and any(type(v) is _Encoded for v in value.values()):
+        return "{" + ",".join(f"{_encode(str(k))}:{v if type(v) is _Encoded else _json(v)}" for k, v in value.items()) + "}"
+    return _encode(value)

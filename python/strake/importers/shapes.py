@@ -93,6 +93,16 @@ def prepare_shape(parts: Sequence[Part], unit_mm: float = 1.0, sag_mm: float | N
     return PreparedShape(tuple(prepared), (float(middle[0]), float(middle[1]), float(middle[2])), digest.digest(), sag_mm)
 
 
+def used_corners(triangles: NDArray[np.integer[Any]], corner_count: int) -> tuple[NDArray[np.int64], NDArray[np.uint32]]:
+    """Returns which corners triangles have, in rising order, and the triangles with the numbers that these have among them."""
+    is_used = np.zeros(corner_count, dtype=bool)
+    is_used[triangles] = True
+    used: NDArray[np.int64] = np.flatnonzero(is_used)
+    number_of: NDArray[np.uint32] = np.zeros(corner_count, dtype=np.uint32)
+    number_of[used] = np.arange(len(used), dtype=np.uint32)
+    return used, number_of[triangles]
+
+
 def around_middle(placement: NDArray[np.float64], middle: Sequence[float]) -> NDArray[np.float64]:
     """Returns the placement of a shape whose corners count from its middle."""
     result: NDArray[np.float64] = placement.copy()
@@ -105,11 +115,11 @@ def _checked(part: Part) -> tuple[NDArray[np.float64], NDArray[np.uint32], Color
     triangles: NDArray[Any] = np.asarray(part.triangles).reshape(-1, 3)
     if len(triangles) and (triangles.min() < 0 or triangles.max() >= len(vertices)):
         raise ValueError("a triangle has a corner that does not exist")
-    used, numbers = np.unique(triangles, return_inverse=True)
-    vertices = vertices[used.astype(np.int64)]
+    used, numbers = used_corners(triangles.astype(np.int64, copy=False), len(vertices))
+    vertices = vertices[used]
     if not np.isfinite(vertices).all():
         raise ValueError("a corner is not a finite number")
-    return vertices, numbers.reshape(-1, 3).astype(np.uint32), part.color
+    return vertices, numbers, part.color
 
 
 def _prepared(vertices: NDArray[np.float64], triangles: NDArray[np.uint32], color: Color) -> PreparedPart:

@@ -113,3 +113,30 @@ def test_without_ifcopenshell_the_importer_says_how_to_get_it(tmp_path: Path) ->
     arguments = ["--input", str(tmp_path / "a.ifc"), "--output", str(tmp_path / "s.glb"), "--report", str(tmp_path / "r")]
     assert subprocess.run([sys.executable, "-c", program, *arguments], check=False).returncode == 1
     assert "pip install" in json.loads((tmp_path / "r").read_text().splitlines()[-1])["mend"]
+
+
+def after(lines: str) -> str:
+    """What a program of its own prints that runs these lines."""
+    ended = subprocess.run([sys.executable, "-c", lines], capture_output=True, text=True, check=True)
+    assert ended.stderr == ""
+    return ended.stdout.strip()
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="counts threads in /proc")
+def test_an_importer_has_no_threads_that_it_does_not_use() -> None:
+    counted = "print([line.split()[1] for line in open('/proc/self/status') if line.startswith('Threads')][0])"
+    assert after(f"import strake.importers; {counted}") == "1"
+
+
+def test_whoever_says_how_many_threads_algebra_has_is_heeded() -> None:
+    lines = "import os; os.environ['OPENBLAS_NUM_THREADS'] = '2'; import strake.importers; print(os.environ['OPENBLAS_NUM_THREADS'])"
+    assert after(lines) == "2"
+
+
+def test_ifcopenshell_is_loaded_without_grammars_and_others_may_load_them() -> None:
+    pytest.importorskip("ifcopenshell")
+    lines = "import sys; from strake.importers.ifc.library import load_ifcopenshell; load_ifcopenshell()"
+    assert after(f"{lines}; print('ifcopenshell' in sys.modules, 'lark' in sys.modules)") == "True False"
+    pytest.importorskip("lark")
+    assert after(f"import lark; {lines}; print(sys.modules['lark'] is lark)") == "True"
+    assert after(f"{lines}; import lark; print(lark.__name__)") == "lark"

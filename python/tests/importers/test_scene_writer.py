@@ -15,6 +15,7 @@ import pytest
 
 from glb_reader import Glb
 from strake.importers import Part, SceneWriter, prepare_shape
+from strake.importers.shapes import used_corners
 
 CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 FACES = np.array(
@@ -173,3 +174,20 @@ def test_the_validator_of_khronos_finds_no_fault(tmp_path: Path) -> None:
     command = ["node", "-e", script, str(validator()), str(tmp_path / "a.glb")]
     issues = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
     assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
+
+
+def test_corners_that_no_triangle_has_are_left_out() -> None:
+    used, triangles = used_corners(np.array([[7, 2, 4], [4, 2, 9]]), 11)
+    assert used.tolist() == [2, 4, 7, 9]
+    assert triangles.tolist() == [[2, 0, 1], [1, 0, 3]]
+    assert triangles.dtype == np.uint32
+    plain = prepare_shape([Part(CORNERS, FACES, RED)])
+    spread = np.full((3 * len(CORNERS), 3), math.nan)
+    spread[1::3] = CORNERS
+    # What nothing refers to says nothing, not even where it is no number.
+    for integer in (np.int32, np.uint32, np.uint64, np.int64):
+        assert prepare_shape([Part(spread, (3 * FACES + 1).astype(integer), RED)]) == plain
+
+
+def test_a_part_without_triangles_is_none() -> None:
+    assert prepare_shape([Part(np.zeros((0, 3)), []), box()]) == prepare_shape([box()])

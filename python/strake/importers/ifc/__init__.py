@@ -6,12 +6,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from strake.importers.command import Job, run
+from strake.importers.ifc.library import load_ifcopenshell
 
 
 def import_ifc(job: Job) -> None:
     """Converts an IFC file."""
     try:
-        import ifcopenshell  # noqa: F401
+        load_ifcopenshell()
     except ImportError as missing:
         job.report.fail(f"IfcOpenShell cannot be loaded: {missing}", "pip install 'strake[ifc]'")
     from strake.importers.ifc.convert import convert

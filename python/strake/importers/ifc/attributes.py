@@ -25,6 +25,8 @@ _QUANTITIES = {
     "IfcQuantityCount": ("CountValue", None),
     "IfcQuantityNumber": ("NumberValue", None),
 }
+# Where all versions have them in IfcProperty and IfcPropertySingleValue.
+_PROPERTY_NAME, _NOMINAL_VALUE, _UNIT = 0, 2, 3
 _OF_ALL_SETS = {"GlobalId", "OwnerHistory", "Name", "Description"}
 # Several names in one value: a pattern finds each.
 _BETWEEN = "; "
@@ -47,13 +49,13 @@ class AttributeReader:
         """Returns the attributes of a product; each set of properties is one of them."""
         result: dict[str, Any] = {"class": product.is_a()}
         for name in _OWN:
-            value = getattr(product, name, None)
+            value = product.get(name)
             if value not in (None, ""):
                 result[name] = value
         definitions, kind = _definitions_of(product), _type_of(product)
         if kind is not None:
             result["Type"] = kind.Name or kind.is_a()
-            if result.get("PredefinedType") in (None, "NOTDEFINED") and getattr(kind, "PredefinedType", None):
+            if result.get("PredefinedType") in (None, "NOTDEFINED") and kind.get("PredefinedType"):
                 result["PredefinedType"] = kind.PredefinedType
         for name, value in (
             ("Material", self._material(product, kind)),
@@ -96,7 +98,7 @@ class AttributeReader:
         known = self._types.get(kind.id())
         if known is None:
             known = {}
-            for definition in getattr(kind, "HasPropertySets", None) or ():
+            for definition in kind.get("HasPropertySets") or ():
                 known.setdefault(definition.Name or definition.is_a(), {}).update(self._set(definition))
             self._types[kind.id()] = known
         return known
@@ -118,21 +120,23 @@ class AttributeReader:
     def _properties(self, properties: Iterable[Entity] | None, depth: int) -> dict[str, Any]:
         result: dict[str, Any] = {}
         for item in properties or ():
-            if item.is_a("IfcPropertySingleValue"):
-                value = self._units.value(item.NominalValue, item.Unit)
-            elif item.is_a("IfcPropertyEnumeratedValue"):
+            kind = item.is_a()
+            if kind == "IfcPropertySingleValue":
+                # Nearly all are of this kind.
+                value = self._units.value(item.at(_NOMINAL_VALUE), item.at(_UNIT))
+            elif kind == "IfcPropertyEnumeratedValue":
                 value = _single(self._units.value(list(item.EnumerationValues or ())))
-            elif item.is_a("IfcPropertyListValue"):
+            elif kind == "IfcPropertyListValue":
                 value = _single(self._units.value(list(item.ListValues or ()), item.Unit))
-            elif item.is_a("IfcPropertyBoundedValue"):
+            elif kind == "IfcPropertyBoundedValue":
                 low, high = (self._units.value(bound, item.Unit) for bound in (item.LowerBoundValue, item.UpperBoundValue))
                 value = {name: bound for name, bound in (("low", low), ("high", high)) if bound is not None}
-            elif item.is_a("IfcComplexProperty") and depth < _MOST_DEPTH:
+            elif kind == "IfcComplexProperty" and depth < _MOST_DEPTH:
                 value = self._properties(item.HasProperties, depth + 1)
             else:
                 continue
             if value not in (None, {}, []):
-                result[str(item.Name)] = value
+                result[str(item.at(_PROPERTY_NAME))] = value
         return result
 
     def _quantities(self, quantities: Iterable[Entity] | None, depth: int) -> dict[str, Any]:
@@ -143,7 +147,7 @@ class AttributeReader:
                     result[str(item.Name)] = self._quantities(item.HasQuantities, depth + 1)
                 continue
             name, kind = _QUANTITIES.get(item.is_a(), ("", None))
-            value = getattr(item, name, None) if name else None
+            value = item.get(name) if name else None
             if value is not None:
                 result[str(item.Name)] = self._units.value(value, item.Unit, kind)
         return result
@@ -152,7 +156,7 @@ class AttributeReader:
         """Returns the values of a set that the schema itself defines, as IfcDoorLiningProperties."""
         result = {}
         for name, measure in self._simple_attributes(definition.is_a()):
-            value = getattr(definition, name, None)
+            value = definition.get(name)
             if value is not None and not isinstance(value, (tuple, Entity)):
                 result[name] = self._units.value(value, None, MEASURES.get(measure))
         return result
@@ -171,7 +175,7 @@ class AttributeReader:
 
     def _material(self, product: Entity, kind: Entity | None) -> str:
         for owner in (product, kind):
-            for relation in getattr(owner, "HasAssociations", None) or ():
+            for relation in (owner.get("HasAssociations") if owner is not None else None) or ():
                 if relation.is_a("IfcRelAssociatesMaterial") and relation.RelatingMaterial is not None:
                     material = relation.RelatingMaterial
                     if material.id() not in self._materials:
@@ -197,7 +201,7 @@ def _layers_of_items(model: Model) -> dict[int, list[str]]:
 
 def _definitions_of(product: Entity) -> list[Entity]:
     definitions: list[Entity] = []
-    for relation in getattr(product, "IsDefinedBy", None) or ():
+    for relation in product.get("IsDefinedBy") or ():
         if relation.is_a("IfcRelDefinesByProperties"):
             definition = relation.RelatingPropertyDefinition
             if definition is None:
@@ -211,7 +215,7 @@ def _definitions_of(product: Entity) -> list[Entity]:
 
 def _type_of(product: Entity) -> Entity | None:
     # IFC2x3 has the relation among those of properties.
-    for relation in (*(getattr(product, "IsTypedBy", None) or ()), *(getattr(product, "IsDefinedBy", None) or ())):
+    for relation in (*(product.get("IsTypedBy") or ()), *(product.get("IsDefinedBy") or ())):
         if relation.is_a("IfcRelDefinesByType"):
             kind: Entity | None = relation.RelatingType
             return kind
@@ -220,7 +224,7 @@ def _type_of(product: Entity) -> Entity | None:
 
 def _assigned(product: Entity) -> dict[str, str]:
     names: dict[str, list[str]] = {"System": [], "Zone": [], "Group": []}
-    for relation in getattr(product, "HasAssignments", None) or ():
+    for relation in product.get("HasAssignments") or ():
         if not relation.is_a("IfcRelAssignsToGroup") or relation.RelatingGroup is None:
             continue
         group = relation.RelatingGroup
@@ -231,7 +235,7 @@ def _assigned(product: Entity) -> dict[str, str]:
 
 def _classifications(product: Entity) -> list[str]:
     names = []
-    for relation in getattr(product, "HasAssociations", None) or ():
+    for relation in product.get("HasAssociations") or ():
         if relation.is_a("IfcRelAssociatesClassification") and relation.RelatingClassification is not None:
             reference = relation.RelatingClassification
             names.append(

@@ -190,7 +190,7 @@ def _parts(geometry: Any) -> Sequence[Part]:
     if len(styles) != len(triangles) or not colors:
         return [Part(vertices, triangles)]
     by_color: dict[Color, list[int]] = {}
-    for style in np.unique(styles).tolist():
+    for style in sorted(set(styles.tolist())):
         color = colors[style] if 0 <= style < len(colors) else Part.color
         by_color.setdefault(color, []).append(style)
     if len(by_color) == 1:

@@ -16,7 +16,7 @@ from strake.importers.ifc.entity import Entity, Model
 from strake.importers.ifc.half_spaces import half_space
 from strake.importers.ifc.kernels import FAST, NO_BODY, geometry_settings, shapes_of, slow_items_of
 from strake.importers.ifc.solids import Corners, Mesh, Unfit, difference
-from strake.importers.shapes import Color
+from strake.importers.shapes import Color, used_corners
 
 _MM_PER_M = 1000.0
 _BOOLEANS = ("IfcBooleanClippingResult", "IfcBooleanResult")
@@ -139,14 +139,14 @@ def _body(element: Any, color_of: Any) -> _Body | str:
     if not np.isfinite(placement).all() or not np.isfinite(vertices).all():
         return "a place that is not finite"
     items = {}
-    for item in np.unique(owners).tolist():
+    for item in sorted(set(owners.tolist())):
         some = owners == item
-        worn = {colors[style] if 0 <= style < len(colors) else None for style in np.unique(styles[some]).tolist()}
+        worn = {colors[style] if 0 <= style < len(colors) else None for style in set(styles[some].tolist())}
         color = worn.pop()
         if worn or color is None:
             return "an item of several styles"
-        used, numbers = np.unique(triangles[some], return_inverse=True)
-        items[item] = (Mesh(vertices[used], numbers.reshape(-1, 3).astype(np.int64)), color)
+        used, numbers = used_corners(triangles[some], len(vertices))
+        items[item] = (Mesh(vertices[used], numbers.astype(np.int64)), color)
     return _Body(items, placement)
 
 
@@ -159,9 +159,9 @@ def _planned(model: Model, number: int, with_openings: bool) -> _Plan | str:
             return f"{min(slow)}, which the fast kernel does not make"
         if with_openings:
             plan.openings = _openings_of(product)
-        elif getattr(product, "HasOpenings", None):
+        elif product.get("HasOpenings"):
             return "an opening that has openings"
-        if getattr(product, "HasProjections", None):
+        if product.get("HasProjections"):
             return "projections"
         for representation in product.Representation.Representations or ():
             if (representation.RepresentationIdentifier or "Body") in NO_BODY:
@@ -179,7 +179,7 @@ def _openings_of(product: Entity) -> list[int]:
     # Parts of a whole are cut by what cuts the whole.
     while wholes := _wholes_of(part):
         part, depth = wholes[0], depth + 1
-        cutting = [relation.RelatedOpeningElement for relation in getattr(part, "HasOpenings", None) or ()]
+        cutting = [relation.RelatedOpeningElement for relation in part.get("HasOpenings") or ()]
         if len(wholes) > 1 or depth > _MOST_DEPTH or (cutting and (depth > 1 or part.is_a("IfcElementAssembly"))):
             raise Unfit("a part of several wholes, or of an assembly that has openings")
         openings += cutting
@@ -192,7 +192,7 @@ def _openings_of(product: Entity) -> list[int]:
 
 def _wholes_of(part: Entity) -> list[Entity]:
     # In IFC2X3 what is nested is among them, too, which has the openings of no other.
-    relations = getattr(part, "Decomposes", None) or ()
+    relations = part.get("Decomposes") or ()
     return [relation.RelatingObject for relation in relations if relation.is_a("IfcRelAggregates")]
 
 

@@ -52,8 +52,8 @@ _HALF_SPACES = {"IfcHalfSpaceSolid", "IfcBoxedHalfSpace", "IfcPolygonalBoundedHa
 
 def faces_of(product: Entity) -> Faces:
     """Returns what faces a product's body has, with those that its openings cut into it."""
-    cutters = [getattr(relation, "RelatedOpeningElement", None) for relation in getattr(product, "HasOpenings", None) or ()]
-    added = [getattr(relation, "RelatedFeatureElement", None) for relation in getattr(product, "HasProjections", None) or ()]
+    cutters = [relation.get("RelatedOpeningElement") for relation in product.get("HasOpenings") or ()]
+    added = [relation.get("RelatedFeatureElement") for relation in product.get("HasProjections") or ()]
     return _worst(_of_body(part) for part in (product, *cutters, *added) if part is not None)
 
 
@@ -79,7 +79,7 @@ def _of_item(item: Entity, depth: int) -> Faces:
     if depth >= _MOST_DEPTH:
         return Faces.CURVED
     if kind in _EXTRUSIONS:
-        ends = [item.SweptArea, getattr(item, "EndSweptArea", None)]
+        ends = [item.SweptArea, item.get("EndSweptArea")]
         return _flat_if(all(_is_straight_profile(end, depth + 1) for end in ends if end is not None))
     if kind in ("IfcBooleanResult", "IfcBooleanClippingResult"):
         return max(_of_item(item.FirstOperand, depth + 1), _of_item(item.SecondOperand, depth + 1))
@@ -88,7 +88,7 @@ def _of_item(item: Entity, depth: int) -> Faces:
     if kind == "IfcMappedItem":
         return _worst(_of_item(one, depth + 1) for one in item.MappingSource.MappedRepresentation.Items or ())
     if kind in _HALF_SPACES:
-        edge = getattr(item, "PolygonalBoundary", None)
+        edge = item.get("PolygonalBoundary")
         return _flat_if(item.BaseSurface.is_a("IfcPlane") and (edge is None or _is_straight(edge, depth + 1)))
     return Faces.CURVED
 
@@ -104,7 +104,7 @@ def _is_straight_profile(profile: Entity, depth: int) -> bool:
     if kind in _STRAIGHT_PROFILES:
         return not any(getattr(profile, name) for name in profile.attribute_names() if name.endswith("Radius"))
     if kind in ("IfcArbitraryClosedProfileDef", "IfcArbitraryProfileDefWithVoids"):
-        curves = [profile.OuterCurve, *(getattr(profile, "InnerCurves", None) or ())]
+        curves = [profile.OuterCurve, *(profile.get("InnerCurves") or ())]
         return all(_is_straight(curve, depth + 1) for curve in curves)
     if kind == "IfcCompositeProfileDef":
         return all(_is_straight_profile(one, depth + 1) for one in profile.Profiles)

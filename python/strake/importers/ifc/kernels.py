@@ -76,7 +76,7 @@ def shapes_of(model: Model, products: Iterable[int], settings: ifcopenshell.geom
 def items_of(product: Entity) -> set[str]:
     """Returns the classes of the items that make a product's body, and of the openings that cut it as `opening`."""
     result: set[str] = set()
-    if getattr(product, "HasOpenings", None):
+    if product.get("HasOpenings"):
         result.add("opening")
     for representation in getattr(product.Representation, "Representations", None) or ():
         if (representation.RepresentationIdentifier or "Body") in NO_BODY:
@@ -106,7 +106,7 @@ def _add_items(items: Iterable[Entity], result: set[str], depth: int) -> None:
             mapped = getattr(getattr(item, "MappingSource", None), "MappedRepresentation", None)
             inner += getattr(mapped, "Items", None) or ()
         for name in ("FirstOperand", "SecondOperand", "TreeRootExpression", "SweptArea", "Directrix"):
-            value = getattr(item, name, None)
+            value = item.get(name)
             if isinstance(value, Entity):
                 inner.append(value)
         _add_items(inner, result, depth + 1)

@@ -47,7 +47,7 @@ def choose_products(model: Model) -> Products:
     without_body = 0
     kinds: dict[str, str | None] = {}
     for product in sorted(model.by_type("IfcProduct"), key=number_of):
-        if getattr(product, "Representation", None) is None:
+        if product.get("Representation") is None:
             without_body += 1
             continue
         kind = product.is_a()
@@ -87,7 +87,7 @@ class CircleFinder:
 
     def fault_of(self, product: Entity) -> str:
         """Returns what is wrong with a product; empty where nothing is."""
-        if not self._ends(getattr(product, "ObjectPlacement", None), lambda at: getattr(at, "PlacementRelTo", None)):
+        if not self._ends(product.get("ObjectPlacement"), lambda at: at.get("PlacementRelTo")):
             return "it is placed relative to itself"
         if not self._ends(product, parent_of):
             return "it is a part of itself"

@@ -172,7 +172,9 @@ def _lie_nearly_on_each_other(meshes: Sequence[Mesh], bodies: int) -> bool:
 
 def _beside_others(heights: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Which heights have others beside them that are not equal and yet taken for one."""
-    different, numbers = np.unique(heights, return_inverse=True)
+    rising = np.sort(heights)
+    different = rising[np.concatenate([[True], rising[1:] != rising[:-1]])[: len(rising)]]
+    numbers = np.searchsorted(different, heights)
     gaps = np.concatenate([[np.inf], np.diff(different), [np.inf]])
     beside: NDArray[np.bool_] = (np.minimum(gaps[:-1], gaps[1:]) <= _MERGED_MM + _ROUNDING_MM)[numbers]
     return beside

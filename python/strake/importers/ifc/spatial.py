@@ -60,7 +60,7 @@ class SpatialGroups:
                 result[name] = entity.Name or entity.is_a()
                 result[f"{name}Id"] = entity.GlobalId
                 break
-        if isinstance(getattr(entity, "Elevation", None), float):
+        if isinstance(entity.get("Elevation"), float):
             result["StoreyElevation"] = self._attributes.length(entity.Elevation)
         if entity.is_a("IfcSite"):
             result.update(self._map)
@@ -79,8 +79,8 @@ def parent_of(entity: Entity) -> Entity | None:
         ("VoidsElements", "RelatingBuildingElement"),
         ("ProjectsElements", "RelatingElement"),
     ):
-        for relation in getattr(entity, inverse, None) or ():
-            parent = getattr(relation, name, None)
+        for relation in entity.get(inverse) or ():
+            parent = relation.get(name)
             if isinstance(parent, Entity):
                 # A window is beside its wall, not in it.
                 beside = inverse in ("VoidsElements", "FillsVoids")
@@ -90,7 +90,7 @@ def parent_of(entity: Entity) -> Entity | None:
 
 def _parent_of_host(entity: Entity) -> Entity | None:
     """Returns what the host of an opening is in."""
-    for relation in getattr(entity, "VoidsElements", None) or ():
+    for relation in entity.get("VoidsElements") or ():
         host = relation.RelatingBuildingElement
         if host is not None and not host.is_a("IfcFeatureElement"):
             return parent_of(host)

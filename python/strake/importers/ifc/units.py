@@ -31,6 +31,7 @@ _POWERS = {
 # Units of values that are plain numbers: SI without a prefix. Lengths are never plain, since a selection takes plain
 # numbers for millimetres.
 _PLAIN = {"m2", "m3", "kg", "g", "s", "rad", "sr", "K", "degC", "A", "V", "W", "N", "Pa", "J", "Hz", "lx", "lm", "cd"}
+_NO_VALUE = object()
 # The kind of unit that values of a measure have.
 MEASURES = {
     "IfcLengthMeasure": "LENGTHUNIT",
@@ -75,7 +76,8 @@ class Units:
             return None
         if isinstance(value, Entity):
             kind = kind or MEASURES.get(value.is_a())
-            value = value.wrappedValue if hasattr(value, "wrappedValue") else str(value)
+            wrapped = value.get("wrappedValue", _NO_VALUE)
+            value = str(value) if wrapped is _NO_VALUE else wrapped
         if isinstance(value, (list, tuple)):
             return [self.value(item, own_unit, kind) for item in value]
         if isinstance(value, bool) or not isinstance(value, (int, float)):

@@ -28,6 +28,8 @@ _MOST_WAITING = 5.0
 # After each that hung it is half as long, down to this.
 LEAST_SILENT_S = 8.0
 _TICK_S = 0.5
+# Who is silent for longer is looked at, which takes the system as long as an answer.
+_LOOKED_AT_S = 0.1
 
 
 @dataclass(frozen=True)
@@ -51,17 +53,20 @@ class _Worker:
     chunk: Chunk | None = None
     got: set[int] = field(default_factory=set)
     heard_at: float = 0.0
-    cpu_then_s: float = 0.0
+    # What it had worked when it was first looked at since; None until then, for most answers come within microseconds.
+    cpu_then_s: float | None = None
 
     def heard(self) -> None:
         """Notes that it said something now."""
         self.heard_at = time.monotonic()
-        self.cpu_then_s = _cpu_seconds(self.process.pid)
+        self.cpu_then_s = None
 
     def is_silent_for(self, limit_s: float) -> bool:
         """Whether it worked, or at any rate waited, for too long since."""
         silent_s = time.monotonic() - self.heard_at
-        if silent_s <= limit_s:
+        if self.cpu_then_s is None and silent_s > _LOOKED_AT_S:
+            self.cpu_then_s = _cpu_seconds(self.process.pid)
+        if silent_s <= limit_s or self.cpu_then_s is None:
             return False
         cpu_s = _cpu_seconds(self.process.pid)
         return cpu_s == math.inf or cpu_s - self.cpu_then_s > limit_s or silent_s > _MOST_WAITING * limit_s
