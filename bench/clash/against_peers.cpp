@@ -75,7 +75,7 @@ struct Peer {
   std::string name;
   unsigned threads = 1;
   PairQuestion question;
-  std::function<PeerAnswer()> ask;
+  std::function<PeerAnswer()> run;
 
   /// The first word, as the command line has it.
   [[nodiscard]] std::string key() const {
@@ -106,7 +106,7 @@ class Bench {
   bool run(const Peer& peer) {
     Timed timed;
     for (int i = 0; i < kRuns; ++i) {
-      timed.answer = peer.ask();
+      timed.answer = peer.run();
       const PeerAnswer& answer = timed.answer;
       if (answer.outcome != cli::kMeasured) return without_answer(peer, answer);
       const FoundPairs found(answer.pairs, known_, peer.question);

@@ -37,7 +37,7 @@ std::vector<unsigned> team_sizes() {
 
 constexpr std::size_t kRuns = 3;
 /// Objects of all runs side by side: beyond that they may not fit the memory.
-constexpr std::uint64_t kMostSideBySide = 4'000'000;
+constexpr std::uint64_t kMaxSideBySide = 4'000'000;
 
 struct Timed {
   clash::Report report;
@@ -117,7 +117,7 @@ bool measure(std::uint64_t objects, bool turned, double clearance_mm) {
         median_s / static_cast<double>(report.counters.candidate_pairs) * 1e6,
         report.counters.regions_given_up);
   }
-  if (const unsigned most = teams.back(); most > 1 && objects * most <= kMostSideBySide) {
+  if (const unsigned most = teams.back(); most > 1 && objects * most <= kMaxSideBySide) {
     const double together_s = side_by_side_s(*scene, options, most);
     fmt::print("  {:>2} runs of one worker side by side: {:.2f}x is what the machine gives\n", most,
                most * alone_s / together_s);

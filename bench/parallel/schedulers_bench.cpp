@@ -231,10 +231,10 @@ class SideBySide {
         good_ = false;
       }
     }
-    tell(set, all);
+    print_times(set, all);
   }
 
-  void tell(const Set& set, std::vector<Contender>& all) {
+  void print_times(const Set& set, std::vector<Contender>& all) {
     const Contender again = std::move(all.back());
     all.pop_back();
     const auto& rounds = set.items.rounds;

@@ -159,7 +159,7 @@ std::span<const ThesisFigures> thesis_figures() {
   return kFigures;
 }
 
-unsigned most_threads(const EvaluationRecord& record) {
+unsigned max_threads(const EvaluationRecord& record) {
   return record.settings.threads.empty() ? 1 : record.settings.threads.back();
 }
 

@@ -76,6 +76,6 @@ struct ThesisFigures {
 [[nodiscard]] std::span<const ThesisFigures> thesis_figures();
 
 /// Returns the most threads that were measured.
-[[nodiscard]] unsigned most_threads(const EvaluationRecord& record);
+[[nodiscard]] unsigned max_threads(const EvaluationRecord& record);
 
 }  // namespace strake::cli

@@ -21,13 +21,13 @@ std::uint32_t listed(const model::Model& model, std::uint64_t most) {
 }
 
 /// Longer values are cut: a description may fill a page.
-constexpr std::size_t kMostValueBytes = 40;
+constexpr std::size_t kMaxValueBytes = 40;
 
 std::string shown_value(std::string_view value) {
   const std::string text = printable(value);
-  if (text.size() <= kMostValueBytes) return in_quotes(text);
+  if (text.size() <= kMaxValueBytes) return in_quotes(text);
   std::string cut;
-  for (std::string_view rest = text; cut.size() < kMostValueBytes;)
+  for (std::string_view rest = text; cut.size() < kMaxValueBytes;)
     cut += take_character(rest).bytes;
   return in_quotes(cut + "…");
 }

@@ -132,11 +132,11 @@ Result<EvaluationSettings> settings_of(const EvaluateOptions& given) {
           positive_number(settings.limit_s, given.limit, "--limit", kLongestLimitSeconds);
       !s)
     return s.error();
-  constexpr std::uint64_t kMostRounds = 1000;
+  constexpr std::uint64_t kMaxRounds = 1000;
   if (!whole_number(settings.repeat, given.repeat, "--repeat") || settings.repeat < 1 ||
-      settings.repeat > kMostRounds)
+      settings.repeat > kMaxRounds)
     return Error{ErrorCode::usage, "'" + given.repeat + "' is no number of rounds", "--repeat",
-                 fmt::format("write a number from 1 to {}", kMostRounds)};
+                 fmt::format("write a number from 1 to {}", kMaxRounds)};
   const Result<std::vector<unsigned>> threads = team_sizes(given.threads);
   if (!threads) return threads.error();
   settings.threads = *threads;
@@ -147,9 +147,9 @@ Result<EvaluationSettings> settings_of(const EvaluateOptions& given) {
 Result<std::optional<PeerPrograms>> peer_programs(const EvaluateOptions& given,
                                                   const EvaluationSettings& settings,
                                                   const fs::path& folder) {
-  constexpr double kLongestLimitSeconds = 1e6, kLimitAtFullScaleSeconds = 900, kLeastSeconds = 60;
+  constexpr double kLongestLimitSeconds = 1e6, kLimitAtFullScaleSeconds = 900, kMinSeconds = 60;
   PeerPrograms programs{given.peers, folder / kPeersGroup,
-                        std::max(kLeastSeconds, kLimitAtFullScaleSeconds * settings.scale)};
+                        std::max(kMinSeconds, kLimitAtFullScaleSeconds * settings.scale)};
   if (const Status s =
           positive_number(programs.limit_s, given.peer_limit, "--peer-limit", kLongestLimitSeconds);
       !s)
@@ -189,12 +189,12 @@ Result<EvaluationRecord> begun_record(const EvaluateOptions& given, const fs::pa
                  file.string(), "give --fresh to begin again, or another -o"};
   }
   if (!goes_on) return empty;
-  const auto is_asked_for = [&](const auto& one) {
+  const auto is_requested = [&](const auto& one) {
     return std::ranges::find(names, one.name) != names.end();
   };
-  std::erase_if(record->cases, is_asked_for);
-  std::erase_if(record->studies, is_asked_for);
-  std::erase_if(record->peers, is_asked_for);
+  std::erase_if(record->cases, is_requested);
+  std::erase_if(record->studies, is_requested);
+  std::erase_if(record->peers, is_requested);
   return record;
 }
 

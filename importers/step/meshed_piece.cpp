@@ -53,15 +53,15 @@ double mesh_within(const TopoDS_Shape& shape, double wanted_mm, const MeshOption
                    const Handle(ReportProgress) & progress) {
   // A face that is at odds with itself never comes near its surface: it must not cost the piece.
   constexpr int kAttempts = 3;
-  constexpr double kMostFiner = 0.4;
-  double asked_mm = wanted_mm;
+  constexpr double kMaxFiner = 0.4;
+  double wanted_sag_mm = wanted_mm;
   for (int attempt = 1;; ++attempt) {
-    run_mesher(shape, asked_mm, options, progress->Start());
+    run_mesher(shape, wanted_sag_mm, options, progress->Start());
     if (progress->is_over_limit()) return wanted_mm;
     if (has_flat_faces_only(shape)) return 0;
     const double sag_mm = largest_sag_found(shape, wanted_mm);
     if (!(sag_mm > wanted_mm) || attempt == kAttempts || !progress->is_early()) return sag_mm;
-    asked_mm *= std::max(wanted_mm / sag_mm, kMostFiner);
+    wanted_sag_mm *= std::max(wanted_mm / sag_mm, kMaxFiner);
     BRepTools::Clean(shape);
   }
 }

@@ -98,9 +98,9 @@ std::optional<model::Color> PieceFinder::color_of_shell(const TopoDS_Shape& shap
 }
 
 void PieceFinder::add_solids() {
-  TopTools_MapOfShape seen;
+  TopTools_MapOfShape visited;
   for (TopExp_Explorer at(product_, TopAbs_SOLID); at.More(); at.Next())
-    if (seen.Add(at.Current()))
+    if (visited.Add(at.Current()))
       result_.pieces.push_back({at.Current(), true, color_of_solid(at.Current())});
 }
 

@@ -13,6 +13,6 @@ namespace strake::import_step {
 /// from its surfaces, mm: what the mesher was asked for, or what is found at the middles of
 /// triangles and of their sides, if that is more. The mesher gives up on a face after so many
 /// attempts, and says nothing then.
-[[nodiscard]] double largest_sag_found(const TopoDS_Shape& shape, double asked_mm);
+[[nodiscard]] double largest_sag_found(const TopoDS_Shape& shape, double wanted_sag_mm);
 
 }  // namespace strake::import_step

@@ -26,7 +26,7 @@ struct ClashRequest {
   std::optional<double> touch_gap_mm, touch_overlap_mm, contact_distance_mm;
   bool thickness_cap = true, volumes = false, curves = false;
   std::string contacts = "list";  ///< "list", "count" or "off"
-  std::uint64_t regions = clash::EngineOptions{}.most_regions;
+  std::uint64_t regions = clash::EngineOptions{}.max_regions;
   std::string group_by;  ///< empty: no groups
   std::optional<double> group_distance_mm;
   bool group_contacts = false;

@@ -171,7 +171,7 @@ Result<model::Model> Reading::read(std::span<const FileToRead> files) {
   }
   for (const auto& [name, of_file] : diagnostics) all.diagnostics.append(of_file);
   std::ranges::sort(places, {}, &FilePlace::file);
-  all.diagnostics.append(tell_of_places(places, on_map));
+  all.diagnostics.append(place_diagnostics(places, on_map));
   if (const Status finished = model::finish(all, context_); !finished) return finished.error();
   return all;
 }

@@ -73,12 +73,12 @@ Result<clash::Report> join_test(const CutRun& run, std::vector<FoundFile>& files
 
 }  // namespace
 
-void cut(CutRun& run, std::uint64_t most_bytes) {
+void cut(CutRun& run, std::uint64_t max_bytes) {
   const std::vector<std::int64_t> reach = reaches(run);
   std::vector<Extent> grown = run.outline.extents;
   for (std::size_t o = 0; o < grown.size(); ++o)
     if (!grown[o].box.empty()) grown[o].box = grown[o].box.inflated(reach[o]);
-  run.cells = cut_space(grown, most_bytes);
+  run.cells = cut_space(grown, max_bytes);
 }
 
 Status write_tiles(const CutRun& run, FileReader& reader, const std::filesystem::path& folder,

@@ -49,9 +49,9 @@ struct DeepPair {
 [[nodiscard]] testing::IndexedMesh snapped(const DeepBody& body);
 
 /// A pair as the narrow phase asks for its depth.
-class AskedPair {
+class DeepPairTest {
  public:
-  explicit AskedPair(const DeepPair& pair);
+  explicit DeepPairTest(const DeepPair& pair);
 
   /// Whether the two have interior in common.
   [[nodiscard]] bool meets() const { return meets_; }

@@ -57,6 +57,6 @@ struct PeerAnswer {
   std::vector<PeerLine> lines;
 };
 
-[[nodiscard]] PeerAnswer ask(const Peer& peer, const Question& question);
+[[nodiscard]] PeerAnswer run_peer(const Peer& peer, const Question& question);
 
 }  // namespace strake::bench

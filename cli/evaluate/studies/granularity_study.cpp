@@ -24,7 +24,7 @@ constexpr std::size_t kCells = 7;  // between the unit of work and the note
 struct WorkUnit {
   std::string algorithm, name;
   Contender contender;
-  std::size_t least_chunk = 1;
+  std::size_t min_chunk = 1;
   std::vector<std::string_view> regions = {};  ///< that have these items
 };
 
@@ -79,7 +79,7 @@ Status run_units(const StudyInput& input, const std::vector<WorkUnit>& units, St
   for (const WorkUnit& unit : units) {
     input.narrate(fmt::format("granularity, {}: {}", unit.algorithm, unit.name));
     Result<StudyRun> run = run_for_study(input, unit.contender,
-                                         {.least_chunk = unit.least_chunk, .with_regions = true});
+                                         {.min_chunk = unit.min_chunk, .with_regions = true});
     if (!run) return run.error();
     const bool is_first = &unit == &units.front();
     if (is_first) first = std::move(*run);

@@ -17,7 +17,7 @@ namespace strake::cli {
 /// How a contender of a study runs.
 struct StudyConditions {
   parallel::Distribution distribution = parallel::Distribution::planned;
-  std::size_t least_chunk = 1;  ///< as of parallel::Context
+  std::size_t min_chunk = 1;  ///< as of parallel::Context
   bool with_regions = false;    ///< regions are reported, which reads clocks for each block
 };
 

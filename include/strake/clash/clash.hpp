@@ -187,7 +187,7 @@ struct Sets {
 /// 2. Parts of one object are no pair; wires (polylines) only with EngineOptions::curves.
 ///
 /// Errors: usage for a tolerance that is negative, infinite or not a number and for sets of the
-/// wrong size; input for more pairs than most_pairs; cancelled.
+/// wrong size; input for more pairs than max_pairs; cancelled.
 [[nodiscard]] Result<Report> detect(const model::Scene& scene, const Sets& sets,
                                     const Options& options, const parallel::Context& context);
 

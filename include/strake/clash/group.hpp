@@ -37,7 +37,11 @@ enum class SortBy : std::uint8_t {
 };
 
 /// The least distance of groups.
-inline constexpr double kLeastGroupDistanceMm = 1;
+inline constexpr double kMinGroupDistanceMm = 1;
+
+/// The former name of kMinGroupDistanceMm.
+[[deprecated("it is called kMinGroupDistanceMm")]] inline constexpr double kLeastGroupDistanceMm =
+    kMinGroupDistanceMm;
 
 struct GroupRules {
   GroupBy by = GroupBy::element;

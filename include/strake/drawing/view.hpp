@@ -33,7 +33,14 @@ struct Direction {
 
 /// Makes a view one in perspective: its direction becomes that from the target to the eye, which is
 /// returned with its rounding. Error: the two are the same point.
-[[nodiscard]] Result<Direction> see_from(const hlr::Perspective& perspective, hlr::View& view);
+[[nodiscard]] Result<Direction> set_perspective(const hlr::Perspective& perspective,
+                                                hlr::View& view);
+
+/// The former name of set_perspective().
+[[deprecated("it is called set_perspective()")]] [[nodiscard]] inline Result<Direction> see_from(
+    const hlr::Perspective& perspective, hlr::View& view) {
+  return set_perspective(perspective, view);
+}
 
 /// A section plane, with the error of its normal against the one asked for.
 struct SectionText {

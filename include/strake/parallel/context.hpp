@@ -32,7 +32,7 @@ struct Context {
   Distribution distribution = Distribution::planned;
   /// Blocks that a worker takes at once, at least, whatever a region says: for measurements of how
   /// coarse the work may be. 0 counts as 1.
-  std::size_t least_chunk = 1;
+  std::size_t min_chunk = 1;
 };
 
 /// Returns how many workers a region of the run has: for other programs that are told how many

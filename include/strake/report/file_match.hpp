@@ -81,7 +81,7 @@ struct FilePair {
 
 /// Matches the files of two runs.
 ///
-/// Pairs that are `asked` for come first, then files of equal labels. What is left goes by what is
+/// The `given_pairs` come first, then files of equal labels. What is left goes by what is
 /// in it. Two files are one, renamed, where more than half of the lasting ids of either that the
 /// results name are in the other: at least three of them, twenty where both have places and share
 /// none, or fewer with more than half of the places in common (where the old run is an excerpt, of
@@ -94,7 +94,7 @@ struct FilePair {
 /// Errors: usage for a pair that is asked for and names a file that its run does not have, or one
 /// that another pair names.
 [[nodiscard]] Result<FileMatches> match_files(const RunFiles& before, const RunFiles& after,
-                                              std::span<const FilePair> asked = {});
+                                              std::span<const FilePair> given_pairs = {});
 
 /// Reads pairs as they are written: OLD=NEW, where either label may have a '=' itself. Errors:
 /// usage.

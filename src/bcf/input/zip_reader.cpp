@@ -11,7 +11,7 @@
 namespace strake::bcf {
 namespace {
 
-constexpr zip_int64_t kMostListedEntries = 200'000;
+constexpr zip_int64_t kMaxListedEntries = 200'000;
 constexpr std::size_t kPiece = std::size_t{1} << 16U;
 
 struct EntryCloser {
@@ -39,7 +39,7 @@ Result<ZipReader> ZipReader::open(const std::filesystem::path& file) {
 
 Status ZipReader::list() {
   const zip_int64_t count = zip_get_num_entries(archive_.get(), 0);
-  if (count > kMostListedEntries)
+  if (count > kMaxListedEntries)
     return Error{ErrorCode::input, "the archive has more than 200000 entries", name_,
                  "split it into several"};
   for (zip_int64_t i = 0; i < count; ++i) {

@@ -113,7 +113,7 @@ struct Cell {
 
 /// Returns the most pairs of boxes that a test over so many parts may have without boxes along
 /// their faces.
-[[nodiscard]] std::uint64_t most_unframed_pairs(std::uint64_t parts, const Options& options);
+[[nodiscard]] std::uint64_t max_unframed_pairs(std::uint64_t parts, const Options& options);
 
 /// What became of each object since an earlier run.
 enum class Change : std::uint8_t { none, near, changed };

@@ -222,7 +222,7 @@ Status run_sphere_narrow_phase(const StageInputs& stage, std::vector<Candidate>&
         c.evaluation.answer = with_cost(c, stage.work.context(), [&](NarrowWork& work) {
           return evaluate_by_spheres(stage.cache.treed(a), stage.cache.treed(b),
                                      stage.pair_tolerances.of(a, b),
-                                     stage.options.engine.most_spheres, work);
+                                     stage.options.engine.max_spheres, work);
         });
       });
 }
@@ -295,7 +295,7 @@ struct EnclosingSurface {
 /// The share of the directions within a surface that may lead out on average, if it is to be meant
 /// as a body: where surfaces are apart, where it lacks pieces of flat faces alone, and where they
 /// touch, which is reported already, but not as what it may be.
-constexpr double kMostOut = 0.05, kMostOutOfFaces = 0.25, kMostOutOfContact = 0.01;
+constexpr double kMaxOut = 0.05, kMaxOutOfFaces = 0.25, kMaxOutOfContact = 0.01;
 
 bool may_be_hit(const Candidate& c) {
   const Classification& j = c.evaluation.answer.classification;
@@ -326,7 +326,7 @@ Status mark_enclosed(const StageInputs& stage, std::vector<Candidate>& candidate
       [&](std::size_t p) {
         if (parts[p] == nullptr) return;
         WindingNumber winding(*parts[p]);
-        const double most = geometry::has_incomplete_faces(*parts[p]) ? kMostOutOfFaces : kMostOut;
+        const double most = geometry::has_incomplete_faces(*parts[p]) ? kMaxOutOfFaces : kMaxOut;
         const double openness = winding.openness(most);
         if (openness <= most) around[p] = {std::move(winding), openness, most};
       });
@@ -338,7 +338,7 @@ Status mark_enclosed(const StageInputs& stage, std::vector<Candidate>& candidate
         const bool touch = classification.cls == Class::contact;
         const auto within = [&](const ScenePart& skin, const ScenePart& part) {
           const auto& of = around[skin.unique];
-          return of && of->openness <= (touch ? kMostOutOfContact : of->most) &&
+          return of && of->openness <= (touch ? kMaxOutOfContact : of->most) &&
                  may_enclose(skin, part) && lies_within(of->winding, skin, part);
         };
         if (!within(a, b) && !within(b, a)) return;

@@ -12,14 +12,14 @@ using geometry::SurfacePoint;
 using geometry::Vec3d;
 
 /// A distance below this is rounding, grid units: it gives no direction between two points.
-constexpr double kLeastLength = 1.0 / 64;
+constexpr double kMinLength = 1.0 / 64;
 
 /// Returns the direction from the deepest point to the surface; where they all but coincide, out
 /// through the surface.
 Vec3d way_out(const Vec3d& deepest, const SurfacePoint& surface) {
   const Vec3d way = surface.point - deepest;
   const double length = std::sqrt(dot(way, way));
-  return length < kLeastLength ? surface.normal : way * (1 / length);
+  return length < kMinLength ? surface.normal : way * (1 / length);
 }
 
 }  // namespace

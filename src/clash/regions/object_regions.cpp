@@ -200,8 +200,8 @@ Status aggregate_regions(const PartResults& results, const parallel::Context& co
                          Report& report) {
   // Only shares the work out: between 64 and 1024 no difference can be seen (decision 0073).
   constexpr std::size_t kGrain = 256;
-  const bool found_regions = report.options.engine.most_regions > 0;
-  const RegionsOfPairs regions(results, report.options.engine.most_regions);
+  const bool found_regions = report.options.engine.max_regions > 0;
+  const RegionsOfPairs regions(results, report.options.engine.max_regions);
   auto others = parallel::collect<RegionList>(
       context, {.name = "regions", .n = report.pairs.size(), .grain = kGrain},
       [&](std::size_t i, std::vector<RegionList>& out) {

@@ -70,16 +70,16 @@ class PartRegions {
   /// Returns the regions of a pair; none where the result as a whole says all. `unique` is the
   /// number of its unique pair.
   [[nodiscard]] std::span<const PartRegion> of(std::size_t pair, std::uint32_t unique) const {
-    if (!is_told_apart(pair)) return {};
+    if (!has_regions(pair)) return {};
     return level(pair).of_unique[unique];
   }
   /// Whether the regions of a pair are too near each other: it has one or several.
   [[nodiscard]] bool is_count_uncertain(std::size_t pair, std::uint32_t unique) const {
-    return is_told_apart(pair) && level(pair).too_near[unique] != 0;
+    return has_regions(pair) && level(pair).too_near[unique] != 0;
   }
 
  private:
-  [[nodiscard]] bool is_told_apart(std::size_t pair) const {
+  [[nodiscard]] bool has_regions(std::size_t pair) const {
     return pair < detail_.size() && detail_[pair] != RegionDetail::whole;
   }
   [[nodiscard]] const DetailedRegions& level(std::size_t pair) const {

@@ -101,7 +101,7 @@ std::string value_text(std::string_view text, std::size_t most) {
 
 std::string shown_text(std::string_view text) {
   // "%%%" is one percent sign; alone it is itself.
-  return spelled(text, kMostOfText,
+  return spelled(text, kMaxOfText,
                  [](std::uint32_t before, const TakenCharacter& c, std::string_view rest) {
                    const bool doubled = c.code == '%' && (before == '%' || rest.starts_with('%'));
                    return doubled ? std::string_view("%%%") : spelling(c, rest);

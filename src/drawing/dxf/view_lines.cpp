@@ -117,7 +117,7 @@ std::string object_data(const model::Object& object, const model::Model& model) 
   groups.text(1001, kApplication);
   for (const std::string_view value : {std::string_view(object.id), std::string_view(object.name),
                                        std::string_view(model.files[object.file].label)})
-    groups.text(1000, value_text(value, kMostOfData));
+    groups.text(1000, value_text(value, kMaxOfData));
   return data;
 }
 

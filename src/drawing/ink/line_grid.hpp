@@ -96,9 +96,9 @@ class LaidLines {
   void near(const PlaneSegment& line, std::uint32_t query, std::size_t most, Visit&& visit) {
     bool goes_on = true;
     cells_.along(line, line.reach + reach_, [&](std::size_t cell) {
-      std::size_t seen = 0;
-      for (std::uint32_t e = first_[cell]; e != kNone && goes_on && seen < most;
-           e = entries_[e].next, ++seen) {
+      std::size_t visited = 0;
+      for (std::uint32_t e = first_[cell]; e != kNone && goes_on && visited < most;
+           e = entries_[e].next, ++visited) {
         const std::uint32_t number = entries_[e].segment;
         if (last_query_[number] == query) continue;
         last_query_[number] = query;

@@ -19,7 +19,7 @@ namespace {
 constexpr double kShrinks = 2.5;
 
 /// Returns how many of so many boxes may be far.
-std::size_t most_far(std::size_t boxes) {
+std::size_t max_far(std::size_t boxes) {
   constexpr std::size_t kFew = 10, kFewOf = 5, kPerThousand = 1000;
   return std::max(boxes / kPerThousand, std::min(kFew, boxes / kFewOf));
 }
@@ -50,7 +50,7 @@ class FarthestFirst {
       x.push_back(boxes[b].left / 2 + boxes[b].right / 2);
       y.push_back(boxes[b].bottom / 2 + boxes[b].top / 2);
     }
-    most_ = most_far(order_.size());
+    most_ = max_far(order_.size());
     if (most_ == 0) return;
     const double at_x = median(std::move(x)), at_y = median(std::move(y));
     for (auto& [near, b] : order_)

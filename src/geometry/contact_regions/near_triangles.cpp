@@ -114,7 +114,7 @@ struct NearTriangleCollector {
 /// says what samples and probes gain.
 constexpr std::size_t kSampledTriangles = 64, kAgree = 8;
 /// Number of triangles below which a scan of all costs little more.
-constexpr std::size_t kLeastSampled = 4 * kSampledTriangles;
+constexpr std::size_t kMinSampled = 4 * kSampledTriangles;
 /// Factor by which the pairs that they stand for have to be too many.
 constexpr std::uint64_t kFarTooMany = 2;
 
@@ -145,7 +145,7 @@ std::uint64_t count_near(const PairLocalPart& a, std::uint32_t triangle, const P
 bool too_many_by_samples(const PairLocalPart& a, const PairLocalPart& b,
                          const NearTriangleOptions& options, QueryContext& work) {
   const std::vector<std::uint32_t>& order = a.tree().order();
-  if (order.size() < kLeastSampled) return false;
+  if (order.size() < kMinSampled) return false;
   const std::uint64_t wanted = kFarTooMany * options.most * kSampledTriangles / order.size() + 1;
   const NearTriangleOptions each{.reach = options.reach, .most = wanted / kAgree + 1};
   std::uint64_t near = 0;

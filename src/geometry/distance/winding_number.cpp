@@ -17,7 +17,7 @@ constexpr double kNoHit = 1e300;
 
 /// The least share of odd directions (those that meet an odd number of triangles) from a point
 /// inside: objects in a body or walls across it make some of them even, as in a bore all are.
-constexpr double kLeastOdd = 0.25;
+constexpr double kMinOdd = 0.25;
 
 /// Returns half the solid angle of a triangle as seen from the origin (A. van Oosterom and J.
 /// Strackee, 1983).
@@ -215,7 +215,7 @@ std::optional<double> WindingNumber::share_out(const Vec3d& from, int rays, doub
     odd += met % 2;
     ++visited;
     if (static_cast<double>(out) / rays >= most) return std::nullopt;
-    if (static_cast<double>(odd + rays - visited) / rays < kLeastOdd) return std::nullopt;
+    if (static_cast<double>(odd + rays - visited) / rays < kMinOdd) return std::nullopt;
   }
   return static_cast<double>(out) / rays;
 }
@@ -238,8 +238,8 @@ bool WindingNumber::surrounds(const Vec3d& at) const {
   if (one_way_) return out_of(at).has_value();
   constexpr int kRays = 256;
   // Between a fin and the surface that it stands on a quarter of the directions leads out.
-  constexpr double kMostOut = 0.2;
-  return share_out(at, kRays, kMostOut).has_value();
+  constexpr double kMaxOut = 0.2;
+  return share_out(at, kRays, kMaxOut).has_value();
 }
 
 double WindingNumber::openness(double most) const {
@@ -253,7 +253,7 @@ double WindingNumber::openness(double most) const {
   // out.
   if (one_way_ && length(all.area) > 2 * most * all.size) return 1;
   double out = 0, passed = 0;
-  int inside = 0, sample = 0, looks_left = 2 * kSamples;
+  int inside = 0, sample = 0, samples_left = 2 * kSamples;
   for (std::uint32_t i = 0; i < triangles_.size() && sample < kSamples; ++i) {
     const Vec3d &a = corner(i, 0), &b = corner(i, 1), &c = corner(i, 2);
     const Vec3d normal = cross(b - a, c - a);
@@ -266,9 +266,9 @@ double WindingNumber::openness(double most) const {
       for (const Vec3d& way : {back, back * -1.0}) {
         // Whatever the others are, they are too few inside, or too much leads out: shares of rays
         // are never negative.
-        if (2 * (inside + looks_left) < kSamples) return 1;
-        if (!one_way_ && out > most * (inside + looks_left)) return 1;
-        --looks_left;
+        if (2 * (inside + samples_left) < kSamples) return 1;
+        if (!one_way_ && out > most * (inside + samples_left)) return 1;
+        --samples_left;
         const auto hit = first_hit(on, way);
         if (!hit) continue;
         const auto leads_out = out_of(on + way * (*hit / 2));

@@ -15,8 +15,8 @@ namespace strake::geometry {
 /// Whether a BVH costs less than it saves; for smaller parts the boxes are sorted instead.
 [[nodiscard]] inline bool needs_bvhs(const Part& a, const Part& b) {
   // Between 1024 and 16'384 ships show no difference (decision 0073).
-  constexpr std::size_t kMostSorted = 4096;
-  return a.triangles.size() + b.triangles.size() > kMostSorted;
+  constexpr std::size_t kMaxSorted = 4096;
+  return a.triangles.size() + b.triangles.size() > kMaxSorted;
 }
 
 /// Returns the lines along which the surfaces of two parts cross each other, in grid units relative

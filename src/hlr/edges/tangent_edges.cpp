@@ -49,7 +49,7 @@ class FlatFaces {
     std::uint32_t f = of_[round[0]], g = of_[round[1]];
     if (size(f) > size(g)) std::swap(f, g);
     const double turn = turn_at(edge);
-    const double at_f = most_beside(f, turn), at_g = most_beside(g, turn);
+    const double at_f = max_beside(f, turn), at_g = max_beside(g, turn);
     if (at_f < 0 && at_g < 0) return true;
     // No more corners of the larger face are examined than the decision takes.
     const double far = reach(f, edge);
@@ -178,7 +178,7 @@ class FlatFaces {
   }
   /// Returns the largest turn at a smooth edge of a face other than one with this turn; negative:
   /// none.
-  [[nodiscard]] double most_beside(std::uint32_t face, double turn) const {
+  [[nodiscard]] double max_beside(std::uint32_t face, double turn) const {
     const Turns& of_face = turns_[face];
     return of_face.most > turn ? of_face.most : of_face.second;
   }

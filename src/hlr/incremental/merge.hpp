@@ -14,7 +14,7 @@ namespace strake::hlr {
 
 /// Lines that were found anew, and whose they are.
 struct ResolvedLines {
-  const std::vector<bool>& asked;  ///< by object
+  const std::vector<bool>& to_solve;  ///< by object
   const Drawing& drawing;          ///< its pieces, curves and counts are those of these objects
 };
 

@@ -36,7 +36,7 @@ struct ChangedView {
 
 /// The part of a scene that is solved anew, by object.
 struct ChangeReach {
-  std::vector<bool> asked;    ///< its lines are found anew
+  std::vector<bool> to_solve;    ///< its lines are found anew
   std::vector<bool> needed;   ///< it is asked, or may hide or cross what is
   bool reaches_most = false;  ///< it is most of what there is
 };

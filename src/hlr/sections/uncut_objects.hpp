@@ -9,7 +9,7 @@
 
 namespace strake::hlr {
 
-/// Returns, by object, whether section planes leave it whole: it is drawn and in `asked`, some
+/// Returns, by object, whether section planes leave it whole: it is drawn and in `to_solve`, some
 /// plane cuts it, and none cuts it away wholly. Empty where nothing is asked for, or there are no
 /// planes.
 ///
@@ -17,7 +17,7 @@ namespace strake::hlr {
 /// where none lies strictly on the side that is kept; it cuts it where some do and some do not.
 [[nodiscard]] std::vector<bool> find_uncut(const model::Scene& scene,
                                            const std::vector<bool>& drawn,
-                                           const std::vector<bool>& asked,
+                                           const std::vector<bool>& to_solve,
                                            std::span<const SectionPlane> planes);
 
 }  // namespace strake::hlr

@@ -140,10 +140,10 @@ ViewBox PerspectiveMap::box_of(std::span<const Vec3l> corners) const {
   std::vector<Ray> before, beside;
   for (const Vec3l& corner : corners) {
     const auto p = corner.as<double>();
-    if (const auto seen = at(corner)) {
-      u.include(seen->u, seen->error_bound);
-      v.include(seen->v, seen->error_bound);
-      w.include(seen->w, seen->error_bound);
+    if (const auto mapped = at(corner)) {
+      u.include(mapped->u, mapped->error_bound);
+      v.include(mapped->v, mapped->error_bound);
+      w.include(mapped->w, mapped->error_bound);
     }
     const Ray ray{dot(axes_.right, p), dot(axes_.up, p), -dot(axes_.toward, p), size_of(p)};
     (ray.z > kGrazing * ray.size ? before : beside).push_back(ray);

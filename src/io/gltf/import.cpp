@@ -44,14 +44,14 @@ bool any_weight(const JsonValue& weights) {
 
 /// Returns how far at most triangles are from the surfaces that they stand for, as extras state it.
 double stated_sag(const JsonValue& extras, double otherwise) {
-  constexpr double kMost = 1e12;
+  constexpr double kMax = 1e12;
   const std::optional<double> sag = extras["sag_mm"].number();
-  return sag && *sag >= 0 && *sag < kMost ? *sag : otherwise;
+  return sag && *sag >= 0 && *sag < kMax ? *sag : otherwise;
 }
 
 /// The fewest bytes of the file per node beyond a number of nodes that hurts nobody. A node takes
 /// half a kilobyte of memory, and {"mesh":1,"translation":[1,2,3]} is 36 bytes.
-constexpr std::size_t kLeastNodeBytes = 24, kFreeNodes = std::size_t{1} << 20U;
+constexpr std::size_t kMinNodeBytes = 24, kFreeNodes = std::size_t{1} << 20U;
 
 class Importer {
  public:
@@ -111,7 +111,7 @@ class Importer {
 
 Status Importer::read_nodes() {
   const std::size_t count = document_.node_count();
-  if (count > input_.file.bytes.size() / kLeastNodeBytes + kFreeNodes)
+  if (count > input_.file.bytes.size() / kMinNodeBytes + kFreeNodes)
     return refusal("has more nodes than it has anything to say about them");
   std::vector<JsonValue> mesh_names;
   mesh_names.reserve(meshes_.size());

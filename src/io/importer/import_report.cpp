@@ -82,7 +82,7 @@ void ImportReport::take_diagnostic(const gltf::JsonValue& line, std::string_view
   const auto& counts = facts_.diagnostics.counts();
   const auto before = std::ranges::find(counts, code, &Diagnostics::Count::code);
   const bool fits =
-      before == counts.end() ? counts.size() < kMostCodes : before->severity == *known;
+      before == counts.end() ? counts.size() < kMaxCodes : before->severity == *known;
   // All of one code count with the severity of the first.
   if (!is_code(code) || !fits)
     code = std::string(kOther) + '-' + std::string(severity_name(*known));
@@ -100,7 +100,7 @@ void ImportReport::take_end(const gltf::JsonValue& line) {
   if (line["map"].exists() && !facts_.map) note_odd();
   facts_.depends_on.clear();
   line["depends_on"].elements([&](const gltf::JsonValue& file) {
-    if (file.is_string() && facts_.depends_on.size() < kMostDepends)
+    if (file.is_string() && facts_.depends_on.size() < kMaxDepends)
       facts_.depends_on.push_back(file.text_value());
   });
 }

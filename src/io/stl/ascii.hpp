@@ -30,7 +30,7 @@ struct Solid {
 };
 
 /// Whether the text starts with "solid" and goes on with facets or ends.
-[[nodiscard]] bool looks_like_ascii(std::string_view text);
+[[nodiscard]] bool is_like_ascii(std::string_view text);
 
 /// Parses the text; returns nothing when stopped.
 [[nodiscard]] std::optional<std::vector<Solid>> parse_ascii(std::string_view text,

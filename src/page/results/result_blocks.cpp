@@ -123,13 +123,13 @@ class ResultColumns {
     };
   }
   [[nodiscard]] auto of_results() { return ColumnsOf(columns_, rows_, found()); }
-  template <class Asks>
-  [[nodiscard]] bool any_test(Asks asks) const {
-    return std::ranges::any_of(findings_.tests, asks);
+  template <class Predicate>
+  [[nodiscard]] bool any_test(Predicate predicate) const {
+    return std::ranges::any_of(findings_.tests, predicate);
   }
-  template <class Asks>
-  [[nodiscard]] bool any_pair(Asks asks) const {
-    return any_test([&](const Report& test) { return std::ranges::any_of(test.pairs, asks); });
+  template <class Predicate>
+  [[nodiscard]] bool any_pair(Predicate predicate) const {
+    return any_test([&](const Report& test) { return std::ranges::any_of(test.pairs, predicate); });
   }
 
   void add_sides() {
@@ -198,9 +198,9 @@ class ResultColumns {
         const std::optional<double> mm = clash::required_clearance_mm(f.test, f.pair);
         return mm ? report::millionths(*mm) : std::int64_t{-1};
       });
-    if (any_test([](const Report& test) { return test.options.engine.most_regions > 0; }))
+    if (any_test([](const Report& test) { return test.options.engine.max_regions > 0; }))
       columns.template numbers<std::uint32_t>("region_count", [](const TestedResult& f) {
-        if (f.test.options.engine.most_regions == 0) return std::uint32_t{0};
+        if (f.test.options.engine.max_regions == 0) return std::uint32_t{0};
         return f.pair.regions == 0 ? kNone : f.pair.regions;
       });
     if (any_pair([](const Pair& p) { return p.allowed_regions > 0; }))
@@ -248,9 +248,9 @@ class ResultColumns {
   }
 
   void add_volumes() {
-    constexpr double kMostMm3 = 9e12;  // beyond it a double has no millionths
+    constexpr double kMaxMm3 = 9e12;  // beyond it a double has no millionths
     auto columns = of_results();
-    if (any_pair([](const Pair& p) { return p.volume_mm3.value_or(0) > kMostMm3; })) {
+    if (any_pair([](const Pair& p) { return p.volume_mm3.value_or(0) > kMaxMm3; })) {
       columns.template numbers<double>("volume_mm3", [](const TestedResult& f) {
         if (!has_volume(f)) return std::numeric_limits<double>::quiet_NaN();
         return f.pair.volume_mm3 ? static_cast<double>(report::millionths(*f.pair.volume_mm3)) / 1e6
@@ -291,14 +291,14 @@ class ResultColumns {
       columns_.numbers<std::uint32_t>(name, rows_,
                                       [numbers](std::size_t row) { return (*numbers)[row]; });
     };
-    const auto add_said = [&](std::string_view name, std::string report::Decision::* member) {
+    const auto add_texts = [&](std::string_view name, std::string report::Decision::* member) {
       add(name, [&decided, member](std::size_t row) -> std::string_view {
         return decided[row] == nullptr ? std::string_view() : decided[row]->decision->*member;
       });
     };
-    add_said("decided_by", &report::Decision::by);
-    add_said("decided_on", &report::Decision::date);
-    add_said("comment", &report::Decision::comment);
+    add_texts("decided_by", &report::Decision::by);
+    add_texts("decided_on", &report::Decision::date);
+    add_texts("comment", &report::Decision::comment);
     if (source_.assignee)
       add("assignee", [this](std::size_t row) { return source_.assignee(source_.rows.at(row)); });
     columns_.texts(

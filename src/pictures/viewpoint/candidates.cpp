@@ -42,11 +42,11 @@ Window window_of(const Vec3d& viewer, const Sight& sight) {
 }
 
 /// Returns how well the two are seen in what a window shows.
-double visibility(const SeenShares& seen) {
-  if (seen.a == 0 || seen.b == 0) return 0;
+double visibility(const VisibleShares& projected) {
+  if (projected.a == 0 || projected.b == 0) return 0;
   constexpr double kWithoutPoint = 0.2;
-  return 2 * seen.a * seen.b / (seen.a + seen.b) *
-         (kWithoutPoint + (1 - kWithoutPoint) * seen.at_point);
+  return 2 * projected.a * projected.b / (projected.a + projected.b) *
+         (kWithoutPoint + (1 - kWithoutPoint) * projected.at_point);
 }
 
 ViewCandidate candidate_of(const Vec3d& viewer, double share) {

@@ -10,14 +10,14 @@ SightBuffer::SightBuffer(const Window& window, const NearTriangles& triangles)
     : points_(window.columns), at_(std::size_t{window.columns} * window.rows) {
   for (const TriangleRun& run : triangles.runs(true))
     for (std::uint32_t i = run.first; i < run.end; ++i)
-      if (const auto seen = seen_triangle(window, triangles[i], i))
-        add(window, *seen, triangles[i].role);
+      if (const auto projected = project_triangle(window, triangles[i], i))
+        add(window, *projected, triangles[i].role);
   bound();
 }
 
-void SightBuffer::add(const Window& window, const SeenTriangle& triangle, Role role) {
+void SightBuffer::add(const Window& window, const ProjectedTriangle& triangle, Role role) {
   for (std::uint32_t row = triangle.first; row < triangle.end; ++row) {
-    const SeenRow in_row(window, triangle, row);
+    const TriangleRow in_row(window, triangle, row);
     Point* const points = at_.data() + std::size_t{row} * points_;
     for (std::uint32_t column = in_row.first(); column < in_row.end(); ++column) {
       const double depth = in_row.depth(column);
@@ -52,14 +52,14 @@ void SightBuffer::cover(const Window& window, const NearTriangles& triangles) {
     const WindowRange range = range_of(window, run.box);
     if (range.farthest > window.eye_mm || !may_hide(range)) continue;
     for (std::uint32_t i = run.first; i < run.end; ++i)
-      if (const auto seen = seen_triangle(window, triangles[i], i)) cover(window, *seen);
+      if (const auto projected = project_triangle(window, triangles[i], i)) cover(window, *projected);
   }
 }
 
-void SightBuffer::cover(const Window& window, const SeenTriangle& triangle) {
+void SightBuffer::cover(const Window& window, const ProjectedTriangle& triangle) {
   if (triangle.nearest <= own_.farthest) return;
   for (std::uint32_t row = triangle.first; row < triangle.end; ++row) {
-    const SeenRow in_row(window, triangle, row);
+    const TriangleRow in_row(window, triangle, row);
     Point* const points = at_.data() + std::size_t{row} * points_;
     for (std::uint32_t column = in_row.first(); column < in_row.end(); ++column) {
       Point& point = points[column];
@@ -69,7 +69,7 @@ void SightBuffer::cover(const Window& window, const SeenTriangle& triangle) {
   }
 }
 
-SeenShares SightBuffer::shares() const {
+VisibleShares SightBuffer::shares() const {
   const double middle = points_ * 0.5, disc = middle * middle, round_point = points_ / 9.0;
   std::uint32_t in_disc = 0, of_a = 0, of_b = 0, at_point = 0, both_at_point = 0;
   for (std::uint32_t row = 0; row < points_; ++row)

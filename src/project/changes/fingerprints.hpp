@@ -16,7 +16,7 @@ struct Fingerprint {
   Hash128 shapes;  ///< of its bodies, and whether it lacks some
   Hash128 places;  ///< placements of its bodies
   Hash128 paints;  ///< colours and categories of its bodies
-  Hash128 looks;   ///< different colours and categories: of objects with other bodies
+  Hash128 appearance;   ///< different colours and categories: of objects with other bodies
   Hash128 naming;  ///< its name and those of the groups above
   Hash128 facts;   ///< what it and the groups above state
 };

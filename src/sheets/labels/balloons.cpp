@@ -55,11 +55,11 @@ BalloonList balloons_of(const PartsListSpec& spec,
     }
   std::vector<std::optional<Balloon>> of_row(listed.size());
   for (const std::size_t view : views_of(*spec.balloons, sheet))
-    for (const SeenObject& seen : seen_objects(sheet.views[view].ink, picked)) {
-      const std::uint32_t row = row_of[model::index(seen.object)];
+    for (const VisibleObject& visible : visible_objects(sheet.views[view].ink, picked)) {
+      const std::uint32_t row = row_of[model::index(visible.object)];
       std::optional<Balloon>& best = of_row[row];
-      if (!best || (best->view == view && seen.length > best->seen.length))
-        best = Balloon{std::to_string(row + 1), seen, view};
+      if (!best || (best->view == view && visible.length > best->visible.length))
+        best = Balloon{std::to_string(row + 1), visible, view};
     }
   for (std::size_t row = 0; row < of_row.size(); ++row)
     if (of_row[row])

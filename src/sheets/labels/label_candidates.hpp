@@ -111,7 +111,7 @@ class LabelCandidates {
   [[nodiscard]] double cost_of_view(const LabelRequest& request, const PaperBox& box) const;
   void walk(const LabelPlace& place, Candidate& candidate);
 
-  static std::vector<Offset> lattice(double least_mm, bool for_leader);
+  static std::vector<Offset> lattice(double min_mm, bool for_leader);
 
   std::span<const LabelRequest> requests_;
   const LabelGround& ground_;

@@ -50,7 +50,7 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 /// The most elements that may be drawn, counting repeats: far more than a frame and a title block
 /// have, and in proportion to the template.
-constexpr std::uint64_t kMostDrawn = 100000, kMostTimes = 10;
+constexpr std::uint64_t kMaxDrawn = 100000, kMaxTimes = 10;
 
 Error reference_error(std::size_t line, std::string message, std::string mend) {
   return {ErrorCode::input, std::move(message), "line " + std::to_string(line), std::move(mend)};
@@ -99,7 +99,7 @@ class References::ReferenceVisitor {
       : elements_(elements), drawn_(elements.size(), kUnknown) {
     for (std::uint32_t e = 0; e < elements.size(); ++e)
       if (!elements[e].id.empty()) by_id_.emplace(elements[e].id, e);
-    most_ = kMostDrawn + kMostTimes * elements.size();
+    most_ = kMaxDrawn + kMaxTimes * elements.size();
   }
 
   [[nodiscard]] Status run() {

@@ -195,7 +195,7 @@ TEST_P(NearClosed, TheBracketHoldsWhereTheLidWas) {
 }
 
 // A weld takes nothing out of a tolerance unsaid.
-TEST_P(NearClosed, WhatTheLidWasNearerThanIsTold) {
+TEST_P(NearClosed, WhatTheLidWasNearerThanIsReported) {
   Draw draw(GetParam());
   for (const double gap : {0.002, 0.0031, 0.4, 4.9})
     for (const double d : {0.0, 7.9}) {
@@ -243,19 +243,19 @@ TEST(NearClosedScenes, InstancesShareAShape) {
 }
 
 // How far corners were moved is told in the unit that suits it.
-TEST(NearClosedScenes, ALongWeldIsToldInMillimetres) {
+TEST(NearClosedScenes, ALongWeldIsReportedInMillimetres) {
   ClashModel m;
   m.object("box").body(lid_above({300, 200, 100}, 4.9));
-  const auto told = [&](double weld_mm) {
+  const auto reported = [&](double weld_mm) {
     const model::Scene scene = scene_of(m, weld_mm);
     for (const Diagnostic& d : scene.diagnostics.kept())
       if (d.code == "mesh-welded") return d.message;
     return std::string();
   };
-  EXPECT_NE(told(5).find("4.900 mm"), std::string::npos) << told(5);
+  EXPECT_NE(reported(5).find("4.900 mm"), std::string::npos) << reported(5);
   m = {};
   m.object("box").body(lid_above({300, 200, 100}, 0.05));
-  EXPECT_NE(told(1).find("50 um"), std::string::npos) << told(1);
+  EXPECT_NE(reported(1).find("50 um"), std::string::npos) << reported(1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Drawn, NearClosed,

@@ -96,7 +96,7 @@ TEST(OwnPolylines, ByDefaultAreSeenWhereHiddenLinesAreLeftOut) {
     }
 }
 
-TEST(OwnPolylines, AreHiddenInsideBehindAndOnTheBackIfAskedFor) {
+TEST(OwnPolylines, AreHiddenInsideBehindAndOnTheBackIfRequested) {
   for (const hlr::View& view : {iso(), from_an_eye()})
     for (const std::int32_t z : {-kSide / 4, 0, kMiddle})
       EXPECT_EQ(states(box_of({}), at_height(z), kHidden, view), States{State::hidden_by_self})

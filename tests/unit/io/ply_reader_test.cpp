@@ -27,7 +27,7 @@ const std::string kVertices =
     "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
 const std::string kFaces = "element face 1\nproperty list uchar int vertex_index\n";
 
-TEST(PlyReader, AllEncodingsSayTheSame) {
+TEST(PlyReader, AllEncodingsStateTheSame) {
   std::vector<model::Model> models;
   for (const test::Seed& seed : test::ply_seeds()) {
     Result<model::Model> model = read(seed.bytes);
@@ -94,7 +94,7 @@ TEST(PlyReader, CommentsThatAreNotCalledSo) {
   EXPECT_FALSE(read(text(kVertices + "proprty float w\n", "0")));
 }
 
-TEST(PlyReader, WhatIsWrongIsSaidAndWhere) {
+TEST(PlyReader, WhatIsWrongIsStatedAndWhere) {
   const auto refused = [](const std::string& bytes, const std::string& words) {
     const Result<model::Model> model = read(bytes);
     ASSERT_FALSE(model) << words;

@@ -153,7 +153,7 @@ TEST(Offsets, AreTheSumsForAnyTeam) {
 }
 
 TEST(Offsets, ThatCannotBeCountedAreAnErrorForAnyTeam) {
-  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max();
+  constexpr std::size_t kMax = std::numeric_limits<std::size_t>::max();
   // Within a run, between two, and the most that can be counted.
   for (const auto& [first, second, good] :
        {std::tuple(10U, 20U, false), std::tuple(10U, 40'000U, false), std::tuple(10U, 10U, true)}) {
@@ -161,7 +161,7 @@ TEST(Offsets, ThatCannotBeCountedAreAnErrorForAnyTeam) {
       Team team(workers);
       std::vector<std::size_t> lengths(50'000);
       lengths[second] = 1;
-      lengths[first] = kMost;
+      lengths[first] = kMax;
       const Status summed = detail::sum_up({.team = &team}, lengths);
       EXPECT_EQ(static_cast<bool>(summed), good) << first << ", " << second;
       if (!summed) {
@@ -213,7 +213,7 @@ TEST(ItemsByKey, OfNoKeysAreNone) {
   EXPECT_EQ(lists->size(), 0U);
 }
 
-TEST(Deal, TellsOfTheLowestItemThatFails) {
+TEST(Deal, ReportsTheLowestItemThatFails) {
   Team team(3);
   const auto dealt = deal<std::size_t, 2>(
       {.team = &team}, "dealt", 100'000,

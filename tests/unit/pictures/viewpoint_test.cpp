@@ -43,7 +43,7 @@ void add_room(ClashModel& m, double half, int open_axis = -1, double open_side =
 }
 
 /// What rays from the eye, or from the plane that cuts, see near the clash.
-RayShares seen(const PicturedClash& clash, const Subject& subject,
+RayShares ray_shares(const PicturedClash& clash, const Subject& subject,
                const ClashViewpoint& viewpoint) {
   const Scenery scenery = clash.scenery();
   const Vec3d toward = -viewpoint.direction;
@@ -76,7 +76,7 @@ TEST(Viewpoint, FramesAClashThatNothingHides) {
       dot(viewpoint.eye_mm - viewpoint.target_mm, viewpoint.eye_mm - viewpoint.target_mm));
   EXPECT_NEAR(std::tan(viewpoint.field_of_view_deg / 360 * std::acos(-1.0)) * distance,
               viewpoint.half_height_mm, 1e-6);
-  const RayShares rays = seen(clash, subject, viewpoint);
+  const RayShares rays = ray_shares(clash, subject, viewpoint);
   EXPECT_GT(rays.a, kSeen);
   EXPECT_GT(rays.b, kSeen);
 }
@@ -91,12 +91,12 @@ TEST(Viewpoint, LooksThroughTheOpenSideOfARoom) {
       const ClashViewpoint viewpoint = viewpoint_of(clash, subject);
       EXPECT_TRUE(viewpoint.clipping_planes.empty()) << axis << ' ' << side;
       EXPECT_GT(-viewpoint.direction[axis] * side, 0.5) << axis << ' ' << side;
-      const RayShares rays = seen(clash, subject, viewpoint);
+      const RayShares rays = ray_shares(clash, subject, viewpoint);
       EXPECT_GT(std::min(rays.a, rays.b), kSeen) << axis << ' ' << side;
     }
 }
 
-TEST(Viewpoint, CutsAClosedRoomOpenAndSaysSo) {
+TEST(Viewpoint, CutsAClosedRoomOpenAndReportsIt) {
   ClashModel m = bars();
   add_room(m, 230);
   const PicturedClash clash(std::move(m));
@@ -104,7 +104,7 @@ TEST(Viewpoint, CutsAClosedRoomOpenAndSaysSo) {
   const ClashViewpoint viewpoint = viewpoint_of(clash, subject);
   ASSERT_EQ(viewpoint.clipping_planes.size(), 1U);
   EXPECT_GT(dot(viewpoint.clipping_planes[0].normal, -viewpoint.direction), 0.999);
-  const RayShares rays = seen(clash, subject, viewpoint);
+  const RayShares rays = ray_shares(clash, subject, viewpoint);
   EXPECT_GT(std::min(rays.a, rays.b), kSeen);
 }
 
@@ -116,7 +116,7 @@ TEST(Viewpoint, CutsWhatHoldsTheOther) {
   const Subject subject = clash.subject("tank", "valve");
   const ClashViewpoint viewpoint = viewpoint_of(clash, subject);
   ASSERT_EQ(viewpoint.clipping_planes.size(), 1U);
-  const RayShares rays = seen(clash, subject, viewpoint);
+  const RayShares rays = ray_shares(clash, subject, viewpoint);
   EXPECT_GT(std::min(rays.a, rays.b), 0.003);
 }
 
@@ -134,7 +134,7 @@ TEST(Viewpoint, FindsAWayThroughACrowd) {
     }
     const PicturedClash clash(std::move(m));
     const Subject subject = clash.subject("bar a", "bar b");
-    const RayShares rays = seen(clash, subject, viewpoint_of(clash, subject));
+    const RayShares rays = ray_shares(clash, subject, viewpoint_of(clash, subject));
     EXPECT_GT(std::min(rays.a, rays.b), kSeen);
   }
 }
@@ -156,17 +156,17 @@ TEST(Viewpoint, TheBestOfAllCandidatesIsChosen) {
     const clash::Pair& pair = pair_of(*clash.contents, subject.results[0]);
     const NearTriangles triangles(
         triangles_near(scenery, Roles(*clash.contents, subject), grid_point(pair.point_mm), 2000));
-    const Sight sight{150, 1000};
+    const ObservationKind sight{150, 1000};
     const auto all =
         evaluate_candidates(triangles, candidate_directions(pair.away), sight, {}).value();
     const ViewCandidate& best = best_of(all);
     for (const double cut : {1e300, 60.0, 0.0}) {
-      const Sight cut_open{150, 1000, cut};
+      const ObservationKind cut_open{150, 1000, cut};
       const auto directions = candidate_directions(pair.away);
       const ViewCandidate found = find_best(triangles, directions, cut_open, {}).value().best;
-      const auto judged = evaluate_candidates(triangles, directions, cut_open, {}).value();
-      EXPECT_EQ(found.viewer, best_of(judged).viewer) << cut;
-      EXPECT_EQ(found.rank, best_of(judged).rank) << cut;
+      const auto evaluated = evaluate_candidates(triangles, directions, cut_open, {}).value();
+      EXPECT_EQ(found.viewer, best_of(evaluated).viewer) << cut;
+      EXPECT_EQ(found.rank, best_of(evaluated).rank) << cut;
     }
     for (const ViewCandidate& one : all) {
       EXPECT_GE(best.rank, one.rank);

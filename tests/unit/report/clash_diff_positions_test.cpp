@@ -101,7 +101,7 @@ TEST(ClashDiffPositions, AnotherClashOfTheSameNumbersIsNotTheOldOne) {
   EXPECT_EQ(Runs(after, before).counts(), (Counts{0, 0, 0, 0, 2}));
 }
 
-TEST(ClashDiffPositions, AnotherDepthAtThatPlaceIsNotToBeTold) {
+TEST(ClashDiffPositions, AnotherDepthAtThatPlaceIsNotToBeDecided) {
   const Runs runs(unnamed({{0, 0, 0}, {90, 0, 0}}), unnamed({{0, 0, 0}, {89, 0, 0}}));
   EXPECT_EQ(runs.counts(), (Counts{0, 0, 0, 0, 2}));
 }
@@ -146,7 +146,7 @@ TEST(ClashDiffPositions, ANameThatIsRepeatedSinceIsNoLastingId) {
   EXPECT_EQ(Runs(after, before).counts(), (Counts{0, 0, 0, 0, 2}));
 }
 
-TEST(ClashDiffPositions, ResultsThatDoNotSayItAreComparedByKey) {
+TEST(ClashDiffPositions, ResultsThatDoNotStateItAreComparedByKey) {
   const auto silent = [](std::string text) {
     const std::size_t at = text.find("\"positional_ids\"");
     return text.erase(at, text.find('\n', at) + 1 - at);
@@ -170,7 +170,7 @@ TEST(ClashDiffPositions, BitsThatDoNotGoWithTheElementsAreRefused) {
             std::string::npos);
 }
 
-TEST(ClashDiffPositions, TheKeyOfTheOldRunIsTold) {
+TEST(ClashDiffPositions, TheKeyOfTheOldRunIsReported) {
   const Runs runs(unnamed({{0, 0, 0}, {90, 0, 0}}),
                   unnamed({{-5000, 0, 0}, {0, 0, 0}, {90, 0, 0}, {-5050, 0, 0}}));
   ASSERT_EQ(runs.counts(), (Counts{0, 0, 1, 0, 1}));

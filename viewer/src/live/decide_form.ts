@@ -14,7 +14,7 @@ export interface Outcome {
   isBehind: boolean;
 }
 
-const MOST_TOLD = 5;
+const MAX_TOLD = 5;
 type Field = 'status' | 'assignee' | 'comment';
 
 export class DecideForm {
@@ -154,6 +154,6 @@ export class DecideForm {
     fill(this.told,
       h('div', { class: 'note', role: 'alert' },
         h('p', {}, `${saved} Not saved for ${plural(refused.length, 'clash that', 'clashes that')} changed meanwhile.${again}`.trim()),
-        h('ul', {}, ...refused.slice(0, MOST_TOLD).map((r) => h('li', {}, `${r.what}: ${r.why}`)), refused.length > MOST_TOLD && h('li', {}, `and ${refused.length - MOST_TOLD} more`))));
+        h('ul', {}, ...refused.slice(0, MAX_TOLD).map((r) => h('li', {}, `${r.what}: ${r.why}`)), refused.length > MAX_TOLD && h('li', {}, `and ${refused.length - MAX_TOLD} more`))));
   }
 }

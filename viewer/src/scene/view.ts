@@ -49,7 +49,7 @@ const FAR = 1e12;
 // How long the rest of a picture waits in software.
 const BREATH_MS = 120;
 // Of finer objects the outline takes longer than a click may, and shows less.
-const MOST_OUTLINED = 60000;
+const MAX_OUTLINED = 60000;
 // A line is thinner than a finger.
 const PIXELS_BESIDE = 5;
 
@@ -351,7 +351,7 @@ export class View {
       const behind = new Mesh(geometry, paint.behind);
       behind.frustumCulled = false;
       this.hiddenPair.add(behind);
-      if (mesh.index.length < MOST_OUTLINED) {
+      if (mesh.index.length < MAX_OUTLINED) {
         const outline = new BufferGeometry();
         outline.setAttribute('position', new BufferAttribute(sharpEdges(mesh, 30), 3));
         const rim = new LineSegments(outline, paint.rim);

@@ -96,7 +96,7 @@ Result<report::BcfForm> bcf_form(const BcfInput& input, bool is_written) {
 
 project::RunComments comments_of_run(const BcfInput& input, bool is_written) {
   if (!is_written) return project::RunComments::none;
-  return input.history ? project::RunComments::with_history : project::RunComments::said;
+  return input.history ? project::RunComments::with_history : project::RunComments::all_comments;
 }
 
 bool is_bcf(const std::string& file) { return suffix_of(file).starts_with(".bcf"); }

@@ -60,11 +60,11 @@ Status write_pictures(Session& session, const PictureInput& given,
   const auto count =
       pictures::write_picture_folder(contents, given.folder, *options, session.context());
   if (!count) return count.error();
-  std::string told = fmt::format("wrote {}: {}", given.folder, counted(count->drawn, "picture"));
+  std::string summary = fmt::format("wrote {}: {}", given.folder, counted(count->drawn, "picture"));
   if (count->left_out > 0)
-    told += fmt::format(", {} more left out (--top-pictures)", count->left_out);
-  if (count->cut_open > 0) told += fmt::format(", {} cut open", count->cut_open);
-  session.console().note(told);
+    summary += fmt::format(", {} more left out (--top-pictures)", count->left_out);
+  if (count->cut_open > 0) summary += fmt::format(", {} cut open", count->cut_open);
+  session.console().note(summary);
   return {};
 }
 

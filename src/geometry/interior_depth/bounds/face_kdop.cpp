@@ -202,11 +202,11 @@ bool exactly_convex_edges(const Part& part, const parallel::Context& context) {
 /// No vertex stands above the plane of a face. Also false where that takes long to see: a finely
 /// tessellated round body has thousands of vertices just below each of its faces.
 bool below_its_faces(const Part& part, double slack) {
-  constexpr std::size_t kMostScanned = 64;  // vertices that are tested one by one
+  constexpr std::size_t kMaxScanned = 64;  // vertices that are tested one by one
   // Without a limit two spheres of a million triangles took 24 s here. With 256 boxes a face fine
   // spheres took 1.6 µs a triangle in all, most of it here.
   constexpr std::uint64_t kFirstBoxes = 4096, kBoxesPerFace = 64;
-  const bool linear = part.vertices.size() <= kMostScanned;
+  const bool linear = part.vertices.size() <= kMaxScanned;
   const SupportTree tree = linear ? SupportTree() : SupportTree(part.vertices);
   std::uint64_t boxes = kFirstBoxes;
   for (std::uint32_t t = 0; t < part.triangles.size(); ++t) {

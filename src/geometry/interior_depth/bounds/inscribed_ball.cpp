@@ -238,8 +238,8 @@ class FreeDirections {
       Vec3d rest = axis;
       for (const Vec3d& other : left) rest = rest - other * dot(other, rest);
       // Of two or three unit vectors that span the same, one has at least so much beside the rest.
-      constexpr double kLeast = 0.5;
-      if (left.size() < axes_.size() && length(rest) > kLeast) left.push_back(unit(rest));
+      constexpr double kMin = 0.5;
+      if (left.size() < axes_.size() && length(rest) > kMin) left.push_back(unit(rest));
     }
     left.erase(left.begin());
     axes_ = std::move(left);

@@ -23,7 +23,7 @@ namespace {
 constexpr std::size_t kNearPerTriangle = 2, kNodesPerTriangle = 8;
 constexpr std::size_t kAlwaysNear = 128;
 /// Number of surface points tried for one that is clear of the other body.
-constexpr std::size_t kMostProbes = 16;
+constexpr std::size_t kMaxProbes = 16;
 /// Room that displacements may need beyond coordinates that fit the exact arithmetic.
 constexpr std::int64_t kRoom = 64;
 
@@ -173,7 +173,7 @@ bool is_clear_somewhere(const PairLocalPart& view, const PartWithBvh& other, con
     if (!search_box.contains({p, p})) return true;
   }
   // The middles of triangles.
-  const std::size_t n = part.triangles.size(), step = std::max<std::size_t>(1, n / kMostProbes);
+  const std::size_t n = part.triangles.size(), step = std::max<std::size_t>(1, n / kMaxProbes);
   for (std::size_t t = 0; t < n; t += step) {
     Vec3l thrice;
     for (const std::uint32_t v : part.triangles[t])

@@ -114,7 +114,7 @@ struct ArcInRing {
   double least = std::numeric_limits<double>::infinity();
 };
 
-ArcInRing least_of(const PrimitiveOperand& inner, const std::vector<SweptArc>& arcs,
+ArcInRing min_of(const PrimitiveOperand& inner, const std::vector<SweptArc>& arcs,
                    const Torus& ring) {
   ArcInRing of;
   for (const SweptArc& arc : arcs) {
@@ -138,10 +138,10 @@ std::vector<SweptArc> parts_of(const SweptArc& arc) {
 /// in shorter arcs, where it is nearly one.
 double inside_ring(const PrimitiveOperand& inner, const Torus& ring) {
   constexpr int kTimesShorter = 3;
-  ArcInRing of = least_of(inner, inner.arcs(), ring);
+  ArcInRing of = min_of(inner, inner.arcs(), ring);
   double least = of.least;
   for (int i = 0; inner.torus && least > 0 && i < kTimesShorter; ++i) {
-    of = least_of(inner, parts_of(of.arc), ring);
+    of = min_of(inner, parts_of(of.arc), ring);
     least = std::min(least, of.least);
   }
   return least;

@@ -49,9 +49,9 @@ std::optional<double> JsonValue::number() const {
 }
 
 std::optional<std::uint64_t> JsonValue::index() const {
-  constexpr double kMost = 9007199254740992.0;  // 2^53
+  constexpr double kMax = 9007199254740992.0;  // 2^53
   const std::optional<double> value = number();
-  if (!value || !(*value >= 0 && *value <= kMost) || *value != std::floor(*value))
+  if (!value || !(*value >= 0 && *value <= kMax) || *value != std::floor(*value))
     return std::nullopt;
   return static_cast<std::uint64_t>(*value);
 }

@@ -55,8 +55,8 @@ NeutralFacts facts_of(const JsonText& text) {
   facts.incomplete = incomplete.boolean().value_or(false);
   // What is no precision counts as the worst, as precision_um() has it.
   const double um = precision.exists() ? precision.number().value_or(-1) : 0;
-  constexpr double kMostUm = 1e9;
-  facts.precision_um = um >= 0 && um < kMostUm
+  constexpr double kMaxUm = 1e9;
+  facts.precision_um = um >= 0 && um < kMaxUm
                            ? static_cast<float>(um)
                            : precision_um(std::numeric_limits<double>::infinity());
   if (!attributes.is_array()) return facts;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "project/changes/same_form.hpp"
+#include "project/changes/displaced_bodies.hpp"
 
 #include <cmath>
 #include <cstddef>
