@@ -2,7 +2,7 @@
 // bench_clash_peers [meshes|ship] [OBJECTS] [straight|turned] [--limit SECONDS] [--scenes FOLDER]
 // [--json FILE] [PEER...]: a generated ship, as meshes or with its primitives, through Strake and
 // through Embree, FCL, CGAL, Bullet and IfcOpenShell on the same triangles. Strake's classes must
-// be those of the ship's truth, and every peer must have found what its question asks for, before a
+// be those of the ship's truth, and every peer must have found what its question requests, before a
 // time is printed: CPU seconds, medians of several runs, and the ratio to Strake's, which answers
 // with class, distance or depth and witness in that time.
 //

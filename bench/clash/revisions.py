@@ -232,7 +232,7 @@ def compared(strake, old, new):
                for e in diff['same'] + diff['changed']]
     # Copies that lie in each other have clashes between which nothing decides, and need not.
     right = sum(was == now or old.measures[was] == old.measures.get(now) for was, now in matched)
-    # What an object that is gone was part of cannot be told: nobody looked at it again.
+    # What an object that is gone was part of cannot be known: nobody looked at it again.
     there = set(new.tags.values())
     is_mended = {pair for pair in is_gone if pair <= there}
     reported = {'new': [new.pair(e) for e in diff['added']], 'gone': [old.pair(e) for e in diff['gone']]}

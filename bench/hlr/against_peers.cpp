@@ -4,7 +4,7 @@
 // view through Strake, and through OCCT's PolyAlgo, Blender's Line Art and FreeCAD's TechDraw on
 // the same triangles out of the same OBJ file. A scene is ship:OBJECTS, boxes:SIDE, pipes:SIDE or
 // an OBJ file; X,Y,Z points to the viewer. Without a scene those that each peer can finish, with
-// the ratios that are asked for.
+// the ratios that are requested.
 //
 // Seconds are of hiding alone: every program has the scene in memory before. Strake's are medians
 // of several runs, with the kinds of lines that the peer has; peers run once. Before a time counts
@@ -55,7 +55,7 @@ constexpr int kRuns = 5;
 constexpr unsigned kThreads = 2;
 constexpr double kSharp_deg = 20;
 
-/// How many times a peer should need what Strake needs; 0: not asked for.
+/// How many times a peer should need what Strake needs; 0: not requested.
 struct PeerTarget {
   std::string_view peer;
   double cpu = 0, wall = 0;

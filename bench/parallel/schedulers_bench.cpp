@@ -55,7 +55,7 @@ struct Set {
   Case items;
   std::size_t grain = 1;      ///< items that a worker takes at once, for all who ask
   bool longest_first = true;  ///< whether costs are known and unequal
-  int rounds = 1;             ///< for each round asked for: more where one is short
+  int rounds = 1;             ///< for each round requested: more where one is short
 };
 
 std::vector<Set> make_sets() {

@@ -31,7 +31,7 @@ CaseRecord case_of(std::string_view name, std::string_view title, const PlacedMo
   return one;
 }
 
-/// Runs the cases that are asked for.
+/// Runs the cases that are requested.
 class Evaluation {
  public:
   Evaluation(const std::vector<std::string>& names, EvaluationRecord& record,

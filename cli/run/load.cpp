@@ -40,7 +40,7 @@ struct UnitConfusion {
 };
 
 /// Factors of 10 and 12 are left out: parts that are so much larger than others are common. A cube
-/// or a plate that is 25 or 40 times as large is so, too: inches have to be told from those by a
+/// or a plate that is 25 or 40 times as large is so, too: inches have to be distinguished from those by a
 /// hundredth.
 constexpr double kAlike = 1.12, kSame = 1.01;
 constexpr std::array<UnitConfusion, 4> kUnitConfusions{{{1000, "m", "mm", kAlike},
@@ -172,7 +172,7 @@ Status note_doubtful_units(model::Scene& scene, const parallel::Context& context
 
 namespace {
 
-/// Finest sag: corners closer than the grid's spacing cannot be told apart.
+/// Finest sag: corners closer than the grid's spacing cannot be distinguished.
 constexpr double kFinestSagMm = 0.001;
 constexpr double kWidestWeldMm = 1000;
 

@@ -84,7 +84,7 @@ Result<std::vector<unsigned>> team_sizes(const std::string& text) {
   return sizes;
 }
 
-/// Returns the cases that are asked for: without --only all that can be measured.
+/// Returns the cases that are requested: without --only all that can be measured.
 Result<std::vector<std::string>> chosen_cases(const std::string& only, bool has_peers) {
   const std::vector<CaseGroup> groups = case_groups();
   std::vector<std::string> chosen, known;
@@ -143,7 +143,7 @@ Result<EvaluationSettings> settings_of(const EvaluateOptions& given) {
   return settings;
 }
 
-/// Returns where peers are, if they are asked for.
+/// Returns where peers are, if they are requested.
 Result<std::optional<PeerPrograms>> peer_programs(const EvaluateOptions& given,
                                                   const EvaluationSettings& settings,
                                                   const fs::path& folder) {

@@ -48,7 +48,7 @@ void run_mesher(const TopoDS_Shape& shape, double sag_mm, const MeshOptions& opt
 }
 
 /// Makes triangles no farther than a distance from the surface of a shape, and returns how far they
-/// may be, mm: some faces, as whole balls, come out twice as coarse as the mesher was asked for.
+/// may be, mm: some faces, as whole balls, come out twice as coarse as requested of the mesher.
 double mesh_within(const TopoDS_Shape& shape, double wanted_mm, const MeshOptions& options,
                    const Handle(ReportProgress) & progress) {
   // A face that is at odds with itself never comes near its surface: it must not cost the piece.

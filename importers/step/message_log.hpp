@@ -38,7 +38,7 @@ class MessageLog {
   MessageLog(MessageLog&&) = delete;
   MessageLog& operator=(MessageLog&&) = delete;
 
-  /// Returns what was told, "; " between; empty where nothing was.
+  /// Returns what was reported, "; " between; empty where nothing was.
   [[nodiscard]] std::string text() const;
 
  private:

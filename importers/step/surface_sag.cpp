@@ -96,7 +96,7 @@ double largest_sag_found(const TopoDS_Shape& shape, double wanted_sag_mm) {
   double largest = wanted_sag_mm;
   for (TopExp_Explorer at(shape, TopAbs_FACE); at.More(); at.Next())
     largest = std::max(largest, sag_of_face(TopoDS::Face(at.Current()), wanted_sag_mm));
-  // The mesher stops where it is within the last digits of what it was asked for.
+  // The mesher stops where it is within the last digits of what was requested of it.
   constexpr double kRounding = 1.001;
   return largest > wanted_sag_mm * kRounding ? largest : wanted_sag_mm;
 }

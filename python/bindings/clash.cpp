@@ -167,7 +167,7 @@ Status write_file(const std::filesystem::path& path, Write&& write) {
   return written ? file->commit() : written;
 }
 
-/// Writes as the suffix of the path asks for.
+/// Writes as the suffix of the path requests.
 void save(const RunPointer& run, const std::filesystem::path& path, const WrittenForm& form,
           const RunOptions& options) {
   const auto writer = value_or_raise(publish::find_clash_writer(path.string()));
@@ -212,7 +212,7 @@ nb::object rows(const RunPointer& run, const RunOptions& options) {
   }));
 }
 
-/// What a run is asked for.
+/// What is requested of a run.
 void bind_request(nb::module_& module) {
   nb::class_<Pick>(module, "Pick")
       .def(

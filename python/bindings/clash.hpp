@@ -17,7 +17,7 @@
 
 namespace strake::python {
 
-/// What a clash run is asked for.
+/// What is requested of a clash run.
 struct ClashRequest {
   Pick a, b;
   bool within_files = false;

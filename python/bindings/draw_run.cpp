@@ -154,7 +154,7 @@ Status put_on_paper(const DrawRequest& request, const DrawJob& job, const hlr::D
 
 namespace {
 
-/// Returns the scene of a model, with thin pipes as lines where a job asks for them.
+/// Returns the scene of a model, with thin pipes as lines where a job requests them.
 Result<std::shared_ptr<const model::Scene>> drawn_scene(LoadedModel& model,
                                                         const DrawRequest& request,
                                                         const DrawJob& job,

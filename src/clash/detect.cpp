@@ -232,7 +232,7 @@ class Engine {
     if (report.options.engine.max_regions > 0 || !report.allowed.empty()) {
       if (const Status s = aggregate_regions(results, context_, report); !s) return s;
     } else {
-      // Where nothing asks for regions it would go on being the place of a pair's part results,
+      // Where nothing requests regions it would go on being the place of a pair's part results,
       // which a run that follows changes has others of.
       const Status s = parallel::for_each(
           context_, {.name = "no regions", .n = report.pairs.size(), .grain = kGrain},
@@ -302,7 +302,7 @@ class Engine {
   UniquePairs unique_pairs_;
   ObjectPairs objects_;
   std::vector<Candidate> candidates_;         ///< one per unique pair
-  PartRegions regions_;                       ///< where told apart
+  PartRegions regions_;                       ///< where distinguished
   std::vector<CommonVolume> common_volumes_;  ///< where a rule or the test limits them
   std::vector<std::uint8_t> unknown_sag_;     ///< an entry for each file
 };

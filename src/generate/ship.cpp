@@ -152,7 +152,7 @@ std::string id_of(const ShipObject& built) {
                      built.cell.lane, built.cell.level, built.number);
 }
 
-/// Makes zone, deck and discipline groups as objects ask for them.
+/// Makes zone, deck and discipline groups as objects request them.
 class GroupTree {
  public:
   explicit GroupTree(model::Model& model) : model_(model) {

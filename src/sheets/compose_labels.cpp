@@ -82,7 +82,7 @@ class LabelDiagnostics {
                 kRoomMend);
   }
 
-  /// Tells of what is as good as what was asked for.
+  /// Tells of what is as good as what was requested.
   void note_of(std::size_t number, const char* code, const std::string& one,
                const std::string& many, const std::string& where) {
     if (number == 0) return;

@@ -86,7 +86,7 @@ model::ViewTessellation plan_of(const model::Scene& scene, const ViewTask& task)
   return plan;
 }
 
-/// Solves the lines that a view asks for.
+/// Solves the lines that a view requests.
 Result<hlr::Drawing> solve(const model::Scene& scene, const ViewTask& task,
                            const parallel::Context& context) {
   const hlr::WholeView whole{.box = task.box,
@@ -113,7 +113,7 @@ Result<Blob> encode_counts(const hlr::PartCounts& counts, std::span<const std::u
   return out.finish();
 }
 
-/// What was solved in a tile, of which the drawing is decoded when it is asked for.
+/// What was solved in a tile, of which the drawing is decoded when it is requested.
 class SolvedTile {
  public:
   /// The path must outlive this. Errors: input where it is not of that tile (kLost).

@@ -248,12 +248,12 @@ def wrong():
     for name in ('src/hlr/x.cc', 'src/hlr/x.h', 'src/hlr/x.ipp', 'include/strake/hlr/x.inl', 'cli/x.cxx', 'src/hlr/x'):
         if not faults_of(name, 'int x();'):
             yield f'{name}: a source of no known kind is not caught'
-    # The patterns have them; an exception that is none any more is told of.
+    # The patterns have them; an exception that is none any more is reported.
     if faults_of('src/parallel/x.cpp', 'std::mutex m;'):
         yield 'src/parallel: caught'
     if faults_of('cli/output/console.cpp', 'std::mutex m;') or not faults_of('cli/output/console.cpp', 'int m;'):
         yield 'cli/output/console.cpp: the exception is not kept'
-    # What spans lines is told of where it begins, and what follows where it is.
+    # What spans lines is reported where it begins, and what follows where it is.
     if [number for number, _ in faults_of('src/hlr/x.cpp', 'auto r = R"(\n"\n)";\nstatic const Table\n    a = b();')] != [5]:
         yield 'a declaration of two lines after a text of three: not line 5'
 

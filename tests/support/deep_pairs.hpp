@@ -48,7 +48,7 @@ struct DeepPair {
 /// In grid units.
 [[nodiscard]] testing::IndexedMesh snapped(const DeepBody& body);
 
-/// A pair as the narrow phase asks for its depth.
+/// A pair as the narrow phase requests its depth.
 class DeepPairTest {
  public:
   explicit DeepPairTest(const DeepPair& pair);

@@ -349,7 +349,7 @@ class Checker {
   Vec3l d_, origin_;
   std::vector<Facet> facets_;
   Squares squares_;
-  std::vector<std::vector<Segment>> segments_, wires_;  ///< per object, made when first asked for
+  std::vector<std::vector<Segment>> segments_, wires_;  ///< per object, made when first requested
 };
 
 std::string text_of(const Vec3l& p) {

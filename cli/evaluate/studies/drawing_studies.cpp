@@ -14,7 +14,7 @@ namespace strake::cli {
 
 namespace {
 
-/// Draws in one way on the most workers; `what` is told.
+/// Draws in one way on the most workers; `what` is reported.
 Result<StudyRun> draw(const StudyInput& input, const StudyView& view, const hlr::Options& options,
                       const std::string& what) {
   input.narrate(what);

@@ -25,7 +25,7 @@ struct StudyConditions {
 struct StudyRun {
   double seconds = 0;  ///< the median
   Computed computed;
-  std::vector<parallel::RegionReport> regions;  ///< of the fastest round, where asked for
+  std::vector<parallel::RegionReport> regions;  ///< of the fastest round, where requested
   std::string unfinished;                       ///< why it has no result; empty: it has
 
   /// Returns the seconds as text, or why there are none.

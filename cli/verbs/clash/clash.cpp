@@ -171,7 +171,7 @@ WrittenFiles written_files(const ClashOptions& given, bool json) {
                      .table = !json};
   for (const std::string& file : given.outputs) {
     files.csv = files.csv || suffix_of(file) == ".csv";
-    // What has no format is told of where its name is looked at.
+    // What has no format is reported where its name is looked at.
     const Result<report::ClashWriter> writer = publish::find_clash_writer(file);
     files.attributes = files.attributes || (writer && writer->attributes);
     files.bcf = files.bcf || is_bcf(file);
@@ -225,7 +225,7 @@ Result<ClashRequest> request_of(const ClashOptions& given, bool json) {
   return request;
 }
 
-/// Returns the tests of the rules file, or the one that the command line asks for.
+/// Returns the tests of the rules file, or the one that the command line requests.
 Result<rules::Plan> plan_of(Session& session, const LoadedModel& loaded,
                             const ClashRequest& request) {
   const auto timer = session.step("select");

@@ -103,7 +103,7 @@ Result<std::optional<project::RunRecord>> record_of_last_run(project::Database& 
   return project::read_run_record(database, **run);
 }
 
-/// Returns what is asked for; where nothing is, how the run grouped.
+/// Returns what is requested; where nothing is, how the run grouped.
 ClashGroupingInput grouping_or_that_of_run(const ClashGroupingInput& input,
                                            const std::optional<project::RunRecord>& run) {
   ClashGroupingInput requested = input;

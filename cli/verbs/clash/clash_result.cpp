@@ -250,7 +250,7 @@ std::vector<std::string> empty_disciplines(const clash::Findings& findings) {
   return empty;
 }
 
-/// Returns in words why clearances from an attribute are less than they ask for.
+/// Returns in words why clearances from an attribute are less than they request.
 std::vector<std::string> lowered_clearances(const clash::Findings& findings) {
   std::vector<std::string> lowered;
   const Diagnostics diagnostics = findings.all_diagnostics();

@@ -33,11 +33,11 @@ namespace strake::cli {
 
 namespace {
 
-/// The view, as it is asked for and as the project has it.
+/// The view, as it is requested and as the project has it.
 struct ViewOfProject {
   std::string name;
   DrawOptions solved;  ///< whose lines are those of the view
-  DrawOptions shown;   ///< the same on the sheet that this run asks for
+  DrawOptions shown;   ///< the same on the sheet that this run requests
 };
 
 /// How the lines of a view came about.
@@ -272,7 +272,7 @@ class StoredRun {
     return drawing;
   }
 
-  /// Stores the view as it was asked for, and its lines where they are not those that are stored.
+  /// Stores the view as it was requested, and its lines where they are not those that are stored.
   Status store() {
     project::ViewToStore view;
     view.name = view_.name;

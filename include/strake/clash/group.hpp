@@ -48,7 +48,7 @@ struct GroupRules {
   double distance_mm = 3000;  ///< for GroupBy::proximity and `apart`; at least the least one
   SortBy sort = SortBy::depth;
   /// Contacts are mostly meant, and so many that they join everything to everything: they belong to
-  /// no group unless asked for.
+  /// no group unless requested.
   bool contacts = false;
   /// Results of a group are split by proximity as well: a group is about one element, say, at one
   /// place.
@@ -83,7 +83,7 @@ struct Grouping {
 /// Tells whether a result belongs to no group, as one that is approved.
 using LeavesOut = std::function<bool(const ResultRef&)>;
 
-/// Puts every result that no rule allows, that is no contact unless asked for and that is not left
+/// Puts every result that no rule allows, that is no contact unless requested and that is not left
 /// out, in exactly one group. The grouping is the same for any order of files and objects. Errors:
 /// usage for a distance below 1 mm or not a number.
 [[nodiscard]] Result<Grouping> group_results(const Findings& findings, const model::Model& model,

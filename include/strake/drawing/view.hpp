@@ -11,11 +11,11 @@
 
 namespace strake::drawing {
 
-/// A view direction in integers, with its error against the direction asked for.
+/// A view direction in integers, with its error against the direction requested.
 struct Direction {
   geometry::Vec3l vector;     ///< points to the viewer (or up); no common factor
   bool rounded = false;       ///< the text's decimals needed more than 20 bits
-  double rounding_error = 0;  ///< sine of the angle between the direction asked for and `vector`
+  double rounding_error = 0;  ///< sine of the angle between the direction requested and `vector`
 };
 
 /// Returns the direction to the viewer of "top", "bottom", "front", "back", "left", "right" or
@@ -42,7 +42,7 @@ struct Direction {
   return set_perspective(perspective, view);
 }
 
-/// A section plane, with the error of its normal against the one asked for.
+/// A section plane, with the error of its normal against the one requested.
 struct SectionText {
   hlr::Section section;
   bool rounded = false;

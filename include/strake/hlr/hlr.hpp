@@ -57,7 +57,7 @@ enum class EdgeKind : std::uint8_t {
   intersection,  ///< where the skins of two parts pass through each other
   section,       ///< where a section plane cuts a part
   hatch,         ///< a hatch line on the face of a cut through a solid
-  smooth,        ///< where two faces turn by no more than the sharp angle, if asked for
+  smooth,        ///< where two faces turn by no more than the sharp angle, if requested
   single_line,   ///< the axis of a pipe that is drawn as a line: see model::pipes_as_lines()
 };
 inline constexpr EdgeKind kLastEdgeKind = EdgeKind::single_line;
@@ -258,7 +258,7 @@ struct Drawing {
   Options options;
   double contact_distance_mm = 0;  ///< the largest that was applied
   double weld_mm = -1;             ///< the scene's model::SceneOptions::weld_mm
-  double sag_mm = 0;               ///< the sag asked for of curved primitives; 0: unknown
+  double sag_mm = 0;               ///< the sag requested of curved primitives; 0: unknown
   std::vector<EdgePiece> pieces;   ///< sorted by (object, edge, parameter)
   Curves curves;
   /// By object, how many edges had hidden pieces left out, see Options::hidden. Empty: none had.

@@ -12,7 +12,7 @@ namespace strake::parallel {
 ///     Allowance pairs(limit);
 ///     ... if (!pairs.take(found)) return too_many(); ...
 ///
-/// Whether all that was asked for fits is the same for any team, as a sum is; who is refused is
+/// Whether all that was requested fits is the same for any team, as a sum is; who is refused is
 /// not. So a refusal may end the region with an error that names the limit alone, and may not
 /// choose between two results. Take in lots: each take is one atomic addition on a word that all
 /// share.
@@ -21,7 +21,7 @@ class Allowance {
   /// At most 2^64 - 2; more counts as that.
   explicit Allowance(std::uint64_t most) : most_(std::min(most, kSpent - 1)) {}
 
-  /// False if more has been asked for than there is; from then on always, for any amount.
+  /// False if more has been requested than there is; from then on always, for any amount.
   [[nodiscard]] bool take(std::uint64_t amount) {
     std::uint64_t taken = taken_.load(std::memory_order_relaxed);
     std::uint64_t after = 0;

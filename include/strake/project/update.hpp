@@ -112,7 +112,7 @@ struct ChangesTable {
 /// Returns what changed for a terminal: files, counts, and the first objects of each kind.
 [[nodiscard]] std::string changes_text(const Changes& changes, const ChangesTable& table);
 
-/// Who asks for a change of the model, and when.
+/// Who requests a change of the model, and when.
 struct RevisionNote {
   std::string when;  ///< UTC as ISO 8601, "2026-05-04T22:00:00Z"
 };

@@ -89,7 +89,7 @@ enum class ModelShown : std::uint8_t {
 struct ClashContents {
   const clash::Findings& findings;
   const model::Model& model;
-  const clash::Grouping* grouping = nullptr;  ///< the grouping of these findings, if asked for
+  const clash::Grouping* grouping = nullptr;  ///< the grouping of these findings, if requested
   const RulesSource* rules = nullptr;         ///< the rules, if there were any
   /// What reading and placing the model noticed (model::Model::diagnostics, then
   /// model::Scene::diagnostics). Without it the result does not say what is missing.
@@ -147,7 +147,7 @@ struct ClashContents {
                                       const parallel::Context& context = {});
 
 /// Writes every pair of objects that went to the narrow phase as CSV of the same form: whether a
-/// rule may allow it, its class (NO_HIT too) and what it cost. Only tests that were asked to log
+/// rule may allow it, its class (NO_HIT too) and what it cost. Only tests that were requested to log
 /// pairs have such pairs.
 [[nodiscard]] Status write_pair_log(const ClashContents& contents, Sink sink,
                                     const parallel::Context& context = {});

@@ -19,7 +19,7 @@ struct DiffEntry {
   const DocumentResult* before = nullptr;  ///< null: not a result of the old run
   const DocumentResult* after = nullptr;   ///< null: not a result of the new run
   /// For a new clash: what else than the model may have made it one, if anything. For one that
-  /// cannot be told: why not.
+  /// cannot be known: why not.
   std::string why;
 
   [[nodiscard]] const DocumentResult& either() const { return after != nullptr ? *after : *before; }

@@ -111,7 +111,7 @@ class ViewpointWriter {
     xml_.end();
   }
 
-  /// Version 2.1 asks for 45 to 60 degrees. On the line of sight the eye may stand where the same
+  /// Version 2.1 requests 45 to 60 degrees. On the line of sight the eye may stand where the same
   /// height is seen by such an angle: nothing new comes before what was seen.
   void camera(const pictures::ClashViewpoint& viewpoint) {
     const double away_mm = viewpoint.half_height_mm / kTangentOfHalf;

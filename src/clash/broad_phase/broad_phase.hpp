@@ -29,7 +29,7 @@ struct ScenePart {
   float step = 0;            ///< grid units: step of the source's numbers if coarse, else 0
 };
 
-/// The solids and sheets of the objects in either set, and lines where asked for, by object and
+/// The solids and sheets of the objects in either set, and lines where requested, by object and
 /// number.
 struct ScenePartList {
   std::vector<ScenePart> parts;

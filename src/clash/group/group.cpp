@@ -129,7 +129,7 @@ class Namer {
   }
 
   /// Gives groups by assembly of one name their paths, and an id of its own to each of those that
-  /// paths do not tell apart.
+  /// paths do not distinguish.
   void make_names_unique(std::vector<Group>& groups, const GroupRules& rules) const {
     std::map<std::string, std::size_t> names, ids;
     for (const Group& group : groups) ++names[group.name], ++ids[group.id];

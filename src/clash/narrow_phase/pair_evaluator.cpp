@@ -328,7 +328,7 @@ void PairEvaluator::nearly_touching(const geometry::ClosestPair& near,
 }
 
 /// Whether moves within a contact distance that is more than may overlap separate two sheets, so
-/// that it cannot be told whether they cross.
+/// that it cannot be known whether they cross.
 bool PairEvaluator::may_touch(DepthOptions goal) {
   if (options_.contact_distance <= goal.apart_within) return false;
   if (goal.known_upper <= options_.contact_distance) return true;

@@ -167,7 +167,7 @@ class RegionsOfPairs {
 
   /// Returns what a rule allows of a pair that none allows as a whole. Gaps round a hit or a
   /// contact, be it allowed, do not count, as they do not where nothing is allowed. Where there are
-  /// too many triangles to tell regions apart, one stands for all.
+  /// too many triangles to distinguish regions, one stands for all.
   [[nodiscard]] static std::vector<Region> allowed_of(std::vector<LocatedResult> located_results,
                                                       const Pair& whole) {
     Class worst = whole.cls;

@@ -40,7 +40,7 @@ void request_detail(const EvaluatedPairs& evaluated, const ObjectPairs& objects,
   for (std::size_t i = first; i < end; ++i) {
     if (cls(i) == Class::no_hit) continue;
     if (cls(i) == Class::clearance_violation && cls(i) != worst && !may_allow) continue;
-    // The regions of a line and any other part are not told apart.
+    // The regions of a line and any other part are not distinguished.
     if (has_wire(*evaluated.a(i).placed.part, *evaluated.b(i).placed.part)) continue;
     const bool copies = evaluated.of(i).evaluation.answer.relation == Relation::duplicate;
     out.push_back({i, copies ? RegionDetail::whole : RegionDetail::if_several});
@@ -81,7 +81,7 @@ using geometry::PartKind;
 using geometry::SingleRegionDetail;
 using geometry::Vec3d;
 
-/// The most pairs of near triangles for which regions are told apart. Parts of some thousand
+/// The most pairs of near triangles for which regions are distinguished. Parts of some thousand
 /// triangles may have them all near each other; of finer parts no pair of parts may take more than
 /// microseconds a triangle, and parts that lie face to face have a dozen a triangle. With 32 a pipe
 /// of 100,000 triangles in a sleeve took 6 µs a triangle, and was given up then.
@@ -311,7 +311,7 @@ class PartRegionFinder {
     }
   }
 
-  /// The whole may be known from the true surfaces, where regions are told by triangles.
+  /// The whole may be known from the true surfaces, where regions are distinguished by triangles.
   void keep_within_whole(PartPairResult& answer) const {
     SignedSeparation& s = answer.separation;
     const double least = whole_.separation.lower - whole_.separation.sag;

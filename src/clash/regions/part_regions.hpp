@@ -17,9 +17,9 @@
 /// The separate regions in which two parts meet or are too near each other.
 namespace strake::clash {
 
-/// How far the regions of a pair of parts are told apart, each more than the one before.
+/// How far the regions of a pair of parts are distinguished, each more than the one before.
 enum class RegionDetail : std::uint8_t {
-  whole,       ///< not at all: not asked for, or there can be only one
+  whole,       ///< not at all: not requested, or there can be only one
   if_several,  ///< where there are several
   each,        ///< even if there is only one: it is listed beside those of other parts
   all,         ///< those within the clearance too: a rule may allow what is worse
@@ -41,7 +41,7 @@ struct PartRegion {
 };
 
 /// Returns the regions of two parts whose result as a whole is known and not NO_HIT: those within
-/// the touch gap where they touch or meet, otherwise (or where `all` are asked for) those within
+/// the touch gap where they touch or meet, otherwise (or where `all` are requested) those within
 /// the clearance too. One of them has the result as a whole. Where there is only one, the list is
 /// empty unless it is to be described. It is absent where too many triangles are near each other to
 /// tell. Parts have trees unless they only touch and are small.
@@ -53,10 +53,10 @@ struct PartRegion {
 [[nodiscard]] double region_reach(const PairOperand& a, const PairOperand& b,
                                   const PartPairResult& whole, const PairTolerances& options);
 
-/// The regions of unique pairs, told apart to one detail.
+/// The regions of unique pairs, distinguished to one detail.
 struct DetailedRegions {
   std::vector<std::vector<PartRegion>> of_unique;
-  std::vector<std::uint8_t> too_near;  ///< whether they cannot be told apart
+  std::vector<std::uint8_t> too_near;  ///< whether they cannot be distinguished
 };
 
 /// The regions of the parts of all pairs. Equal pairs of parts share them only where their pairs of

@@ -90,7 +90,7 @@ class AxisCover {
 };
 
 /// The lines of an object from left to right: an object may have ten thousand primitives, each of
-/// which asks for those beside it.
+/// which requests those beside it.
 class LinesAcross {
  public:
   explicit LinesAcross(std::span<const Line> lines) {

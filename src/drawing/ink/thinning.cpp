@@ -25,7 +25,7 @@ namespace strake::drawing {
 
 namespace {
 
-/// A line asks for so many others of a cell at most, which are any of them. In a patch as dense as
+/// A line tests so many others of a cell at most, which are any of them. In a patch as dense as
 /// that, lines on both sides are among these but for a few lines at its rim.
 constexpr std::size_t kMaxOfCell = 256;
 
@@ -221,7 +221,7 @@ class ObjectThinner {
         const double from = std::max(out[k].from, inner.from), to = std::min(out[k].to, inner.to);
         if (from < to) laid.add(part_of(line.flat, from, to));
       }
-    // A line of which nothing stays is told by an interval without length.
+    // A line of which nothing stays is reported by an interval without length.
     if (out.size() == first) out.push_back({line.number, true, 0, 0});
   }
 

@@ -224,7 +224,7 @@ class LayerMaker {
 
   void add_visible(const StyledPart& part, const PdfPens& pens) {
     const LinePen pen = pen_of(part, pens, LineState::visible);
-    // Dashes that a style asks for fit each line.
+    // Dashes that a style requests fit each line.
     const bool fits = part.of.style != ObjectStyles::kPlain;
     add(part, pens, std::nullopt,
         {{}, {}, part.of.lines, LineState::visible, fits ? pen.dash_mm : std::vector<double>{}},

@@ -170,7 +170,7 @@ class InsideLinks {
   std::uint32_t first_vertex_;
   QueryContext& work_;
   InteriorSegments interior_segments_;
-  std::vector<Known> inside_;          ///< by vertex: its set's side, where asked for
+  std::vector<Known> inside_;          ///< by vertex: its set's side, where requested
   std::vector<std::uint32_t> starts_;  ///< a pair of each set in a triangle
 };
 

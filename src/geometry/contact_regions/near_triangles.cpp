@@ -161,7 +161,7 @@ template <class Settled>
 void gather_from(const PairLocalPart& a, const PairLocalPart& b, NearTriangleCollector& all,
                  QueryContext& work, const Settled& settled) {
   const auto room = [&] { return all.most - all.pairs.size(); };
-  std::optional<std::size_t> alone;  // how many there were before the walk asked for help
+  std::optional<std::size_t> alone;  // how many there were before the walk called for help
   adaptive_distance_traversal(
       a, b, all.reach, work, [&] { return NearTriangleCollector{a, b, room(), all.reach}; },
       [&](NearTriangleCollector& piece) {

@@ -48,7 +48,7 @@ class SolidDepthSearch {
   void run(std::span<const Vec3d> seeds) {
     for (const Vec3d& seed : seeds) climb(seed);
     if (!bracket_suffices(depth_, goal_)) narrow();
-    // The goal may ask for more, for as long as there is work left.
+    // The goal may request more, for as long as there is work left.
     depth_.complete = is_tight(depth_, goal_, kComplete);
   }
 

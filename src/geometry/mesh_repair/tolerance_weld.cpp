@@ -389,7 +389,7 @@ class Welder {
   }
 
   /// Counts the shells that are closed at these edges. The corners of those that are no thicker
-  /// than corners may lie apart are to stay, and where whole shells are asked for those of all
+  /// than corners may lie apart are to stay and, where whole shells are requested, those of all
   /// others; whether there are any.
   bool leave_shells(const Topology& topology, const std::vector<std::uint32_t>& joined) {
     const GridMesh& mesh = scratch_.welded;

@@ -357,7 +357,7 @@ class Parting {
       return moving_ == 0;
     };
     IntersectionSegments left = find_intersection_segments(a, b, kMaxPieces, work_, note);
-    // Of those along areas that lie on the other sheet exactly it is told in the end.
+    // Of those along areas that lie on the other sheet exactly that is decided in the end.
     for (const IntersectionSegment& piece : left.all) note(piece);
     return left;
   }

@@ -44,7 +44,7 @@ bool describes_all(const EarlierDrawing& earlier) {
          drawing.left_out.size() == (drawing.options.hidden ? 0 : objects);
 }
 
-/// What draw_changes() is asked for.
+/// What is requested of draw_changes().
 struct RedrawRequest {
   const model::Scene& scene;
   const std::vector<bool>& drawn;
@@ -62,7 +62,7 @@ Result<Redrawn> draw_all(const RedrawRequest& request, std::string_view why,
   return redrawn;
 }
 
-/// Solves the lines of the objects that are asked for.
+/// Solves the lines of the objects that are requested.
 Result<Drawing> draw_part(const ChangedView& changed, const ChangeReach& reach,
                           const parallel::Context& context) {
   const PartialScene part = scene_of(changed.scene, reach.needed);

@@ -19,7 +19,7 @@ struct ResolvedLines {
 };
 
 /// Makes of an earlier drawing that of the objects now: pieces, curves and counts of lines. Objects
-/// that are neither asked for nor in the earlier drawing have none. Errors: cancelled.
+/// that are neither requested nor in the earlier drawing have none. Errors: cancelled.
 [[nodiscard]] Status merge_lines(const Comparison& comparison, const ResolvedLines& resolved,
                                  Drawing& earlier, const parallel::Context& context);
 

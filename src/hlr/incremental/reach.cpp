@@ -175,7 +175,7 @@ class ReachSearch {
     return all;
   }
 
-  /// Finds what crosses the objects that are asked for and is drawn after them.
+  /// Finds what crosses the objects that are requested and is drawn after them.
   [[nodiscard]] Result<std::vector<Crossing>> find_crossings(const ChangeReach& reach) const {
     if (!crosses_) return std::vector<Crossing>{};
     const std::vector<std::uint32_t> numbers = parallel::keys_of(reach.to_solve);

@@ -207,7 +207,7 @@ class ObjectHasher {
     if (shape.made_for_views) add_tessellation(words, body, placed);
   }
 
-  /// The view makes the mesh from the primitive, as fine as the other bodies of the shape ask for.
+  /// The view makes the mesh from the primitive, as fine as the other bodies of the shape request.
   void add_tessellation(std::vector<std::uint64_t>& words, const model::GridBody& body,
                         const model::Body& placed) const {
     words.push_back((plan_.is_finer(body.grid_shape) ? 1U : 0U) | (plan_.any ? 2U : 0U));

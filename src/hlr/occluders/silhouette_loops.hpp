@@ -20,7 +20,7 @@ namespace strake::hlr {
 struct TrianglePlane {
   std::array<std::int64_t, 3> n{};
   Int128 facing = 0;
-  bool edge_on = false;  ///< see may_be_edge_on(); only where it is asked for
+  bool edge_on = false;  ///< see may_be_edge_on(); only where it is requested
 };
 
 /// Returns whether a locally convex closed surface of one shell bounds a convex body: it does when

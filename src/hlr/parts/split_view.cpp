@@ -82,7 +82,7 @@ class ViewSplitter {
     return 2 * std::uint64_t{whole_.bytes[object]} + (to_solve ? lines : 0);
   }
 
-  /// Returns by place in `objects` which of them are among those that are asked for; both ascend.
+  /// Returns by place in `objects` which of them are among those that are requested; both ascend.
   static std::vector<bool> solve_flags(const std::vector<std::uint32_t>& objects,
                                     const std::vector<std::uint32_t>& to_solve) {
     std::vector<bool> is_to_solve(objects.size());
@@ -108,7 +108,7 @@ class ViewSplitter {
     return part;
   }
 
-  /// Finds what of some objects may hide or cross those that are asked for.
+  /// Finds what of some objects may hide or cross those that are requested.
   [[nodiscard]] Result<ViewPart> find_part(const std::vector<std::uint32_t>& to_solve,
                                            const std::vector<std::uint32_t>& objects) const {
     const std::vector<bool> is_to_solve = solve_flags(objects, to_solve);
@@ -136,7 +136,7 @@ class ViewSplitter {
   }
 
   /// Finds those of some objects that find_part() may pick, and others, by the box of all that is
-  /// asked for: in a small part of the time.
+  /// requested: in a small part of the time.
   [[nodiscard]] Result<std::vector<std::uint32_t>> near(
       const std::vector<std::uint32_t>& to_solve, const std::vector<std::uint32_t>& objects) const {
     ViewBox on_paper;
@@ -220,7 +220,7 @@ class ViewSplitter {
     if (!near_second) return near_second.error();
     if (gains_nothing(bytes_of(first, *near_first), bytes_of(second, *near_second),
                       bytes_of(to_solve, objects))) {
-      // What lies near by boxes may not be near by what is drawn of it: that is asked for each
+      // What lies near by boxes may not be near by what is drawn of it: that is tested for each
       // half.
       auto part = find_part(to_solve, objects);
       return part ? split_further(to_solve, std::move(*part)) : part.error();

@@ -29,7 +29,7 @@ struct ViewToSplit {
 };
 
 /// Splits the objects of a view into parts that take no more than `max_bytes`, as far as halves of
-/// halves of the paper can be smaller: each object with a box is asked for in one part, and there
+/// halves of the paper can be smaller: each object with a box is requested in one part, and there
 /// is one part at least. Errors: cancelled.
 [[nodiscard]] Result<std::vector<ViewPart>> split_view(const ViewToSplit& whole,
                                                        std::uint64_t max_bytes,

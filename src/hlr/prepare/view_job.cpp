@@ -332,7 +332,7 @@ Result<model::ViewTessellationOptions> tessellation_of(const View& view, const O
 
 namespace {
 
-/// Checks what is asked for, and places the bodies.
+/// Checks what is requested, and places the bodies.
 Result<ViewJob> begin_job(const ViewInput& input, const parallel::Context& context) {
   const auto& [scene, drawn, view, options, whole] = input;
   if (const Status status = check(view, options); !status) return status.error();

@@ -95,7 +95,7 @@ struct ViewJob {
   }
   /// Returns whether facets of a part of a body hide none of the part's own edges where rounding to
   /// the grid alone has them do so: facets that may be edge-on, and edges that lie in the facet's
-  /// plane (see kLyingInPlane and FeatureEdge::away). Not where exact states are asked for.
+  /// plane (see kLyingInPlane and FeatureEdge::away). Not where exact states are requested.
   [[nodiscard]] bool forgives_rounding(std::uint32_t body) const {
     return may_forgive_rounding() && contact[body] > 0;
   }
@@ -115,7 +115,7 @@ struct ViewJob {
   }
 };
 
-/// Takes the shapes of a job down by all workers, once nobody asks for them any more: in
+/// Takes the shapes of a job down by all workers, once nobody requests them any more: in
 /// perspective each body has one of its own.
 void take_down(ViewJob& job, const parallel::Context& context);
 

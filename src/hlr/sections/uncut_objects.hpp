@@ -10,7 +10,7 @@
 namespace strake::hlr {
 
 /// Returns, by object, whether section planes leave it whole: it is drawn and in `to_solve`, some
-/// plane cuts it, and none cuts it away wholly. Empty where nothing is asked for, or there are no
+/// plane cuts it, and none cuts it away wholly. Empty where nothing is requested, or there are no
 /// planes.
 ///
 /// It is decided exactly, by the vertices of all bodies of the object. A plane cuts it away wholly

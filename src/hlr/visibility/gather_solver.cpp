@@ -123,7 +123,7 @@ void OccluderGatherer::gather_own_objects() {
 }
 
 // Hidden-by-self takes precedence, so the own object comes first and, unless it hides the
-// edge wholly, completely. Decision 0066 says why it hides none of its wires unless asked to.
+// edge wholly, completely. Decision 0066 says why it hides none of its wires unless requested to.
 void OccluderGatherer::gather_own_objects_untimed() {
   if (job_.spares_own(edge_.kind) || job_.options.stage == Stage::none) return;
   if (edge_.feature != nullptr && edge_.own->opaque) gather_own_body();

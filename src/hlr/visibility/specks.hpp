@@ -60,7 +60,7 @@ class SpeckRule {
 /// so, and an edge that is a speck as a whole has one state. Returns how many specks there were.
 std::size_t absorb_specks(const SpeckRule& rule, std::size_t first, std::vector<EdgePiece>& pieces);
 
-/// Removes the pieces from `first` on that the options do not ask for; true when there are any.
+/// Removes the pieces from `first` on that the options do not request; true when there are any.
 bool leave_out_unwanted(const Options& options, std::size_t first, std::vector<EdgePiece>& pieces);
 
 /// Returns whether any of the pieces from `first` on is a visible speck.

@@ -373,7 +373,7 @@ Checked<Accessor> Accessors::open_dense(std::uint64_t index) const {
   const std::size_t size = component_bytes(accessor.component) * accessor.width;
 
   if (!stated.view.exists()) {
-    // It is all zeros, of which a file may ask for any number: no more than its data could hold.
+    // It is all zeros, of which a file may request any number: no more than its data could hold.
     const std::size_t most = std::max<std::size_t>(buffers_->total_bytes(), 4096);
     if (accessor.count > most / size)
       return GltfFault{accessor.pointer,

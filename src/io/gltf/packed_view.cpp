@@ -28,7 +28,7 @@ std::uint64_t largest_ratio(PackedMode mode, std::uint64_t stride, bool version_
   return mode == PackedMode::triangles ? 3 * stride : stride;
 }
 
-/// Whether the library may be asked for elements of this form; it takes for granted that it may.
+/// Whether the library may be called for elements of this form; it takes for granted that it may.
 bool is_sound(PackedMode mode, std::uint64_t stride, std::uint64_t count) {
   constexpr std::uint64_t kWidest = 256;
   if (mode == PackedMode::attributes) return stride > 0 && stride <= kWidest && stride % 4 == 0;

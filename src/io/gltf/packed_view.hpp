@@ -29,7 +29,7 @@ struct Unpacked {
   std::string fault;
 };
 
-/// Unpacks the bytes of a view. What few bytes cannot hold is refused before memory is asked for;
+/// Unpacks the bytes of a view. What few bytes cannot hold is refused before memory is requested;
 /// `most` bounds it as well.
 [[nodiscard]] Unpacked unpack(const PackedView& view, std::span<const std::byte> packed,
                               std::uint64_t most);

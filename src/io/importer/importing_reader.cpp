@@ -102,7 +102,7 @@ bool is_of_suffix(const ImporterProgram& program) {
   return program.file.filename().string().ends_with("-" + program.suffix);
 }
 
-/// Adds to an error of the program that is asked for all suffixes what was looked for before it.
+/// Adds to an error of the program that is called for all suffixes what was looked for before it.
 Error with_tried_importers(Error error, const ImporterProgram& program) {
   if (error.code != ErrorCode::input || is_of_suffix(program)) return error;
   const std::string called = program.file.filename().string();

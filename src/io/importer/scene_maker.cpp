@@ -133,7 +133,7 @@ Result<ImportedScene> SceneMaker::make(const SceneJob& job, const ImportRunOptio
 
 namespace {
 
-/// What is told of files that are imported at the same time.
+/// What is reported of files that are imported at the same time.
 std::string phase_of(std::span<const SceneJob* const> jobs) {
   return jobs.size() == 1 ? "import " + jobs.front()->file.filename().string()
                           : "import " + std::to_string(jobs.size()) + " files";

@@ -94,7 +94,7 @@ Status PlyParser::each(const ElementHead& head, const PropertyHead* list, Visit&
     for (const PropertyHead& property : head.properties) {
       double number = 0;
       if (!property.count_type) {
-        // How coordinates are written is told apart from all else.
+        // How coordinates are written is distinguished from all else.
         const bool coordinate =
             property.name == "x" || property.name == "y" || property.name == "z";
         if (!values_.read(property.type, number, coordinate ? content_.digits : ignored_))

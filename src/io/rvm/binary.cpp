@@ -147,7 +147,7 @@ FileRead BinaryReader::read(const parallel::Context& context) {
   return {.ends_early = !ended_};
 }
 
-/// Marks the group in which the file ends as incomplete; what else is missing cannot be told.
+/// Marks the group in which the file ends as incomplete; what else is missing cannot be known.
 void BinaryReader::note_truncation() {
   if (builder_->depth() > 0) builder_->note_loss(at_);
   log_->skip("rvm-truncated",

@@ -25,7 +25,7 @@ struct Solid {
   DigitStatistics digits;           ///< the digits of its corners
   std::optional<StlDamage> damage;  ///< the first damage; its facet is left out
   std::uint64_t bad_facets = 0;     ///< facets that are left out
-  /// The line on which it stops without its endsolid: what else it held cannot be told.
+  /// The line on which it stops without its endsolid: what else it held cannot be known.
   std::optional<std::uint64_t> cut_off;
 };
 

@@ -32,7 +32,7 @@ struct ViewTessellationOptions {
 
 /// What a view tessellates anew of a scene.
 struct ViewTessellation {
-  /// By shape: as fine as the view asks for, since a body of it may be seen. Empty: none.
+  /// By shape: as fine as the view requests, since a body of it may be seen. Empty: none.
   std::vector<bool> finer;
   bool any = false;  ///< something changes: the view has meshes of its own
 
@@ -48,7 +48,7 @@ struct ViewTessellation {
 /// Returns a scene as a view sees it: its primitives are tessellated anew where that changes them,
 /// once per shape and rotation as in `scene`; for an eye once per shape and place, of bodies that
 /// may be seen, behind the shapes of `scene`. All else stays, with bodies in their order. `drawn`
-/// says which objects are asked for (empty: all); shapes that none of them uses are left empty. It
+/// says which objects are requested (empty: all); shapes that none of them uses are left empty. It
 /// returns nothing where nothing changes: where no object that is drawn has a curved primitive that
 /// is not fine enough or a round one with contours, or the scene was not made by make_scene().
 ///

@@ -86,7 +86,7 @@ geometry::Mat3d scaled(double x, double y, double z) {
 /// The largest distance of a circle from so many chords.
 double sag_of(double radius, double of_radius) {
   const int corners = circle_corners(of_radius);
-  // A little more, so that no rounding asks for another corner.
+  // A little more, so that no rounding requests another corner.
   return geometry::sagitta(radius, 2 * geometry::kPi / corners) * 1.001;
 }
 

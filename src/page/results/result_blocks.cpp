@@ -47,7 +47,7 @@ std::array<geometry::Vec3d, 2> witness_vectors(const Pair& pair) {
   return {};
 }
 
-/// Adds the columns of one kind of row, of which `at(row)` has what a column asks for.
+/// Adds the columns of one kind of row, of which `at(row)` has what a column requests.
 template <class At>
 class ColumnsOf {
  public:
@@ -114,7 +114,7 @@ class ResultColumns {
   }
 
  private:
-  /// Returns what columns ask for a row; it refers to the source, not to this.
+  /// Returns the values of columns for a row; it refers to the source, not to this.
   [[nodiscard]] auto found() const {
     return [rows = &source_.rows, findings = &findings_](std::size_t number) {
       const PageRow row = rows->at(number);
@@ -219,7 +219,7 @@ class ResultColumns {
 
   void add_levels() {
     auto columns = of_results();
-    // 0 is for tests that tell no levels apart.
+    // 0 is for tests that distinguish no levels.
     const auto number = [](const Report& test, clash::Level level) {
       return test.levels ? static_cast<std::uint8_t>(static_cast<unsigned>(level) + 1U)
                          : std::uint8_t{0};

@@ -75,7 +75,7 @@ struct ProjectedTriangle {
 /// Whether a window may leave out some of a box.
 [[nodiscard]] bool may_cut(const Window& window, const geometry::Box3d& box);
 
-/// Faces nearer to each other than this are one: rounding must not tell them apart.
+/// Faces nearer to each other than this are one: rounding must not distinguish them.
 inline constexpr double kSameDepthMm = 0.02;
 
 /// The columns of a row whose middles lie in a triangle and in what the window shows, and the depth

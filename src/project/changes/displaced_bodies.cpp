@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Vec3d;
 
-/// What numbers cannot tell apart, besides what the grid rounds.
+/// What numbers cannot distinguish, besides what the grid rounds.
 constexpr double kGridMm = 0.001;
 constexpr double kMmOfUm = 0.001;
 

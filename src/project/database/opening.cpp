@@ -198,7 +198,7 @@ class Opening {
     return *version < kSchemaVersion;
   }
 
-  /// A reader sees one state of the project as long as it is open; a writer is told at once that
+  /// A reader sees one state of the project as long as it is open; a writer gets at once the error that
   /// another one is at work.
   Status settle(Database& database) {
     if (options_.access == Access::read)

@@ -37,7 +37,7 @@ class KeptRuns {
     }
   }
 
-  /// Finds a run that somebody asked for.
+  /// Finds a run that somebody requested.
   [[nodiscard]] Result<KeptRun> find(std::int64_t number,
                                      const std::optional<std::string>& test) const {
     const auto at = std::ranges::find(runs_, number, &KeptRun::number);

@@ -42,7 +42,7 @@ bool has_same_lengths(const clash::Report& x, const clash::Report& y) {
                             });
 }
 
-/// Whether an object has lines, which a test checks only where it is asked to.
+/// Whether an object has lines, which a test checks only where it is requested to.
 bool has_lines(const model::Model& model, model::ObjectId id) {
   const model::Object& object = model.object(id);
   for (std::uint32_t b = object.first_body; b < object.first_body + object.body_count; ++b)

@@ -34,7 +34,7 @@ struct WaitingRow {
 class TestMemory {
  public:
   /// What it is given must outlive it; `before` is null where the test was never run, `changes`
-  /// where nothing tells what the run did to the results of that.
+  /// where nothing shows what the run did to the results of that.
   TestMemory(Database& database, ClashRows& rows, ClashHistory& history, const model::Model& model,
              const RunFacts& facts, std::int64_t run, const TestedTest& test, TestRow row,
              const StoredTest* before, const clash::PairChanges* changes);

@@ -117,7 +117,7 @@ class ReviewTaker {
     return {};
   }
 
-  /// Whether what a review says is to be taken; a conflict is told.
+  /// Whether what a review says is to be taken; a conflict is reported.
   bool counts(Ruling ruling, const ReviewedTopic& topic, const ListedClash& clash,
               const char* what) {
     if (ruling != Ruling::conflict) return ruling == Ruling::take;

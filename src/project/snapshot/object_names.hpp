@@ -10,7 +10,7 @@
 #include "strake/core/result.hpp"
 #include "strake/model/model.hpp"
 
-/// The objects that a result was computed from, by their names: so that it can be told although the
+/// The objects that a result was computed from, by their names: so that it can be known although the
 /// model is another one by now.
 namespace strake::project {
 

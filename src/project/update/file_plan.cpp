@@ -58,7 +58,7 @@ Result<bool> has_changed(const StoredFile& stored, const io::FileToRead& file,
   return *content != stored.content;
 }
 
-/// Gives files whose names repeat their folders, so that messages and OLD=NEW tell them apart.
+/// Gives files whose names repeat their folders, so that messages and OLD=NEW distinguish them.
 std::vector<std::string> labels_of(const std::vector<FileToStore*>& files) {
   std::map<std::string, std::size_t> count;
   for (const FileToStore* const file : files) ++count[file->model.files.front().label];

@@ -46,7 +46,7 @@ class ResultOrigin {
     std::string_view first = any_file();
     for (const ClashDocument* run : {diff.before, diff.after}) {
       tests_ = tests_ || run->tests.size() > 1;
-      // A file that was renamed is one file, and is told above.
+      // A file that was renamed is one file, and is reported above.
       if (!diff.files.by_label_alone() && !run->objects.empty()) first = run->objects.front().file;
       files_ = files_ || std::ranges::any_of(run->objects, [&](const DocumentObject& o) {
                  return o.file != first;

@@ -30,7 +30,7 @@ namespace {
 using clash::Pair;
 using clash::Report;
 
-/// Appends the attributes that are asked for and that the object states.
+/// Appends the attributes that are requested and that the object states.
 void attributes(std::string& out, const ClashContents& contents, model::ObjectId id) {
   out += ", \"attributes\": {";
   bool first = true;

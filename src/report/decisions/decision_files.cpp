@@ -100,7 +100,7 @@ void for_each_reading(const std::string& text, Visit&& visit) {
     if (at > 0) visit(text.substr(0, at), text.substr(at + 1));
 }
 
-/// Adds the former names that are asked for and that a file without the columns of files cannot
+/// Adds the former names that are requested and that a file without the columns of files cannot
 /// know.
 void add_given_names(FileContentsByLabel& former, const FileContentsByLabel& today,
                      std::span<const std::string> given_pairs) {
@@ -122,7 +122,7 @@ bool is_in_force(const std::string& text, const FileContentsByLabel& former,
   return has_new && !has_old;
 }
 
-/// Leaves out the new names of files that are asked for, NEW of OLD=NEW: rows that have one are
+/// Leaves out the new names of files that are requested, NEW of OLD=NEW: rows that have one are
 /// those of a run that did not know of it. A name that is OLD of another text is that of another
 /// file.
 void leave_out_new_names(std::span<const std::string> given_pairs, FileContentsByLabel& former) {

@@ -90,7 +90,7 @@ TableBlock worst_of(const ShownTest& test, clash::Class cls, std::size_t rows, c
   const auto volume = [&](std::size_t i) {
     return sort == clash::SortBy::volume ? report.pairs[i].volume_mm3.value_or(0) : 0;
   };
-  // What came back is told, whatever its depth.
+  // What came back is reported, whatever its depth.
   const auto is_old = [&](std::size_t i) {
     return test.decisions.reopened(report.pairs[i]) == Reopened::no;
   };

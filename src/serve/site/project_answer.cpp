@@ -37,13 +37,13 @@ void append_clash(std::string& out, const project::ListedClash& clash) {
   out += '}';
 }
 
-/// Which clashes are told, by the ids of their rows.
+/// Which clashes are reported, by the ids of their rows.
 struct ReportedChanges {
   std::vector<std::int64_t> clashes;
-  bool too_many = false;  ///< more changed than is told
+  bool too_many = false;  ///< more changed than is reported
 };
 
-/// What the page itself has just decided is told however much it is.
+/// What the page itself has just decided is reported however much it is.
 Result<ReportedChanges> changes_for_page(project::Database& database, std::int64_t event,
                                          const project::DecideOutcome* done) {
   std::vector<std::int64_t> own;

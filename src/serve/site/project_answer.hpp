@@ -8,7 +8,7 @@
 #include "serve/http/message.hpp"
 #include "strake/core/result.hpp"
 
-/// What the page is told of the project, as JSON.
+/// What the page is sent of the project, as JSON.
 namespace strake::serve {
 
 /// How many clashes the page is told about at once; where more changed, it has to be loaded anew.

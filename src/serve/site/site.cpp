@@ -104,7 +104,7 @@ Status Site::prepare() {
   if (page_.html) {
     const Result<project::KnownState> now = project::current_state(contents_.database);
     if (!now) return now.error();
-    // What people decided since the page asks for.
+    // The page requests what people decided since.
     const auto most = static_cast<std::int64_t>(kMaxChanges);
     if (now->run == page_.known.run && now->event - page_.known.event < most) return {};
   }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max();
 
-/// Returns the views of the balloons as indices, in the order in which they are asked for.
+/// Returns the views of the balloons as indices, in the order in which they are requested.
 std::vector<std::size_t> views_of(const BalloonSpec& spec, const Sheet& sheet) {
   std::vector<std::size_t> views;
   if (spec.views.empty())

@@ -72,7 +72,7 @@ std::string run(std::uint64_t seed, const Settings& settings, parallel::Team& pu
 }
 
 /// Scenes of a test: `usual` ones, so many that all tests together have tens of thousands, few
-/// where sanitizers look for other faults; a number for each test where a longer run asks for it.
+/// where sanitizers look for other faults; a number for each test where a longer run requests it.
 std::uint64_t count(std::uint64_t usual) {
   const char* more = std::getenv("STRAKE_ORACLE_SCENES");
   if (more != nullptr) return std::strtoull(more, nullptr, 10);

@@ -156,7 +156,7 @@ TEST(IntersectionsAgainstAllPairs, ShipStraightAndAskew) {
     const auto scene = model::make_scene(ship->model, {}, context);
     ASSERT_TRUE(scene);
     const Observation observed = observe(*scene, Intersections::objects, context);
-    // Of some thousand pairs; flush ones are told by planes, whether the ship stands askew or not.
+    // Of some thousand pairs; flush ones are reported by planes, whether the ship stands askew or not.
     EXPECT_LT(observed.pairs, 4 * ship->model.objects.size());
     all.lines += observed.lines;
     all.pairs += observed.pairs;

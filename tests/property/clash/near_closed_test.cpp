@@ -165,7 +165,7 @@ TriangleMesh lid_above(const Vec3d& size, double gap) {
   return box;
 }
 
-/// What is told of a lidded box and a block that stands `d` above the lid, or as deep in it.
+/// What is reported a lidded box and a block that stands `d` above the lid, or as deep in it.
 clash::Report lid_and_block(double gap, double d, Draw& draw, const clash::Options& options) {
   const double x = draw.between(100, 900), y = draw.between(100, 900), z = draw.between(100, 900);
   TriangleMesh box = lid_above({x, y, z}, gap);
@@ -211,7 +211,7 @@ TEST_P(NearClosed, WhatTheLidWasNearerThanIsReported) {
     }
 }
 
-// What the numbers of the source close is closed whatever is asked for besides.
+// What the numbers of the source close is closed whatever is requested besides.
 TEST_P(NearClosed, AWiderWeldClosesNoLess) {
   Draw draw(GetParam());
   const ClosedBody body = test::drawn_body(draw);
@@ -242,7 +242,7 @@ TEST(NearClosedScenes, InstancesShareAShape) {
   EXPECT_EQ(scene_of(m, -1).shapes.size(), 1U);
 }
 
-// How far corners were moved is told in the unit that suits it.
+// How far corners were moved is reported in the unit that suits it.
 TEST(NearClosedScenes, ALongWeldIsReportedInMillimetres) {
   ClashModel m;
   m.object("box").body(lid_above({300, 200, 100}, 4.9));

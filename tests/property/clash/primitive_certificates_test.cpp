@@ -84,7 +84,7 @@ void bring_near(Bodies& of, double gap) {
   of.b.at.translation = on_grid(of.b.at.translation + s->away * far);
 }
 
-/// A few micrometres to a few millimetres, either way; on the grid, so that what is asked for as
+/// A few micrometres to a few millimetres, either way; on the grid, so that what is requested as
 /// nothing is anything up to a micrometre.
 double draw_gap(PrimitiveDraw& draw) {
   if (draw.one_in(3)) return 0;

@@ -138,7 +138,7 @@ void expect_true(const model::Scene& scene, const std::vector<bool>& drawn,
     }
     EXPECT_TRUE(fate != Fate::clipped || states_of_object.contains(hlr::State::clipped)) << o;
     EXPECT_FALSE((fate == Fate::failed || fate == Fate::left_out) && placed) << o;
-    // What is wrong with an object, or that it makes no line, is told by name.
+    // What is wrong with an object, or that it makes no line, is reported by name.
     const bool wrong = lacking.contains(o) || fate == Fate::degenerate || fate == Fate::failed;
     EXPECT_EQ(named.contains(o), drawn[o] && wrong) << o;
   }

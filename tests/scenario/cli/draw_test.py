@@ -267,7 +267,7 @@ class Draw(Scenario):
         outline = [piece for piece in cut('--section', 'z>40mm', '--threads', '3')[0] if piece['kind'] == 'section']
         self.assertEqual(len(outline), 4)
         self.assertIn('id="visible-section"', (self.folder / 'x.svg').read_text(encoding='utf-8'))
-        # Three planes leave a corner; with a normal of decimals the rounding is told.
+        # Three planes leave a corner; with a normal of decimals the rounding is reported.
         self.assertEqual(len({p['edge'] for p in cut('--section', 'x>40mm', '--section', 'y>40mm', '--section',
                                                      'z>40mm')[0] if p['kind'] == 'section'}), 9)
         self.assertIn('is taken as normal', cut('--section', '0.3333333,1,0>20mm')[1])

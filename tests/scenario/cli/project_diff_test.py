@@ -227,7 +227,7 @@ class Drawings(Projects):
         self.diff('ship.strake', '--view', 'deck', verb='draw')
         self.done('draw', 'diff', 'ship.strake', '--view', 'deck', '--fail-on', 'any')
         self.done('draw', '-p', 'ship.strake', '--stored', 'deck', '-o', 'monday.json')
-        # One moves, one comes and one goes: what is gone is told by its name of then.
+        # One moves, one comes and one goes: what is gone is reported by its name of then.
         self.change([(0, 0, 0), (80, 5, 0), (160, 0, 0), None, (400, 0, 0)])
         self.done('draw', 'diff', 'ship.strake', '--view', 'deck', '--fail-on', 'visible', '-o', 'changes.svg', exit_code=1)
         self.assertIn('<svg', (self.folder / 'changes.svg').read_text())

@@ -268,7 +268,7 @@ clash::Pair standing(const TriangleMesh& around, double floor) {
   return report.pairs.empty() ? clash::Pair{} : report.pairs[0];
 }
 
-// A touch is told in any case; in what is nearly closed, that it may be more.
+// A touch is reported in any case; in what is nearly closed, that it may be more.
 TEST(OpenSurfaces, WhatStandsOnTheFloorMayBeAHit) {
   for (const std::size_t left_out : {5U, 100U, 300U}) {
     const TriangleMesh mesh = tank(1000, 6, left_out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is told of a cell and of those that it is cut into holds for points of it.
+// What is reported a cell and of those that it is cut into holds for points of it.
 #include "geometry/interior_depth/level_search/offset_cell.hpp"
 
 #include <gtest/gtest.h>

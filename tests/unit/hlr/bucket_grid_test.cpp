@@ -174,7 +174,7 @@ TEST(BucketGrid, TheirNumberFollowsTheData) {
   EXPECT_GE(BucketPlan(scattered).best_side(edges), 32U);
   EXPECT_LE(BucketPlan(upon_each_other).best_side(edges), 4U);
   EXPECT_GE(BucketPlan(scattered).best_side({}), 32U) << "nothing is known of others' edges";
-  // A number that was asked for is kept while it does not list the boxes over and over.
+  // A number that was requested is kept while it does not list the boxes over and over.
   EXPECT_EQ(BucketPlan(scattered).axes(256).u.count, 256U);
   EXPECT_LE(BucketPlan(upon_each_other).axes(4096).u.count, 32U);
   EXPECT_LE(BucketPlan(rows(2, 10)).axes(4096).u.count, 16U);

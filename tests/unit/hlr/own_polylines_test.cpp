@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Polylines and the faces of their own object: seen through them, or hidden by them if asked for.
+// Polylines and the faces of their own object: seen through them, or hidden by them if requested.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -173,7 +173,7 @@ TEST_F(StepImport, CurvedSolidsAreClosedAndTheirVolumesRight) {
     EXPECT_EQ(done.model->objects.size(), 6U);
     EXPECT_EQ(report().find("step-open-solid"), std::string::npos) << report();
     EXPECT_NEAR(volume_of(*done.model), done.volume, sag_mm * done.area);
-    // A sag that is not asked for would be within the other bound.
+    // A sag that is not requested would be within the other bound.
     EXPECT_GT(std::abs(volume_of(*done.model) - done.volume), 1e-4 * sag_mm * done.area);
     const Result<model::Scene> scene = model::make_scene(*done.model, {}, {});
     ASSERT_TRUE(scene);

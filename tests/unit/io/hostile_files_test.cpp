@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small files that claim or ask for much: each is refused with a reason or read in time and memory
+// Small files that claim or request much: each is refused with a reason or read in time and memory
 // that its size justifies. Bounds of CPU time are ten times and more what is needed, and a small
 // part of what the file would take from a reader that believes it.
 #include <fmt/format.h>

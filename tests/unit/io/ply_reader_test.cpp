@@ -127,7 +127,7 @@ TEST(PlyReader, ElementsWithoutPropertiesAreNotCounted) {
   EXPECT_EQ(std::get<TriangleMesh>(model->shapes[0]).triangles.size(), 1U);
 }
 
-/// Counts that no file of this size can hold are refused before memory is asked for.
+/// Counts that no file of this size can hold are refused before memory is requested.
 TEST(PlyReader, HostileCountsAreRefused) {
   for (const char* const count : {"4294967295", "18446744073709551615", "1000000000000"}) {
     const std::string head = std::string("element vertex ") + count +

@@ -84,7 +84,7 @@ TEST(Reservations, what_breaks_the_rules_of_the_plain_loop_gives_one_result_all_
           {.team = &team}, {.name = "odd", .n = kItems}, at.size(),
           [&](std::size_t i, Claims& claims) {
             claims(i % 4);
-            // "Not yet" taken for "never", or a look at a place that is not asked for.
+            // "Not yet" taken for "never", or a look at a place that is not requested.
             return reads_elsewhere ? at[(i + 1) % 4] % 3 != 2 : at[i % 4] % 3 == i % 3;
           },
           [&](std::size_t i) { at[i % 4] += 1 + static_cast<std::uint32_t>(i % 2); }));
@@ -133,7 +133,7 @@ TEST(Reservations, items_that_share_nothing_need_few_rounds) {
   EXPECT_EQ(std::ranges::count(observed, 1), static_cast<std::ptrdiff_t>(kItems));
 }
 
-/// Trees of a forest by pointers to parents: what an item asks for changes with what others did.
+/// Trees of a forest by pointers to parents: what an item requests changes with what others did.
 std::size_t root(const std::vector<std::uint32_t>& parent, std::size_t node) {
   while (parent[node] != node) node = parent[node];
   return node;

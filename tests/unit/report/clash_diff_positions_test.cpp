@@ -55,7 +55,7 @@ struct Runs {
   Runs(const std::string& x, const std::string& y)
       : before(parsed(x).value()), after(parsed(y).value()), diff(compare(before, after)) {}
 
-  /// How many are new, changed, the same, gone, and cannot be told.
+  /// How many are new, changed, the same, gone, and cannot be known.
   [[nodiscard]] std::vector<std::size_t> counts() const {
     return {diff.added.size(), diff.changed.size(), diff.same.size(), diff.gone.size(),
             diff.cannot_tell.size()};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Binary neutral drawings: they say what the text says, and what is wrong with them is told.
+// Binary neutral drawings: they say what the text says, and what is wrong with them is reported.
 #include <gtest/gtest.h>
 
 #include <cstddef>

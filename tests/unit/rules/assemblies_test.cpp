@@ -38,7 +38,7 @@ TEST(Assemblies, APipeIsOneAssemblyForEachBranch) {
   const auto one = row.group("/100-B-1/B1", pipe), two = row.group("/100-B-1/B2", pipe);
   row.cube("ELBOW 1 of BRANCH /100-B-1/B1", {}, one)
       .cube("a", {}, one)  // a valve with a name
-      .cube("b", {}, two)  // nothing tells that this one is a branch, but its level
+      .cube("b", {}, two)  // nothing shows that this one is a branch, but its level
       .cube("c", {}, two);
   EXPECT_EQ(row.hits(kRule), (ResultLines{"a-b HIT"}));
 }

@@ -330,7 +330,7 @@ TEST(RulesFile, TheSceneIsAsFineAsTheFinestTest) {
   EXPECT_TRUE(Rules::parse("[obstruction]", "r").value().scene_options().obstruction);
 }
 
-/// A small file must not ask for a large result: a cell for each two disciplines, and the name of a
+/// A small file must not request a large result: a cell for each two disciplines, and the name of a
 /// rule with every pair.
 TEST(RulesFile, WhatWouldFillTheDiskIsRefused) {
   const auto disciplines = [](int count) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Templates of sheets in PDF: paths, transforms and styles, and what is told of the rest.
+// Templates of sheets in PDF: paths, transforms and styles, and what is reported the rest.
 #include "sheets/output/artwork/artwork.hpp"
 
 #include <gtest/gtest.h>
@@ -73,7 +73,7 @@ TEST(Artwork, TransformsFollowEachOther) {
   EXPECT_DOUBLE_EQ(Affine({2, 0, 0, 8, 0, 0}).scale(), 4);
 }
 
-/// The operators of a template on a sheet of 100 x 50 mm, and what was told.
+/// The operators of a template on a sheet of 100 x 50 mm, and what was reported.
 struct Artwork {
   std::string operators;
   Diagnostics reported;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sheets of small models: what stands on them, to the micrometre, and what is told of them.
+// Sheets of small models: what stands on them, to the micrometre, and what is reported about them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -108,7 +108,7 @@ TEST(Sheet, AViewLiesWhereItStates) {
             std::string::npos);  // beside the view, it is not the sheet's
 }
 
-/// A pipe of 3 m: as fine as the scale of each view asks for, given or chosen.
+/// A pipe of 3 m: as fine as the scale of each view requests, given or chosen.
 TEST(Sheet, CurvesAreAsFineAsTheScaleRequests) {
   model::Model model;
   model.files.emplace_back();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A section has the geometry of its objects, to the last bit, however its meshes are packed; what
-// is damaged is told.
+// is damaged is reported.
 #include "tiles/kept/section.hpp"
 
 #include <gtest/gtest.h>

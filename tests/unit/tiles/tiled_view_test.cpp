@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A drawing by tiles is the drawing of the whole model, to the last bit; what is lost is told.
+// A drawing by tiles is the drawing of the whole model, to the last bit; what is lost is reported.
 #include "tiles/tiled_view.hpp"
 
 #include <gtest/gtest.h>

@@ -85,7 +85,7 @@ class AttributeReader:
                 if definition.Name or not definition.is_a("IfcPropertySetDefinition"):
                     merged.setdefault(definition.Name or definition.is_a(), {}).update(self._set(definition))
             known = {name: encoded(values) for name, values in merged.items() if values}
-            # Those of a type alone are asked for again and again.
+            # Those of a type alone are requested again and again.
             if not definitions:
                 self._shared[key] = known
         return known

@@ -94,7 +94,7 @@ def tasks_of(model: Model, products: Sequence[Entity]) -> list[tuple[int, ...]]:
     settings.set("defer-processing-first-element", True)
     iterator = shapes_of(model, map(number_of, products), settings, EXACT, ifcopenshell_wrapper.logger())
     iterator.initialize()
-    # The wrapper in Python of this function asks for a file that the iterator does not have.
+    # The wrapper in Python of this function requests a file that the iterator does not have.
     get_task_products: Any = ifcopenshell_wrapper.iterator.get_task_products
     return sorted(tuple(sorted(product.id() for product in task)) for task in get_task_products(iterator))
 

@@ -25,7 +25,7 @@ from strake.importers.ifc.units import Units
 from strake.importers.report import Report
 from strake.importers.scene_writer import Group
 
-# The longest text of a kernel that is told of a product.
+# The longest text of a kernel that is reported for a product.
 _MAX_MESSAGE = 400
 
 
