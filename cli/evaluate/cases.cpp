@@ -53,8 +53,8 @@ constexpr std::array<ShipCase, 4> kShips{{
 
 /// Returns a number of objects at a scale, within what can be generated.
 std::uint64_t scaled(double full, double scale, std::uint64_t least) {
-  const double most = static_cast<double>(generate::ShipOptions::kMaxObjects);
-  return std::max(least, static_cast<std::uint64_t>(std::min(most, full * scale)));
+  const double largest = static_cast<double>(generate::ShipOptions::kMaxObjects);
+  return std::max(least, static_cast<std::uint64_t>(std::min(largest, full * scale)));
 }
 
 /// Returns the grid point at these parts of a box, which may lie outside of it.

@@ -52,12 +52,12 @@ std::vector<std::string> parts_of(const std::string& list) {
 
 /// Reads a positive number; overwrites `value` where it was given.
 Status positive_number(double& value, const std::string& text, const std::string& option,
-                       double most) {
+                       double maximum) {
   if (text.empty()) return {};
   const std::optional<double> number = parse_number(text);
-  if (!number || !(*number > 0) || !(*number <= most))
+  if (!number || !(*number > 0) || !(*number <= maximum))
     return Error{ErrorCode::usage, "'" + text + "' cannot be taken", option,
-                 fmt::format("write a number above 0, {:g} at most", most)};
+                 fmt::format("write a number above 0, {:g} at most", maximum)};
   value = *number;
   return {};
 }
@@ -67,9 +67,9 @@ Status positive_number(double& value, const std::string& text, const std::string
 Result<std::vector<unsigned>> team_sizes(const std::string& text) {
   std::vector<unsigned> sizes{1};
   if (text.empty()) {
-    const unsigned most = parallel::default_workers();
-    for (unsigned n = 2; n < most; n *= 2) sizes.push_back(n);
-    sizes.push_back(most);
+    const unsigned maximum = parallel::default_workers();
+    for (unsigned n = 2; n < maximum; n *= 2) sizes.push_back(n);
+    sizes.push_back(maximum);
   } else {
     for (const std::string& part : parts_of(text)) {
       std::uint64_t size = 0;

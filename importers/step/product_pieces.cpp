@@ -44,10 +44,10 @@ class ColorAreas {
   }
   [[nodiscard]] std::optional<model::Color> largest() const {
     std::optional<model::Color> color;
-    double most = -1;
+    double maximum = -1;
     for (const auto& [key, area] : areas_)
-      if (area > most) {
-        most = area;
+      if (area > maximum) {
+        maximum = area;
         color = model::Color{key[0], key[1], key[2], key[3]};
       }
     return color;

@@ -144,7 +144,7 @@ Status apply_form(const WrittenForm& form, report::ClashContents& contents) {
   contents.shown = publish::model_shown(form.page_geometry);
   contents.bcf.version_3 = form.bcf_3;
   contents.bcf.contacts = form.bcf_contacts;
-  contents.bcf.most = form.bcf_most;
+  contents.bcf.max_topics = form.bcf_most;
   if (!form.bcf_date.empty()) {
     const Result<std::string> date = publish::bcf_date(form.bcf_date);
     if (!date) return in_argument(date.error(), "bcf_date");
@@ -194,7 +194,7 @@ void save_pair_log(const RunPointer& run, const std::filesystem::path& path, con
 nb::tuple save_pictures(const RunPointer& run, const std::filesystem::path& folder,
                         std::size_t most, bool png, const RunOptions& options) {
   pictures::FolderOptions how;
-  how.most = most;
+  how.max_pictures = most;
   how.format = png ? pictures::PictureFormat::png : pictures::PictureFormat::svg;
   const pictures::FolderCount count =
       python::run(options, "draw pictures",

@@ -41,7 +41,7 @@ struct WrittenForm {
   std::vector<std::string> columns;
   std::string csv, page_geometry, bcf_date, bcf_author;  ///< empty: as by default
   bool bcf_3 = false, bcf_contacts = false;
-  std::size_t bcf_most = report::BcfForm{}.most;
+  std::size_t bcf_most = report::BcfForm{}.max_topics;
 };
 
 /// What a clash run found, with what it is written with.

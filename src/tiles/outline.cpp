@@ -35,9 +35,9 @@ std::vector<double> bytes_by_shape(const model::Scene& scene) {
 
 /// Returns how far the true surface of a shape may stand out of its box.
 std::int64_t sag_of(const model::GridShape& shape) {
-  double most = 0;
-  for (const geometry::Part& part : shape.parts) most = std::max(most, part.sag);
-  return static_cast<std::int64_t>(std::ceil(most));
+  double largest = 0;
+  for (const geometry::Part& part : shape.parts) largest = std::max(largest, part.sag);
+  return static_cast<std::int64_t>(std::ceil(largest));
 }
 
 void append_extents(const model::Scene& scene, std::vector<Extent>& extents) {

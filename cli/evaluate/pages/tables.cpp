@@ -187,10 +187,10 @@ TableSection distribution(const EvaluationRecord& record) {
       const ContenderRecord* const run = find_contender(stage, kOurs, threads);
       if (run == nullptr) return;
       const std::vector<double> busy = busy_seconds(*run);
-      const auto [least, most] = std::ranges::minmax(busy);
-      section.table.rows.push_back({one.title, stage.name, number(least, 3), number(most, 3)});
-      if (most <= longest_s) return;
-      longest_s = most;
+      const auto [least, largest] = std::ranges::minmax(busy);
+      section.table.rows.push_back({one.title, stage.name, number(least, 3), number(largest, 3)});
+      if (largest <= longest_s) return;
+      longest_s = largest;
       chart = {fmt::format("{}, {}: busy time of each worker", one.title, stage.name),
                "s",
                {},

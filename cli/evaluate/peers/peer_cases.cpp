@@ -38,8 +38,8 @@ std::string_view peer_program(PeerJob job) {
 
 std::uint64_t peer_objects(const PeerCase& one, double scale) {
   constexpr double kMin = 500;
-  const auto most = static_cast<double>(generate::ShipOptions::kMaxObjects);
-  return static_cast<std::uint64_t>(std::clamp(one.full_objects * scale, kMin, most));
+  const auto largest = static_cast<double>(generate::ShipOptions::kMaxObjects);
+  return static_cast<std::uint64_t>(std::clamp(one.full_objects * scale, kMin, largest));
 }
 
 std::vector<std::string> peer_question(const PeerCase& one, double scale) {

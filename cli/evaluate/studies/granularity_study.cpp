@@ -138,16 +138,16 @@ Status add_object_pairs(const StudyInput& input, const SkewedScene& scene, Study
   const Result<clash::Report> report =
       clash::detect(placed, clash::one_set(placed), options, {.stop = input.stop});
   if (!report) return report.error();
-  double all = 0, most = 0;
+  double all = 0, largest = 0;
   for (const clash::LoggedPair& pair : report->log) {
     const auto cost = static_cast<double>(pair.cost());
     all += cost;
-    most = std::max(most, cost);
+    largest = std::max(largest, cost);
   }
   const double share = all / kWorkersOfExample;
   std::vector<std::string> cells(kCells, "-");
   cells[1] = std::to_string(report->log.size());
-  if (most > 0) cells[5] = fmt::format("{:.2f}", std::min(1.0, share / most));
+  if (largest > 0) cells[5] = fmt::format("{:.2f}", std::min(1.0, share / largest));
   add_unit_row(
       kClash, "pair of objects", std::move(cells),
       "by counted work: equal pairs of parts are evaluated once for all objects, so that no "

@@ -69,15 +69,15 @@ std::string hint_of_parts(const HitsByWhole& hits, bool typed) {
 /// Returns the hint about the pair of assemblies with most hits, if it has a quarter of all.
 std::string hint_of_pair(const HitsByWhole& hits, const model::Model& model) {
   constexpr std::uint64_t kMinPart = 4;
-  const auto most =
+  const auto largest =
       std::ranges::max_element(hits.by_pair, {}, [](const auto& entry) { return entry.second; });
-  if (most == hits.by_pair.end() || most->second * kMinPart < hits.all) return {};
+  if (largest == hits.by_pair.end() || largest->second * kMinPart < hits.all) return {};
   const auto name = [&](const AssemblyOrFile& whole) {
     return printable(whole.is_file() ? model.files[whole.file].label
                                      : model.groups[index(whole.assembly)].name);
   };
-  const auto& [a, b] = most->first;
-  return fmt::format("{} of {} hits lie {}: --group-by assembly makes them one line", most->second,
+  const auto& [a, b] = largest->first;
+  return fmt::format("{} of {} hits lie {}: --group-by assembly makes them one line", largest->second,
                      hits.all,
                      a == b ? "within " + name(a) : "between " + name(a) + " and " + name(b));
 }

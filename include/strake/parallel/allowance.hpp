@@ -19,25 +19,27 @@ namespace strake::parallel {
 class Allowance {
  public:
   /// At most 2^64 - 2; more counts as that.
-  explicit Allowance(std::uint64_t most) : most_(std::min(most, kSpent - 1)) {}
+  explicit Allowance(std::uint64_t limit) : limit_(std::min(limit, kSpent - 1)) {}
 
   /// False if more has been requested than there is; from then on always, for any amount.
   [[nodiscard]] bool take(std::uint64_t amount) {
     std::uint64_t taken = taken_.load(std::memory_order_relaxed);
     std::uint64_t after = 0;
     do {
-      if (taken > most_) return false;
+      if (taken > limit_) return false;
       // One too many is as good as any number too many, and cannot overflow.
-      after = amount <= most_ - taken ? taken + amount : kSpent;
+      after = amount <= limit_ - taken ? taken + amount : kSpent;
     } while (!taken_.compare_exchange_weak(taken, after, std::memory_order_relaxed));
     return after != kSpent;
   }
 
-  [[nodiscard]] std::uint64_t most() const { return most_; }
+  [[nodiscard]] std::uint64_t limit() const { return limit_; }
+  /// The former name of limit().
+  [[deprecated("it is called limit()")]] [[nodiscard]] std::uint64_t most() const { return limit_; }
 
  private:
   static constexpr std::uint64_t kSpent = ~std::uint64_t{0};
-  std::uint64_t most_;
+  std::uint64_t limit_;
   std::atomic<std::uint64_t> taken_{0};
 };
 

@@ -68,7 +68,7 @@ void leave_out_others(clash::Findings& findings, const WrittenClasses& classes);
 /// How BCF is written: a topic for each group, or for each result where there are no groups.
 struct BcfForm {
   bool version_3 = false;  ///< 3.0; otherwise 2.1, which most programs read
-  std::size_t most = 200;  ///< topics: the first of the groups, or the worst of the results
+  std::size_t max_topics = 200;  ///< topics: the first of the groups, or the worst of the results
   bool contacts = false;   ///< also results that are contacts; groups have those that they have
   /// When topics were made, as 2026-01-31T23:59:59Z; empty: when the newest model file says that it
   /// was written, or where none does 1970-01-01.

@@ -56,7 +56,7 @@ Status ZipReader::list() {
   return {};
 }
 
-Result<std::string> ZipReader::read(const Entry& entry, std::size_t most) {
+Result<std::string> ZipReader::read(const Entry& entry, std::size_t limit) {
   const std::unique_ptr<zip_file_t, EntryCloser> file(
       zip_fopen_index(archive_.get(), entry.index, 0));
   if (!file) {
@@ -73,7 +73,7 @@ Result<std::string> ZipReader::read(const Entry& entry, std::size_t most) {
     if (got < 0) return fault(entry, "the file is damaged");
     bytes.resize(had + static_cast<std::size_t>(got));
     unpacked_ += static_cast<std::uint64_t>(got);
-    if (bytes.size() > most) return fault(entry, "the file unpacks to more than it may");
+    if (bytes.size() > limit) return fault(entry, "the file unpacks to more than it may");
     if (got == 0) return bytes;
   }
 }

@@ -163,7 +163,7 @@ std::string left_out_of_bcf(const report::ClashContents& contents) {
   std::string text;
   if (left_out.groups > 0) text = counted(left_out.groups, "group");
   if (left_out.results > 0) text = counted(left_out.results, "result");
-  if (!text.empty()) text += " beyond the first " + std::to_string(contents.bcf.most);
+  if (!text.empty()) text += " beyond the first " + std::to_string(contents.bcf.max_topics);
   if (left_out.contacts > 0)
     text += (text.empty() ? "" : ", and ") + counted(left_out.contacts, "contact");
   return text;

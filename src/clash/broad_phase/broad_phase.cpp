@@ -44,14 +44,14 @@ class BoxPairs {
            const parallel::Context& context)
       : items_(items), options_(options), context_(context) {}
 
-  Result<std::vector<geometry::IndexPair>> find(std::uint64_t most) {
-    if (all()) return geometry::overlapping_box_pairs_brute_force(items_, context_, most);
+  Result<std::vector<geometry::IndexPair>> find(std::uint64_t limit) {
+    if (all()) return geometry::overlapping_box_pairs_brute_force(items_, context_, limit);
     if (tree_.nodes().empty()) {
       auto tree = geometry::SceneBvh::build(items_, context_);
       if (!tree) return tree.error();
       tree_ = std::move(*tree);
     }
-    return geometry::overlapping_box_pairs(tree_, context_, most);
+    return geometry::overlapping_box_pairs(tree_, context_, limit);
   }
   [[nodiscard]] Result<std::vector<geometry::IndexPair>> find(
       const geometry::BoxesInFrames& framed) const {
@@ -262,7 +262,7 @@ Result<CandidatePairs> find_pairs_of_cell(const ScenePartList& list, const Sets&
 Result<std::optional<CandidatePairs>> find_changed_pairs(const ScenePartList& list,
                                                          const Sets& sets, const SearchReach& reach,
                                                          std::span<const Change> change,
-                                                         std::uint64_t most,
+                                                         std::uint64_t limit,
                                                          const parallel::Context& context) {
   const auto items = parallel::transform(
       context, {.name = "boxes", .n = list.parts.size(), .grain = kItemsPerBlock},
@@ -276,7 +276,7 @@ Result<std::optional<CandidatePairs>> find_changed_pairs(const ScenePartList& li
   if (!items) return items.error();
   const auto tree = geometry::SceneBvh::build(*items, context);
   if (!tree) return tree.error();
-  auto pairs = geometry::overlapping_box_pairs(*tree, context, most);
+  auto pairs = geometry::overlapping_box_pairs(*tree, context, limit);
   if (!pairs) {
     if (pairs.error().code == ErrorCode::input) return std::optional<CandidatePairs>();
     return pairs.error();

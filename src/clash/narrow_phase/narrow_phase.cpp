@@ -289,7 +289,7 @@ bool lies_within(const WindingNumber& winding, const ScenePart& around, const Sc
 /// A surface with how open it is, and how open it may be.
 struct EnclosingSurface {
   WindingNumber winding;
-  double openness = 1, most = 0;
+  double openness = 1, max_openness = 0;
 };
 
 /// The share of the directions within a surface that may lead out on average, if it is to be meant
@@ -326,9 +326,9 @@ Status mark_enclosed(const StageInputs& stage, std::vector<Candidate>& candidate
       [&](std::size_t p) {
         if (parts[p] == nullptr) return;
         WindingNumber winding(*parts[p]);
-        const double most = geometry::has_incomplete_faces(*parts[p]) ? kMaxOutOfFaces : kMaxOut;
-        const double openness = winding.openness(most);
-        if (openness <= most) around[p] = {std::move(winding), openness, most};
+        const double max_openness = geometry::has_incomplete_faces(*parts[p]) ? kMaxOutOfFaces : kMaxOut;
+        const double openness = winding.openness(max_openness);
+        if (openness <= max_openness) around[p] = {std::move(winding), openness, max_openness};
       });
   if (!made) return made.error();
   return work.for_each_of(
@@ -338,7 +338,7 @@ Status mark_enclosed(const StageInputs& stage, std::vector<Candidate>& candidate
         const bool touch = classification.cls == Class::contact;
         const auto within = [&](const ScenePart& skin, const ScenePart& part) {
           const auto& of = around[skin.unique];
-          return of && of->openness <= (touch ? kMaxOutOfContact : of->most) &&
+          return of && of->openness <= (touch ? kMaxOutOfContact : of->max_openness) &&
                  may_enclose(skin, part) && lies_within(of->winding, skin, part);
         };
         if (!within(a, b) && !within(b, a)) return;

@@ -37,19 +37,19 @@ double off_grid(double mm) {
 }
 
 float moved(const Vec3d& mm) {
-  const double most = std::max({off_grid(mm.x), off_grid(mm.y), off_grid(mm.z)});
+  const double largest = std::max({off_grid(mm.x), off_grid(mm.y), off_grid(mm.z)});
   // Along three axes a point is off by no more than twice as far.
   constexpr double kMin = static_cast<double>(kMinMoved) / 2;
-  return !(most > 0) ? 0 : most > kMin ? kMaxMoved : kMinMoved;
+  return !(largest > 0) ? 0 : largest > kMin ? kMaxMoved : kMinMoved;
 }
 
 float max_displacement(std::span<const Vec3d> points, const geometry::Mat3d& linear) {
-  float most = 0;
+  float largest = 0;
   for (const Vec3d& p : points) {
-    most = std::max(most, moved(linear * p));
-    if (most == kMaxMoved) break;
+    largest = std::max(largest, moved(linear * p));
+    if (largest == kMaxMoved) break;
   }
-  return most;
+  return largest;
 }
 
 float vertices_moved(const model::Shape& shape, const geometry::Mat3d& linear) {

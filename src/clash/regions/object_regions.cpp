@@ -100,8 +100,8 @@ UnionFind joined(const std::vector<LocatedResult>& located_results) {
 
 class RegionsOfPairs {
  public:
-  explicit RegionsOfPairs(const PartResults& results, std::uint64_t most)
-      : results_(results), most_(most) {}
+  explicit RegionsOfPairs(const PartResults& results, std::uint64_t limit)
+      : results_(results), limit_(limit) {}
 
   [[nodiscard]] Regions of(const Pair& pair) const {
     const std::size_t first = pair.first_region;
@@ -161,7 +161,7 @@ class RegionsOfPairs {
   void take(const std::vector<LocatedResult>& worst, Regions& regions) const {
     regions.count = static_cast<std::uint32_t>(worst.size());
     if (regions.count < 2) return;
-    const std::uint64_t listed = std::min<std::uint64_t>(worst.size(), most_);
+    const std::uint64_t listed = std::min<std::uint64_t>(worst.size(), limit_);
     for (std::size_t i = 0; i < listed; ++i) regions.worst.push_back(region_of(worst[i]));
   }
 
@@ -183,7 +183,7 @@ class RegionsOfPairs {
   }
 
   const PartResults& results_;
-  std::uint64_t most_;
+  std::uint64_t limit_;
 };
 
 /// Appends how many regions of a pair each rule allows, by rule.

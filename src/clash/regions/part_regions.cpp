@@ -316,11 +316,11 @@ class PartRegionFinder {
     SignedSeparation& s = answer.separation;
     const double least = whole_.separation.lower - whole_.separation.sag;
     if (s.d >= whole_.separation.d && s.lower - s.sag >= least) return;
-    const double most = s.upper + s.sag;
+    const double largest = s.upper + s.sag;
     s.d = std::max(s.d, whole_.separation.d);
     s.sag = std::clamp(s.d - least, 0.0, s.sag);
     s.lower = std::max(s.lower, least + s.sag);
-    s.upper = std::max(s.d, most - s.sag);
+    s.upper = std::max(s.d, largest - s.sag);
     answer.classification = classify(s, thresholds_);
     answer.classification.flags |= part_flags(part_a_, part_b_);
   }

@@ -40,8 +40,8 @@ inline constexpr std::size_t kMaxOfText = 2000;
 
 /// Returns a text that reads back as itself from one line of a file: what is no printable
 /// character is U+FFFD, '^' and the backslash of "\U+" and "\M+" are written as readers unescape
-/// them. What is longer than `most` bytes is cut and ends in an ellipsis.
-[[nodiscard]] std::string value_text(std::string_view text, std::size_t most);
+/// them. What is longer than `limit` bytes is cut and ends in an ellipsis.
+[[nodiscard]] std::string value_text(std::string_view text, std::size_t limit);
 
 /// Returns value_text() of what TEXT shows as this text: the percent signs of "%%" are no commands.
 [[nodiscard]] std::string shown_text(std::string_view text);

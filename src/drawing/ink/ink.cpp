@@ -67,12 +67,12 @@ class Density {
  private:
   /// Narrows the part of a line, which runs `step` from `at`, to what lies on the sheet; `from` is
   /// greater than `to` where nothing does.
-  static void keep_between(double at, double step, double most, double& from, double& to) {
+  static void keep_between(double at, double step, double limit, double& from, double& to) {
     if (step == 0) {
-      if (at < 0 || at > most) to = -1;
+      if (at < 0 || at > limit) to = -1;
       return;
     }
-    const double near = -at / step, far = (most - at) / step;
+    const double near = -at / step, far = (limit - at) / step;
     from = std::max(from, std::min(near, far));
     to = std::min(to, std::max(near, far));
   }

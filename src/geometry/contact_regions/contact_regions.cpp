@@ -36,8 +36,8 @@ class RegionFinder {
 
   std::optional<std::vector<ContactRegion>> find(QueryContext& work) {
     const SingleRegionDetail one = options_.one;
-    const auto near = [&](std::uint64_t most) {
-      return near_triangles(a_, b_, {.reach = reach_, .most = most}, work);
+    const auto near = [&](std::uint64_t max_near) {
+      return near_triangles(a_, b_, {.reach = reach_, .limit = max_near}, work);
     };
     std::optional<std::vector<NearTrianglePair>> pairs;
     if (one != SingleRegionDetail::described && is_single_region_affordable(a_.part(), b_.part())) {

@@ -63,10 +63,10 @@ std::size_t count_parallel(const std::vector<Facing>& facings, const Facing& x) 
 /// Returns the facing with the most others like it.
 std::optional<Facing> commonest(const std::vector<Facing>& facings) {
   std::optional<Facing> best;
-  std::size_t most = 0;
+  std::size_t largest = 0;
   for (const Facing& x : facings)
-    if (const std::size_t count = count_parallel(facings, x); count > most) {
-      most = count;
+    if (const std::size_t count = count_parallel(facings, x); count > largest) {
+      largest = count;
       best = x;
     }
   return best;

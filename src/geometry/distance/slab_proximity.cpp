@@ -42,7 +42,7 @@ struct LowEnd {
   std::vector<std::uint32_t> triangles;  ///< those that come within kRough of it
 };
 
-std::optional<LowEnd> low_end(const PairLocalPart& view, const Vec3d& n, std::size_t most) {
+std::optional<LowEnd> low_end(const PairLocalPart& view, const Vec3d& n, std::size_t limit) {
   LowEnd end;
   const auto& nodes = view.tree().nodes();
   traverse_nearest_first(
@@ -55,7 +55,7 @@ std::optional<LowEnd> low_end(const PairLocalPart& view, const Vec3d& n, std::si
       [&](const TriangleBvh::Node& node) { return height(n, view.box(node.box)) <= level; },
       [&](std::uint32_t t) {
         if (height(n, view, t) <= level) end.triangles.push_back(t);
-        return end.triangles.size() <= most;
+        return end.triangles.size() <= limit;
       });
   if (!all) return std::nullopt;
   return end;
@@ -73,10 +73,10 @@ double reach_of(const PairLocalPart& view) {
 }  // namespace
 
 std::optional<SlabFaces> slab_faces(const PairLocalPart& a, const PairLocalPart& b,
-                                    const Vec3d& normal, std::size_t most) {
-  auto above = low_end(a, normal, most);
+                                    const Vec3d& normal, std::size_t limit) {
+  auto above = low_end(a, normal, limit);
   if (!above) return std::nullopt;
-  auto below = low_end(b, -normal, most);
+  auto below = low_end(b, -normal, limit);
   if (!below) return std::nullopt;
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * (reach_of(a) + reach_of(b));
   const double apart = above->least + below->least + kRough;

@@ -198,9 +198,9 @@ int WindingNumber::crossings(const Vec3d& from, const Vec3d& way) const {
   return met;
 }
 
-/// Returns the share of the directions from a point that lead out; nothing where it is `most` or
+/// Returns the share of the directions from a point that lead out; nothing where it is `limit` or
 /// more, or where too few meet an odd number of triangles. That often shows long before the last.
-std::optional<double> WindingNumber::share_out(const Vec3d& from, int rays, double most) const {
+std::optional<double> WindingNumber::share_out(const Vec3d& from, int rays, double limit) const {
   // The same in three dimensions, for evenly distributed directions of points in a ball.
   constexpr double kStepX = 0.8191725133961645, kStepY = 0.6710436067037893,
                    kStepZ = 0.5497004779019703;
@@ -214,7 +214,7 @@ std::optional<double> WindingNumber::share_out(const Vec3d& from, int rays, doub
     out += met == 0 ? 1 : 0;
     odd += met % 2;
     ++visited;
-    if (static_cast<double>(out) / rays >= most) return std::nullopt;
+    if (static_cast<double>(out) / rays >= limit) return std::nullopt;
     if (static_cast<double>(odd + rays - visited) / rays < kMinOdd) return std::nullopt;
   }
   return static_cast<double>(out) / rays;
@@ -242,7 +242,7 @@ bool WindingNumber::surrounds(const Vec3d& at) const {
   return share_out(at, kRays, kMaxOut).has_value();
 }
 
-double WindingNumber::openness(double most) const {
+double WindingNumber::openness(double limit) const {
   constexpr int kSamples = 48;
   constexpr double kHalf = 0.5;
   // Multiples of these numbers are evenly distributed in 0 to 1, also jointly (R. Kronecker).
@@ -251,7 +251,7 @@ double WindingNumber::openness(double most) const {
   const Node& all = nodes_.front();
   // Where so much of the area does not cancel, as much is missing, and half of its directions lead
   // out.
-  if (one_way_ && length(all.area) > 2 * most * all.size) return 1;
+  if (one_way_ && length(all.area) > 2 * limit * all.size) return 1;
   double out = 0, passed = 0;
   int inside = 0, sample = 0, samples_left = 2 * kSamples;
   for (std::uint32_t i = 0; i < triangles_.size() && sample < kSamples; ++i) {
@@ -267,7 +267,7 @@ double WindingNumber::openness(double most) const {
         // Whatever the others are, they are too few inside, or too much leads out: shares of rays
         // are never negative.
         if (2 * (inside + samples_left) < kSamples) return 1;
-        if (!one_way_ && out > most * (inside + samples_left)) return 1;
+        if (!one_way_ && out > limit * (inside + samples_left)) return 1;
         --samples_left;
         const auto hit = first_hit(on, way);
         if (!hit) continue;

@@ -107,9 +107,9 @@ class SolidDepthSearch {
   }
 
   [[nodiscard]] std::uint64_t cells_left() const {
-    const std::uint64_t most =
+    const std::uint64_t largest =
         kPerCell * (is_decided(depth_, goal_) ? goal_.cells_decided : goal_.cells_undecided);
-    return most - std::min(most, cells_);
+    return largest - std::min(largest, cells_);
   }
 
   /// Climbs from a point; returns whether that leads to a deeper one.

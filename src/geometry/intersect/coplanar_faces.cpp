@@ -58,13 +58,13 @@ bool on_segment(const FacePoint& p, const FacePoint& a, const FacePoint& b) {
 bool contains(const Patch& x, const FacePoint& p) {
   if (x.count == 1) return x.point[0] == p;
   if (x.count == 2) return on_segment(p, x.point[0], x.point[1]);
-  int least = 1, most = -1;
+  int least = 1, largest = -1;
   for (std::size_t i = 0; i < 3; ++i) {
     const int side = turn(x.point[i], x.point[(i + 1) % 3], p);
     least = std::min(least, side);
-    most = std::max(most, side);
+    largest = std::max(largest, side);
   }
-  return least >= 0 || most <= 0;
+  return least >= 0 || largest <= 0;
 }
 
 using Point2d = std::array<double, 2>;

@@ -33,10 +33,10 @@ namespace strake::geometry {
                                                            const PartWithObb& b, std::int64_t flush,
                                                            QueryContext& work);
 
-/// Returns the same lines, or nothing where more than `most` pairs of triangles cross: two small
+/// Returns the same lines, or nothing where more than `limit` pairs of triangles cross: two small
 /// surfaces that cross everywhere have as many lines as the product of their triangle counts.
 [[nodiscard]] std::optional<std::vector<Segment>> part_intersection_lines_up_to(
-    std::size_t most, const PartWithObb& a, const PartWithObb& b, std::int64_t flush,
+    std::size_t limit, const PartWithObb& a, const PartWithObb& b, std::int64_t flush,
     QueryContext& work);
 
 /// Returns the same lines by testing every pair of triangles: the reference. Needs neither oriented

@@ -90,11 +90,11 @@ class VolumeSum {
     if (!choose_axis() || !traverse()) return std::nullopt;
     IntersectionVolume result;
     const double error = error_ * (1 + 1e-9) + sum_.error();
-    const double most = box_volume() * (1 + 1e-15);
+    const double largest = box_volume() * (1 + 1e-15);
     result.triangle_pairs = triangle_pairs_;
-    result.volume = std::clamp(sum_.value(), 0.0, most);
+    result.volume = std::clamp(sum_.value(), 0.0, largest);
     result.lower = std::clamp(sum_.value() - error, 0.0, result.volume);
-    result.upper = std::clamp(sum_.value() + error, result.volume, most);
+    result.upper = std::clamp(sum_.value() + error, result.volume, largest);
     return result;
   }
 

@@ -65,11 +65,11 @@ bool lie_in_plane(const Part& part, std::uint32_t triangle, std::span<const std:
   constexpr double kOff = 4;
   const ExactNormal n = triangle_normal(part, triangle);
   const Vec3d size = rounded_normal(part, triangle);
-  const double most = (kOff + 2 * part.weld) * std::sqrt(dot(size, size));
+  const double largest = (kOff + 2 * part.weld) * std::sqrt(dot(size, size));
   const Vec3l on = part.vertices[part.triangles[triangle][0]].as<std::int64_t>();
   return std::ranges::all_of(some, [&](std::uint32_t v) {
     return std::fabs(static_cast<double>(along(n, part.vertices[v].as<std::int64_t>() - on))) <=
-           most;
+           largest;
   });
 }
 

@@ -39,19 +39,19 @@ Vec3d mean_of_needles(const Part& part, const Vec3d& normal, double tilt) {
 template <class Pass>
 Vec3d largest_face(const Part& part, Pass&& pass) {
   Vec3d best;
-  double most = 0;
+  double largest = 0;
   const Triangle* of = nullptr;
   for (const Triangle& t : part.triangles) {
     const Vec3d n = normal_of(corners_of(part, t));
     const double squared = dot(n, n);
-    if (squared > most && pass(n, squared)) {
-      most = squared;
+    if (squared > largest && pass(n, squared)) {
+      largest = squared;
       best = n;
       of = &t;
     }
   }
   if (of == nullptr) return {};
-  const Vec3d normal = best * (1 / std::sqrt(most));
+  const Vec3d normal = best * (1 / std::sqrt(largest));
   const double tilt = std::min(kMaxTilt, snap_angle_error(corners_of(part, *of), best));
   // Small parts have no such faces, and there are too many of them to test.
   if (part.vertices.size() < kManyVertices || tilt <= kSliverAngle) return normal;

@@ -89,14 +89,14 @@ std::vector<LongEdge> long_edges(const PairLocalPart& view) {
 const LongEdge* most_common(const std::vector<LongEdge>& edges, Vec3d LongEdge::* direction,
                             std::ptrdiff_t least) {
   const LongEdge* best = nullptr;
-  std::ptrdiff_t most = least;
+  std::ptrdiff_t largest = least;
   for (const LongEdge& edge : edges) {
     const auto alike = std::ranges::count_if(edges, [&](const LongEdge& other) {
       return in_one_direction(edge.*direction, other.*direction);
     });
-    if (alike < most || (alike == most && best != nullptr && edge.squared <= best->squared))
+    if (alike < largest || (alike == largest && best != nullptr && edge.squared <= best->squared))
       continue;
-    most = alike;
+    largest = alike;
     best = &edge;
   }
   return best;

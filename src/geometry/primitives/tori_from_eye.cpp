@@ -89,9 +89,9 @@ class TorusFromEye {
     const double middle = (before.angle + angle) / 2;
     const auto here = contour(angle), between = contour(middle);
     if (!here || !between) return false;
-    const double most = std::max(turn(*between, *here), turn(before.contour, *between));
-    if (most > kSteepest * (angle - middle)) return false;
-    if (most > step() / 4 && depth < kDeepest)
+    const double maximum = std::max(turn(*between, *here), turn(before.contour, *between));
+    if (maximum > kSteepest * (angle - middle)) return false;
+    if (maximum > step() / 4 && depth < kDeepest)
       return add_from_last(middle, depth + 1) && add_from_last(angle, depth + 1);
     sections_.push_back({angle, *here});
     return true;

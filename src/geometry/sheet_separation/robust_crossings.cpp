@@ -56,7 +56,7 @@ class Gatherer {
  private:
   bool walk() {
     const double reach = distance_ * distance_;
-    const std::uint64_t most =
+    const std::uint64_t limit =
         kMinSteps + kStepsPerTriangle * (a_.part().triangles.size() + b_.part().triangles.size());
     DistanceTraversal walk(a_, b_, work_, reach);
     walk.start(reach);
@@ -66,7 +66,7 @@ class Gatherer {
                  add(near);
                  return true;
                },
-               most) == TraversalEnd::done;
+               limit) == TraversalEnd::done;
   }
 
   void add(const NearTrianglePair& near) {
@@ -232,8 +232,8 @@ class Parting {
   /// Returns the displaced sheet if it crosses less, and reduces the segments to those left.
   std::optional<MovedSheet> run(IntersectionSegments& pieces) {
     if (!choose(pieces)) return std::nullopt;
-    const int most = pieces.truncated ? kMaxAttemptsIfHeavy : kMaxAttempts;
-    for (int attempt = 0; attempt < most; ++attempt) {
+    const int limit = pieces.truncated ? kMaxAttemptsIfHeavy : kMaxAttempts;
+    for (int attempt = 0; attempt < limit; ++attempt) {
       MovedSheet moved = moved_sheet();
       if (!fits_pair({&moved.part, placed_.origin}, mover_.other(treed_a_, treed_b_).placed))
         return std::nullopt;
@@ -428,7 +428,7 @@ class Parting {
 
 IntersectionSegments keep_robust_segments(const PartWithBvh& a, const PartWithBvh& b,
                                           IntersectionSegments pieces, double within,
-                                          std::size_t most, QueryContext& work) {
+                                          std::size_t limit, QueryContext& work) {
   if (!(within >= 1) || within > kLongestMove || pieces.all.empty()) return pieces;
   const auto moved_a = Parting(a, b, {.is_b = false}, within, work).run(pieces);
   // Of a heavy pair one view has to do.
@@ -437,18 +437,18 @@ IntersectionSegments keep_robust_segments(const PartWithBvh& a, const PartWithBv
         moved_a ? PartWithBvh{{&moved_a->part, a.placed.origin}, &moved_a->tree} : a;
     Parting(other, b, {.is_b = true}, within, work).run(pieces);
   }
-  if (pieces.all.size() > most) {
-    pieces.all.resize(most);
+  if (pieces.all.size() > limit) {
+    pieces.all.resize(limit);
     pieces.truncated = true;
   }
   return pieces;
 }
 
 SheetIntersection find_sheet_intersection(const PartWithBvh& a, const PartWithBvh& b, double within,
-                                          std::size_t most, QueryContext& work) {
+                                          std::size_t limit, QueryContext& work) {
   const PairLocalPart view_a(a, {}), view_b(b, b.placed.origin - a.placed.origin);
   const IntersectionSegments pieces =
-      keep_robust_segments(a, b, find_intersection_segments(a, b, most, work), within, most, work);
+      keep_robust_segments(a, b, find_intersection_segments(a, b, limit, work), within, limit, work);
   SheetIntersection curve{
       .segments = {}, .pieces = {}, .crosses = !pieces.all.empty(), .truncated = pieces.truncated};
   for (const IntersectionSegment& piece : pieces.all) {

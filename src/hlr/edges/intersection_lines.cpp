@@ -352,16 +352,16 @@ class IntersectionSearch {
     const auto order = parallel::longest_first(some.size(), [&](std::size_t k) {
       return a(some[k]).placed.part->triangles.size() + b(some[k]).placed.part->triangles.size();
     });
-    const std::uint64_t most = max_lines();
-    parallel::Allowance allowance(most);
+    const std::uint64_t limit = max_lines();
+    parallel::Allowance allowance(limit);
     return parallel::transform(
         context_, {.name = "intersections: lines", .n = some.size(), .order = order},
         [&](std::size_t k) -> Result<PairIntersection> {
           const std::size_t i = some[k];
           geometry::QueryContext work;
           auto lines =
-              part_intersection_lines_up_to(most, whole(a(i)), whole(b(i)), contact(i), work);
-          if (!lines || !allowance.take(lines->size())) return too_many(most);
+              part_intersection_lines_up_to(limit, whole(a(i)), whole(b(i)), contact(i), work);
+          if (!lines || !allowance.take(lines->size())) return too_many(limit);
           if (!is_joint(i)) return PairIntersection{std::move(*lines), work.triangle_pairs};
           auto edges =
               joint_lines(a(i).placed, b(i).placed, contact(i), rule_.cos_sharp, std::move(*lines));
@@ -370,9 +370,9 @@ class IntersectionSearch {
         });
   }
 
-  static Error too_many(std::uint64_t most) {
+  static Error too_many(std::uint64_t limit) {
     return {ErrorCode::input,
-            "parts cross each other along more than " + std::to_string(most) + " lines",
+            "parts cross each other along more than " + std::to_string(limit) + " lines",
             {},
             "draw fewer objects at a time, or leave these lines out (--intersections off)"};
   }

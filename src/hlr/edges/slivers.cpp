@@ -116,15 +116,15 @@ class Owners {
     std::vector<Owned> found;
     for (const std::uint32_t t : slivers) {
       Owned best{t, t, false};
-      double most = 0;
+      double largest = 0;
       each_beside(t, [&](std::uint32_t other, bool wound_differently) {
         const std::uint32_t owner = owners_.of[other];
         if (known_[other] == 0 || !is_near_plane(t, owner)) return;
         const bool turned = wound_differently != (owners_.turned[other] != 0);
         const double along = turned ? -cosine(t, owner) : cosine(t, owner);
-        if (best.owner != t && !(along > most)) return;
+        if (best.owner != t && !(along > largest)) return;
         best = {t, owner, turned};
-        most = along;
+        largest = along;
       });
       if (best.owner != t) found.push_back(best);
     }

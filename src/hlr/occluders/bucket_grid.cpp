@@ -230,10 +230,10 @@ BucketGrid::Cells BucketGrid::across(const SegmentQuery& s, bool steep, std::uin
   const double begin = i == 0 ? -kInfinity : along.lo + along.size * i;
   const double end = i + 1 == along.count ? kInfinity : along.lo + along.size * (i + 1);
   const double least = std::max(begin, steep ? s.v0 : s.u0);
-  const double most = std::min(end, steep ? s.v1 : s.u1);
-  const double p = at + (least - from) * slope, q = at + (most - from) * slope;
+  const double largest = std::min(end, steep ? s.v1 : s.u1);
+  const double p = at + (least - from) * slope, q = at + (largest - from) * slope;
   // The bound of rounding of the bucket's sides and of the line; |slope| <= 1.
-  const double slack = 1e-12 * (std::abs(at) + std::abs(from) + std::abs(least) + std::abs(most) +
+  const double slack = 1e-12 * (std::abs(at) + std::abs(from) + std::abs(least) + std::abs(largest) +
                                 std::abs(along.lo) + std::abs(along.hi)) +
                        s.beside / std::abs(step);
   return {to_side.cell(std::max(lo, std::min(p, q) - slack)),

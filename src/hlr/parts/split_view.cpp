@@ -173,9 +173,9 @@ class ViewSplitter {
   [[nodiscard]] std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> halves(
       const std::vector<std::uint32_t>& to_solve) const {
     const auto spread = [&](auto along) {
-      const auto [least, most] = std::ranges::minmax_element(
+      const auto [least, largest] = std::ranges::minmax_element(
           to_solve, {}, [&](std::uint32_t o) { return places_[o].*along; });
-      return places_[*most].*along - places_[*least].*along;
+      return places_[*largest].*along - places_[*least].*along;
     };
     const auto along =
         spread(&PaperReach::u) >= spread(&PaperReach::v) ? &PaperReach::u : &PaperReach::v;

@@ -206,13 +206,13 @@ Status widen_contact(ViewJob& job, const parallel::Context& context) {
   const auto largest = parallel::reduce(
       context, {.name = "view: contacts", .n = job.contact.size(), .grain = kBodiesPerBlock},
       std::int64_t{0},
-      [&](std::int64_t& most, std::size_t index) {
+      [&](std::int64_t& largest_contact, std::size_t index) {
         const auto b = static_cast<std::uint32_t>(index);
         if (!job.drawn[model::index(job.scene->bodies[b].object)]) return;
         job.contact[b] = std::max(job.contact[b], job.sectioned_shape_of(b).within);
-        most = std::max(most, job.contact[b]);
+        largest_contact = std::max(largest_contact, job.contact[b]);
       },
-      [](std::int64_t& into, std::int64_t most) { into = std::max(into, most); });
+      [](std::int64_t& into, std::int64_t largest_contact) { into = std::max(into, largest_contact); });
   if (!largest) return largest.error();
   job.contact_distance_mm = static_cast<double>(*largest) * geometry::kMmPerGrid;
   return {};

@@ -60,9 +60,9 @@ Int128 LineMeasure::room(std::int64_t distance) const {
 }
 
 bool LineMeasure::passes(const Vec3l& point, std::int64_t distance) const {
-  const Int128 most = room(distance);
+  const Int128 largest = room(distance);
   return std::ranges::all_of(geometry::wide_cross(line[1] - line[0], point - line[0]),
-                             [&](Int128 k) { return magnitude(k) <= most; });
+                             [&](Int128 k) { return magnitude(k) <= largest; });
 }
 
 Segment edge_line(const geometry::PlacedPart& placed, std::uint32_t edge) {

@@ -86,10 +86,10 @@ bool PerspectiveSegment::is_steep() const {
 SegmentQuery PerspectiveSegment::make_query(double from, double to) const {
   SegmentQuery s{.au = a_.u, .av = a_.v, .du = b_.u - a_.u, .dv = b_.v - a_.v};
   const double p = fraction(from), q = fraction(to);
-  const auto range = [&](double start, double step, double& least, double& most) {
+  const auto range = [&](double start, double step, double& least, double& largest) {
     const double slack = error_bound_ + 1e-12 * (std::fabs(start) + std::fabs(step));
     least = start + std::min(step * p, step * q) - slack;
-    most = start + std::max(step * p, step * q) + slack;
+    largest = start + std::max(step * p, step * q) + slack;
   };
   double w1 = 0;
   range(a_.u, s.du, s.u0, s.u1);

@@ -72,11 +72,11 @@ SegmentQuery rotated_query(const ViewPoint& a, const ViewPoint& b, const OpenRan
   s.av = c * av - k * au;
   s.du = exact ? du : 0;
   s.dv = exact ? dv : 0;
-  const auto range = [&](double from, double step, double size, double& least, double& most) {
+  const auto range = [&](double from, double step, double size, double& least, double& largest) {
     const double p = from + step * open.lo().value, q = from + step * open.hi().value;
     const double slack = kRoundingOfPoint * size;
     least = std::min(p, q) - slack;
-    most = std::max(p, q) + slack;
+    largest = std::max(p, q) + slack;
   };
   const auto size = [&](double x, double y) { return std::abs(c * x) + std::abs(k * y); };
   double w1 = 0;

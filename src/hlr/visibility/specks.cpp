@@ -64,7 +64,7 @@ class Absorber {
     const bool is_short = rule_.within(spans_[first].a, spans_[last - 1].b, longest_);
     const bool lonely = (before == nullptr || before->stays) && (after == nullptr || after->stays);
     const bool at_end = before != nullptr || after != nullptr;
-    const std::uint8_t kind = is_short && !lonely ? kind_beside(before, after) : most(first, last);
+    const std::uint8_t kind = is_short && !lonely ? kind_beside(before, after) : largest(first, last);
     for (std::size_t i = first; i < last; ++i) {
       spans_[i].kind = kind;
       spans_[i].stays = is_short && lonely && at_end;
@@ -80,7 +80,7 @@ class Absorber {
     return x > y ? before->kind : after->kind;
   }
 
-  [[nodiscard]] std::uint8_t most(std::size_t first, std::size_t last) const {
+  [[nodiscard]] std::uint8_t largest(std::size_t first, std::size_t last) const {
     std::array<double, 2> length{};
     for (std::size_t i = first; i < last; ++i)
       length[spans_[i].kind] += rule_.length(spans_[i].a, spans_[i].b);

@@ -304,14 +304,14 @@ Status Importer::adopt_features() {
     shapes_[mesh].features = std::move(features.rows);
   }
   std::uint64_t copied = 0;
-  const std::uint64_t most = 16 * (input_.file.bytes.size() + buffers_.total_bytes()) + (1U << 28U);
+  const std::uint64_t maximum = 16 * (input_.file.bytes.size() + buffers_.total_bytes()) + (1U << 28U);
   for (const VisitedNode& visit : visits_) {
     if (!nodes_.has_mesh(visit.node)) continue;
     const GltfNode& node = nodes_[visit.node];
     if (*node.mesh >= meshes_.size()) continue;
     const std::uint64_t times = node.instancing().exists() ? stated_instances(node, accessors_) : 1;
     copied += times * bytes_of_mesh[*node.mesh];
-    if (copied > most)
+    if (copied > maximum)
       return refusal(
           "repeats the attributes of its meshes so often that they would not fit into the "
           "memory");

@@ -52,11 +52,11 @@ using ColorTally = std::map<std::array<std::uint8_t, 4>, std::size_t>;
 
 model::Color main_color(const ColorTally& tally) {
   model::Color color;
-  std::size_t most = 0;
+  std::size_t largest = 0;
   for (const auto& [key, count] : tally)
-    if (count > most) {
+    if (count > largest) {
       color = {key[0], key[1], key[2], key[3]};
-      most = count;
+      largest = count;
     }
   return color;
 }

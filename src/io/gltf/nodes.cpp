@@ -220,11 +220,11 @@ Status NodeTable::clear(const parallel::Context& context) {
 }
 
 std::uint64_t stated_instances(const GltfNode& node, const Accessors& accessors) {
-  std::uint64_t most = 0;
+  std::uint64_t maximum = 0;
   const JsonDocument instancing = node.instancing().parse();
   for (const JsonValue& attribute : instancing.root()["attributes"].items())
-    most = std::max(most, accessors.stated_count(attribute.index().value_or(UINT64_MAX)));
-  return most;
+    maximum = std::max(maximum, accessors.stated_count(attribute.index().value_or(UINT64_MAX)));
+  return maximum;
 }
 
 namespace {

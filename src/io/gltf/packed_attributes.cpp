@@ -154,10 +154,10 @@ bool unpack_attributes_version_1(std::span<const std::byte> packed, std::size_t 
   std::memcpy(last.data(), packed.data() + packed.size() - tail, stride);
   const std::span<const std::byte> kinds = packed.last(channels);
   PackedBytes source(packed.subspan(1, packed.size() - 1 - std::max(tail, kMinTail)));
-  const std::size_t elements = out.size() / stride, most = block_elements(stride);
+  const std::size_t elements = out.size() / stride, largest = block_elements(stride);
   std::array<ByteLane, kChannelBytes> lanes{};
-  for (std::size_t first = 0; first < elements; first += most) {
-    const std::size_t count = std::min(most, elements - first);
+  for (std::size_t first = 0; first < elements; first += largest) {
+    const std::size_t count = std::min(largest, elements - first);
     const std::span<const std::byte> controls = source.take(channels);
     for (std::size_t c = 0; c < channels && !source.failed(); ++c) {
       const auto control = std::to_integer<unsigned>(controls[c]);

@@ -71,7 +71,7 @@ PackedView packed_view_of(const JsonValue& extensions) {
   return packed;
 }
 
-Unpacked unpack(const PackedView& view, std::span<const std::byte> packed, std::uint64_t most) {
+Unpacked unpack(const PackedView& view, std::span<const std::byte> packed, std::uint64_t limit) {
   const PackedMode mode = mode_of(view.mode);
   const std::uint64_t stride = view.stride.value_or(0), count = view.count.value_or(UINT64_MAX);
   if (!is_sound(mode, stride, count) || !is_sound_filter(view.filter, stride))
@@ -80,7 +80,7 @@ Unpacked unpack(const PackedView& view, std::span<const std::byte> packed, std::
   constexpr std::uint64_t kFree = 8192;  // a block that is begun
   const bool version_1 = mode == PackedMode::attributes && is_attributes_version_1(packed);
   const std::uint64_t room =
-      std::min(largest_ratio(mode, stride, version_1) * packed.size() + kFree, most);
+      std::min(largest_ratio(mode, stride, version_1) * packed.size() + kFree, limit);
   if (count > room / stride)
     return {
         {},

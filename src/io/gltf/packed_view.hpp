@@ -30,8 +30,8 @@ struct Unpacked {
 };
 
 /// Unpacks the bytes of a view. What few bytes cannot hold is refused before memory is requested;
-/// `most` bounds it as well.
+/// `limit` bounds it as well.
 [[nodiscard]] Unpacked unpack(const PackedView& view, std::span<const std::byte> packed,
-                              std::uint64_t most);
+                              std::uint64_t limit);
 
 }  // namespace strake::io::gltf

@@ -12,11 +12,11 @@ namespace {
 constexpr std::string_view kOdd = "import-report", kOther = "import-other";
 
 /// Returns a text as messages show it: one line of valid characters, cut where it is very long.
-std::string short_text(const gltf::JsonValue& value, std::size_t most) {
+std::string short_text(const gltf::JsonValue& value, std::size_t limit) {
   if (!value.is_string()) return {};
   std::string text = printable(value.text_value());
-  if (text.size() <= most) return text;
-  std::size_t kept = most;
+  if (text.size() <= limit) return text;
+  std::size_t kept = limit;
   while (kept > 0 && (static_cast<unsigned char>(text[kept]) & 0xC0U) == 0x80U) --kept;
   return text.substr(0, kept) + "...";
 }

@@ -30,17 +30,17 @@ std::pair<double, double> range(double a, double b, double c) {
   return {std::min(std::min(a, b), c), std::max(std::max(a, b), c)};
 }
 
-/// Returns a number cut to 0 to `most`.
-double within(double value, std::uint32_t most) {
-  return std::clamp(value, 0.0, static_cast<double>(most));
+/// Returns a number cut to 0 to `limit`.
+double within(double value, std::uint32_t limit) {
+  return std::clamp(value, 0.0, static_cast<double>(limit));
 }
 
 /// Returns the first and the end of the cells whose middles lie in a range.
-std::array<std::uint32_t, 2> cells(double least, double most, std::uint32_t count) {
+std::array<std::uint32_t, 2> cells(double least, double limit, std::uint32_t count) {
   // Conversion cuts the fraction off, and costs less than rounding does.
   const double from = within(least - 0.5, count);
   const auto first = static_cast<std::uint32_t>(from);
-  return {first < from ? first + 1 : first, static_cast<std::uint32_t>(within(most + 0.5, count))};
+  return {first < from ? first + 1 : first, static_cast<std::uint32_t>(within(limit + 0.5, count))};
 }
 
 /// The share of the corner opposite to the edge from a to b.

@@ -130,12 +130,12 @@ Result<DecideOutcome> decide_if_unchanged(Database& database, std::span<const st
 }
 
 Result<std::vector<std::int64_t>> changed_since(Database& database, std::int64_t event,
-                                                std::size_t most) {
+                                                std::size_t limit) {
   Result<Statement> select =
       database.prepare("SELECT DISTINCT clash FROM event WHERE id > ?1 ORDER BY clash LIMIT ?2");
   if (!select) return select.error();
   select->bind(1, event);
-  select->bind(2, static_cast<std::int64_t>(most));
+  select->bind(2, static_cast<std::int64_t>(limit));
   std::vector<std::int64_t> clashes;
   for (;;) {
     const Result<bool> there = select->step();

@@ -44,8 +44,8 @@ struct DecideOutcome {
                                                      const KnownState& known);
 
 /// Returns the rows of the clashes of which a status or comment changed after an event, the first
-/// `most` of them in the order of their ids.
+/// `limit` of them in the order of their ids.
 [[nodiscard]] Result<std::vector<std::int64_t>> changed_since(Database& database,
-                                                              std::int64_t event, std::size_t most);
+                                                              std::int64_t event, std::size_t limit);
 
 }  // namespace strake::project

@@ -132,8 +132,8 @@ std::array<ClassRows, 3> shares(const ShownTest& test, std::size_t rows) {
     c.listed = listed(test, c.cls);
     c.count -= test.decisions.count_settled([&](const DecidedResult& r) { return r.cls == c.cls; });
   }
-  const auto give = [&](ClassRows& c, std::size_t most) {
-    const std::size_t given = std::min({most, rows, c.listed - c.rows});
+  const auto give = [&](ClassRows& c, std::size_t limit) {
+    const std::size_t given = std::min({limit, rows, c.listed - c.rows});
     c.rows += given;
     rows -= given;
   };

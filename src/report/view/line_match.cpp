@@ -163,8 +163,8 @@ using geometry::Box3l;
 constexpr std::uint64_t kMaxPairs = std::uint64_t{1} << 28U;
 
 auto key(const ClassedPiece& p) {
-  const auto& [least, most] = std::minmax(p.piece->a, p.piece->b);
-  return std::tuple(Vec3l(least), Vec3l(most), p.cls);
+  const auto& [least, largest] = std::minmax(p.piece->a, p.piece->b);
+  return std::tuple(Vec3l(least), Vec3l(largest), p.cls);
 }
 
 Box3l box_of(const ViewPiece& piece, std::int64_t margin) {

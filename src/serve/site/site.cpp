@@ -105,8 +105,8 @@ Status Site::prepare() {
     const Result<project::KnownState> now = project::current_state(contents_.database);
     if (!now) return now.error();
     // The page requests what people decided since.
-    const auto most = static_cast<std::int64_t>(kMaxChanges);
-    if (now->run == page_.known.run && now->event - page_.known.event < most) return {};
+    const auto largest = static_cast<std::int64_t>(kMaxChanges);
+    if (now->run == page_.known.run && now->event - page_.known.event < largest) return {};
   }
   Result<ServedPage> made = contents_.make_page();
   if (!made) return made.error();

@@ -235,18 +235,18 @@ class Arranger {
                                                Complete&& complete) const {
     const Grid grid(views, projection_, pictorial, scale);
     std::optional<Arranged> best;
-    std::pair most{-1.0, 0.0};
+    std::pair maximum{-1.0, 0.0};
     for (const PaperBox& box : boxes_) {
       if (!grid.fits(box, gap_)) continue;
       for (const Spread& spread : spreads_) {
         const Spread added = grid.added(box, gap_, spread);
         const std::pair gaps{std::min(added.columns, added.rows), added.columns + added.rows};
-        if (gaps <= most) continue;
+        if (gaps <= maximum) continue;
         const Arranged placed{scale, true, grid.spread(box, gap_, spread)};
         if (!lie_free(views, placed)) continue;
         std::optional<Arranged> whole = complete(placed);
         if (!whole || !lie_free(views_, *whole)) continue;
-        most = gaps;
+        maximum = gaps;
         best = std::move(whole);
       }
     }
@@ -566,11 +566,11 @@ std::optional<double> main_scale(const SheetSpec& what, std::span<const ViewPlac
     if (what.views[v].slot != ViewSlot::none) return places[v].scale;
     if (!what.views[v].view.perspective) ++views[places[v].scale];
   }
-  std::optional<double> most;
+  std::optional<double> maximum;
   for (std::size_t v = 0; v < places.size(); ++v)
-    if (!what.views[v].view.perspective && (!most || views[places[v].scale] > views[*most]))
-      most = places[v].scale;
-  return most;
+    if (!what.views[v].view.perspective && (!maximum || views[places[v].scale] > views[*maximum]))
+      maximum = places[v].scale;
+  return maximum;
 }
 
 }  // namespace strake::sheets

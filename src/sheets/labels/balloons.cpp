@@ -36,8 +36,8 @@ double letters_in(double diameter_mm, std::size_t rows) {
   double widest = 0;
   for (std::size_t row = 1; row <= rows; ++row)
     widest = std::max(widest, text_width(std::to_string(row)));
-  const double most = (diameter_mm - 2 * kRimMm) / std::sqrt(widest * widest + 1);
-  return drawing::rounded_paper(std::min(kUsual * diameter_mm, most));
+  const double largest = (diameter_mm - 2 * kRimMm) / std::sqrt(widest * widest + 1);
+  return drawing::rounded_paper(std::min(kUsual * diameter_mm, largest));
 }
 
 }  // namespace

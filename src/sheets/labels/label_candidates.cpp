@@ -48,9 +48,9 @@ LabelCandidates::LabelCandidates(std::span<const LabelRequest> requests, const L
 /// upper and right ones.
 std::vector<LabelCandidates::Offset> LabelCandidates::lattice(double min_mm, bool for_leader) {
   std::vector<Offset> all;
-  const int most = static_cast<int>(kLabelReachMm / kLatticeMm);
-  for (int row = -most; row <= most; ++row)
-    for (int column = -most; column <= most; ++column) {
+  const int limit = static_cast<int>(kLabelReachMm / kLatticeMm);
+  for (int row = -limit; row <= limit; ++row)
+    for (int column = -limit; column <= limit; ++column) {
       const PaperPoint by{column * kLatticeMm, row * kLatticeMm};
       const double length = std::sqrt(by.x * by.x + by.y * by.y);
       if (length >= min_mm && length <= kLabelReachMm && (!for_leader || suits_leader(by)))

@@ -17,10 +17,10 @@ namespace strake::sheets {
 /// about a step of a leader over a square.
 struct WorkLimit {
   std::uint64_t done = 0;
-  std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t limit = std::numeric_limits<std::uint64_t>::max();
 
   void spend(std::uint64_t units) { done += units; }
-  [[nodiscard]] bool used_up() const { return done >= most; }
+  [[nodiscard]] bool used_up() const { return done >= limit; }
 };
 
 /// The candidates of labels: places on a lattice about their anchors which cover nothing of the

@@ -74,7 +74,7 @@ class LabelPlacer {
   /// Returns whether there is any.
   bool take_share(std::uint64_t end, std::size_t parts) {
     if (stop_.stop_requested() || work_.done >= end) return false;
-    work_.most = work_.done + (end - work_.done + parts - 1) / parts;
+    work_.limit = work_.done + (end - work_.done + parts - 1) / parts;
     return true;
   }
 
@@ -84,9 +84,9 @@ class LabelPlacer {
     if (place) placed_.add(label, *places_[label]);
   }
 
-  void find_conflicts(const LabelPlace& place, const PlacedLabels::QueryLimit& most,
+  void find_conflicts(const LabelPlace& place, const PlacedLabels::QueryLimit& limit,
                       Conflicts& found) {
-    placed_.find_conflicts(place, most, found);
+    placed_.find_conflicts(place, limit, found);
     work_.spend(kCompareWork * found.visited);
   }
 

@@ -104,7 +104,7 @@ void PlacedLabels::remove(Label label) {
   places_[label].number = 0;
 }
 
-void PlacedLabels::find_conflicts(const LabelPlace& place, const QueryLimit& most,
+void PlacedLabels::find_conflicts(const LabelPlace& place, const QueryLimit& limit,
                                   Conflicts& found) {
   found.blockers.clear();
   found.crossed.clear();
@@ -117,7 +117,7 @@ void PlacedLabels::find_conflicts(const LabelPlace& place, const QueryLimit& mos
       if (last_query_[label] == query_) continue;
       last_query_[label] = query_;
       compare(place, label, found);
-      if (found.blockers.size() > most.blockers || found.crossed.size() > most.crossed)
+      if (found.blockers.size() > limit.blockers || found.crossed.size() > limit.crossed)
         return false;
     }
     return true;

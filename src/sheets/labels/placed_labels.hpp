@@ -59,8 +59,8 @@ class PlacedLabels {
     std::size_t blockers, crossed;
   };
   /// Sets `found` to the conflicts of a place, both lists in ascending order. Looks no further once
-  /// there are more than `most` of either; the lists are then not all.
-  void find_conflicts(const LabelPlace& place, const QueryLimit& most, Conflicts& found);
+  /// there are more than `limit` of either; the lists are then not all.
+  void find_conflicts(const LabelPlace& place, const QueryLimit& limit, Conflicts& found);
 
  private:
   template <class Visit>

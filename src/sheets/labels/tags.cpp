@@ -19,14 +19,14 @@ constexpr std::array<std::string_view, 5> kNames{"name", "id", "path", "file", "
 
 /// Returns of objects with equal texts the one that shows most, in the order of the model.
 std::vector<TaggedObject> each_text_once(const std::vector<TaggedObject>& all) {
-  std::map<std::string_view, const TaggedObject*> most;
+  std::map<std::string_view, const TaggedObject*> largest;
   for (const TaggedObject& tagged : all) {
-    const TaggedObject*& best = most[tagged.text];
+    const TaggedObject*& best = largest[tagged.text];
     if (best == nullptr || tagged.visible.length > best->visible.length) best = &tagged;
   }
   std::vector<TaggedObject> once;
   for (const TaggedObject& tagged : all)
-    if (most[tagged.text] == &tagged) once.push_back(tagged);
+    if (largest[tagged.text] == &tagged) once.push_back(tagged);
   return once;
 }
 

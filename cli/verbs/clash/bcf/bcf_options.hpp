@@ -18,7 +18,7 @@ class ProjectClashes;
 
 /// What is said of BCF on the command line, as written.
 struct BcfInput {
-  std::string version, most, date, author;
+  std::string version, max_topics, date, author;
   bool contacts = false, history = false;
 };
 

@@ -16,7 +16,7 @@ namespace strake::cli {
 
 /// As written.
 struct PictureInput {
-  std::string folder, most, format;
+  std::string folder, max_pictures, format;
 };
 
 void add_picture_options(CLI::App& command, PictureInput& options);

@@ -235,16 +235,16 @@ class LevelSearch {
   [[nodiscard]] std::optional<HalfSpace> plane_to_cut_along(const OffsetCell& cell) const {
     const double clear = slack_ + flat_;
     std::optional<HalfSpace> best;
-    double most = 0;
+    double largest = 0;
     if (crossing_.size() <= kMaxCrossing)
       for (const Corners& c : crossing_) {
         const Vec3d n = normal_of(c);
         const double area = length(n);
-        if (!(area > most)) continue;
+        if (!(area > largest)) continue;
         const double top = std::max({dot(n, c[0]), dot(n, c[1]), dot(n, c[2])}) / area;
         const HalfSpace plane{n * (1 / area), top + clear};
         if (!goes_through(cell, plane)) continue;
-        most = area;
+        largest = area;
         best = plane;
       }
     if (best) return best;

@@ -141,12 +141,12 @@ class CurveSearch {
   /// The distance to a segment is convex: along another it is greatest at one of the ends.
   static double farther_end(const std::array<Vec3d, 2>& end, const Vec3d& shift,
                             const SegmentBvh::Segment& rim) {
-    double most = 0;
+    double largest = 0;
     for (const Vec3d& p : end) {
       const Vec3d q = p - shift;
-      most = std::max(most, length(q - nearest_on_segment(q, rim[0], rim[1])));
+      largest = std::max(largest, length(q - nearest_on_segment(q, rim[0], rim[1])));
     }
-    return most;
+    return largest;
   }
 
   const SegmentBvh &boundary_a_, &boundary_b_;

@@ -193,11 +193,11 @@ class SimplexDepthSearch {
 
   void halve(const OpenSimplex& piece) {
     std::size_t longest = 0;
-    double most = -1;
+    double largest = -1;
     for (std::size_t i = 0; i < N; ++i) {
       const double d = length(piece.corners[(i + 1) % N] - piece.corners[i]);
-      if (d > most) {
-        most = d;
+      if (d > largest) {
+        largest = d;
         longest = i;
       }
     }
@@ -246,12 +246,12 @@ class SimplexDepthSearch {
   /// its surface.
   [[nodiscard]] double by_face(const Shape& c, std::uint32_t triangle) const {
     const Corners face = corners_of(solid_.part(), triangle);
-    double most = 0;
+    double largest = 0;
     for (const Vec3d& v : c) {
       const Vec3d p = solid_.local(v);
-      most = std::max(most, length(p - nearest_on_triangle(p, face)));
+      largest = std::max(largest, length(p - nearest_on_triangle(p, face)));
     }
-    return most;
+    return largest;
   }
 
   std::span<const Shape> pieces_;

@@ -25,7 +25,7 @@ struct SweptArc {
 /// split into arcs, whose convex hulls have supports, and its distances to points are closed forms.
 class Torus {
  public:
-  /// Returns a placed torus. Returns a placed torus. Nothing for other kinds, for tubes that reach
+  /// Returns a placed torus. Nothing for other kinds, for tubes that reach
   /// beyond the axis, for lengths that make no body, and for placements that are no similarity to
   /// within kMaxOrthonormalError.
   [[nodiscard]] static std::optional<Torus> of(const PlacedPrimitive& p, const Vec3l& origin);

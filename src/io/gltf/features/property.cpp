@@ -210,13 +210,13 @@ std::uint64_t Property::text_bytes(std::uint64_t row) const {
   constexpr std::uint64_t kNumber = 32;
   const std::optional<Range> range = elements(row);
   if (!range) return 0;
-  std::uint64_t most = (range->end - range->begin) * width * kNumber;
+  std::uint64_t largest = (range->end - range->begin) * width * kNumber;
   if (kind == Kind::text && !array) {
     const auto begin = entry(string_offsets, string_offset_bytes, row),
                end = entry(string_offsets, string_offset_bytes, row + 1);
-    most = begin && end && *begin <= *end ? *end - *begin : 0;
+    largest = begin && end && *begin <= *end ? *end - *begin : 0;
   }
-  return array ? 2 * kMaxPropertyBytes : std::min<std::uint64_t>(most, kMaxPropertyBytes);
+  return array ? 2 * kMaxPropertyBytes : std::min<std::uint64_t>(largest, kMaxPropertyBytes);
 }
 
 std::optional<Property> read_property(Schema& schema, const std::string& class_name,

@@ -114,12 +114,12 @@ class NeutralImporter {
 
 /// Few bytes of JSON could have shapes that name the same numbers again and again.
 Status NeutralImporter::check_amount(std::span<const std::uint32_t> shown) const {
-  const std::uint64_t most =
+  const std::uint64_t largest =
       64 * (input_.file.bytes.size() + input_.buffers.total_bytes()) + (1U << 20U);
   std::uint64_t numbers = 0;
   for (const std::uint32_t mesh : shown) {
-    numbers += std::min(stated_numbers(input_.accessors, input_.meshes[mesh]), most);
-    if (numbers > most)
+    numbers += std::min(stated_numbers(input_.accessors, input_.meshes[mesh]), largest);
+    if (numbers > largest)
       return Error{ErrorCode::input,
                    "refers to the same vertices so often that they would not fit into the memory",
                    input_.file.path.string(), "export the model again"};

@@ -66,9 +66,9 @@ class OutlineReader {
       return std::hypot(p.x - 2 * q.x + r.x, p.y - 2 * q.y + r.y);
     };
     constexpr double kWithinMm = 0.01;
-    const double most = std::max(bend(a, b, c), bend(b, c, d));
+    const double largest = std::max(bend(a, b, c), bend(b, c, d));
     const int chords =
-        static_cast<int>(std::clamp(std::ceil(std::sqrt(0.75 * most / kWithinMm)), 1.0, 1000.0));
+        static_cast<int>(std::clamp(std::ceil(std::sqrt(0.75 * largest / kWithinMm)), 1.0, 1000.0));
     for (int i = 1; i < chords; ++i) {
       const double t = static_cast<double>(i) / chords, s = 1 - t;
       const std::array weights{s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
