@@ -106,7 +106,7 @@ def small_tiles(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[int]]:
 
 
 @pytest.mark.parametrize(("words", "arguments"), CLASH_RUNS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
-@pytest.mark.parametrize("most_bytes", [25_000, 80_000])
+@pytest.mark.parametrize("max_bytes", [25_000, 80_000])
 def test_same_bytes(
     tmp_path: Path,
     ship: strake.Model,
@@ -424,7 +424,7 @@ WRONG_WORDS = [
 ]
 
 
-@pytest.mark.parametrize(("verb", "words", "told"), WRONG_WORDS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
+@pytest.mark.parametrize(("verb", "words", "reported"), WRONG_WORDS, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
 def test_the_program_reports_its_own_words(
     tmp_path: Path, through_python: None, ship_file: Path, verb: str, words: list[str], reported: str
 ) -> None:

@@ -60,7 +60,7 @@ ClashViewpoint viewpoint_of(const PicturedClash& clash, const Subject& subject) 
   return choose_viewpoint(clash.scenery(), subject, {}, {}).value();
 }
 
-constexpr double kSeen = 0.03;
+constexpr double kVisibleShare = 0.03;
 
 TEST(Viewpoint, FramesAClashThatNothingHides) {
   const PicturedClash clash(bars());
@@ -77,8 +77,8 @@ TEST(Viewpoint, FramesAClashThatNothingHides) {
   EXPECT_NEAR(std::tan(viewpoint.field_of_view_deg / 360 * std::acos(-1.0)) * distance,
               viewpoint.half_height_mm, 1e-6);
   const RayShares rays = ray_shares(clash, subject, viewpoint);
-  EXPECT_GT(rays.a, kSeen);
-  EXPECT_GT(rays.b, kSeen);
+  EXPECT_GT(rays.a, kVisibleShare);
+  EXPECT_GT(rays.b, kVisibleShare);
 }
 
 TEST(Viewpoint, LooksThroughTheOpenSideOfARoom) {
@@ -92,7 +92,7 @@ TEST(Viewpoint, LooksThroughTheOpenSideOfARoom) {
       EXPECT_TRUE(viewpoint.clipping_planes.empty()) << axis << ' ' << side;
       EXPECT_GT(-viewpoint.direction[axis] * side, 0.5) << axis << ' ' << side;
       const RayShares rays = ray_shares(clash, subject, viewpoint);
-      EXPECT_GT(std::min(rays.a, rays.b), kSeen) << axis << ' ' << side;
+      EXPECT_GT(std::min(rays.a, rays.b), kVisibleShare) << axis << ' ' << side;
     }
 }
 
@@ -105,7 +105,7 @@ TEST(Viewpoint, CutsAClosedRoomOpenAndReportsIt) {
   ASSERT_EQ(viewpoint.clipping_planes.size(), 1U);
   EXPECT_GT(dot(viewpoint.clipping_planes[0].normal, -viewpoint.direction), 0.999);
   const RayShares rays = ray_shares(clash, subject, viewpoint);
-  EXPECT_GT(std::min(rays.a, rays.b), kSeen);
+  EXPECT_GT(std::min(rays.a, rays.b), kVisibleShare);
 }
 
 TEST(Viewpoint, CutsWhatHoldsTheOther) {
@@ -135,7 +135,7 @@ TEST(Viewpoint, FindsAWayThroughACrowd) {
     const PicturedClash clash(std::move(m));
     const Subject subject = clash.subject("bar a", "bar b");
     const RayShares rays = ray_shares(clash, subject, viewpoint_of(clash, subject));
-    EXPECT_GT(std::min(rays.a, rays.b), kSeen);
+    EXPECT_GT(std::min(rays.a, rays.b), kVisibleShare);
   }
 }
 

@@ -30,7 +30,7 @@ export function printSheet(report: Report, listed: Listed, chosen: HTMLElement |
   );
 }
 
-function told(listed: number, all: number, what: string): HTMLElement {
+function countLine(listed: number, all: number, what: string): HTMLElement {
   return h('p', {}, `${count(listed)} of ${plural(all, what)} ${listed === 1 ? 'is' : 'are'} in the list${listed > MAX_ROWS ? `; the first ${count(MAX_ROWS)} are printed` : ''}.`);
 }
 
@@ -47,7 +47,7 @@ function resultTable(report: Report, rows: Uint32Array): HTMLElement[] {
   const objects = report.objects!;
   const status = !!results.status;
   return [
-    told(rows.length, results.count, 'result'),
+    countLine(rows.length, results.count, 'result'),
     table(['Class', '>d mm', 'Object A', 'Object B', '>x mm', '>y mm', '>z mm', ...(status ? ['Status'] : [])], Array.from(rows.subarray(0, MAX_ROWS), (r) => {
       const s = results.status?.[r] ?? NONE8;
       return h('tr', {},
@@ -62,7 +62,7 @@ function resultTable(report: Report, rows: Uint32Array): HTMLElement[] {
 function groupTable(report: Report, { list, counts }: { list: Uint32Array; counts: GroupCounts }): HTMLElement[] {
   const groups = report.groups!;
   return [
-    told(list.length, groups.count, 'group'),
+    countLine(list.length, groups.count, 'group'),
     table(['Worst', '>d mm', 'Group', '>Results', '>Hits', '>Too close', '>Contacts'], Array.from(list.subarray(0, MAX_ROWS), (g) =>
       h('tr', {},
         h('td', {}, CLASS_WORDS[counts.class[g]!]!), right(length(counts.d[g]!)), h('td', {}, shown(groups.name.at(g)).slice(0, 200)),
