@@ -73,7 +73,7 @@ LowerDimensionalSeparation meeting(const DeepestOfSimplices& deepest,
       primitive_pairs::nominal_separation(s.lower, s.upper, primitive_pairs::kTorusDepthTolerance);
   s.inside = true;
   s.on_body = deepest.point;
-  const Vec3d out = primitive.torus ? primitive.torus->way_out(deepest.point)
+  const Vec3d out = primitive.torus ? primitive.torus->exit_direction(deepest.point)
                                     : primitive.field->nearest(deepest.point).normal;
   s.on_other = deepest.point - out * s.d;
   return s;

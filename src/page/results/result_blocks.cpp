@@ -27,11 +27,11 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 constexpr std::uint8_t kNoDecision = 255, kNoClass = 255;
 
 /// How a result states where it is measured.
-enum class Witness : std::uint8_t { points, way_out, none };
+enum class Witness : std::uint8_t { points, exit_direction, none };
 
 Witness witness_of(const Pair& pair) {
   if (pair.d_mm >= 0) return Witness::points;
-  return pair.away == geometry::Vec3d{} ? Witness::none : Witness::way_out;
+  return pair.away == geometry::Vec3d{} ? Witness::none : Witness::exit_direction;
 }
 
 /// The first point of a witness, and the second one or the direction.
@@ -39,7 +39,7 @@ std::array<geometry::Vec3d, 2> witness_vectors(const Pair& pair) {
   switch (witness_of(pair)) {
     case Witness::points:
       return {pair.on_a_mm, pair.on_b_mm};
-    case Witness::way_out:
+    case Witness::exit_direction:
       return {pair.surface_mm(), pair.away};
     case Witness::none:
       break;

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "pictures/viewpoint/sight_buffer.hpp"
+#include "pictures/viewpoint/visibility_buffer.hpp"
 #include "strake/parallel/transform.hpp"
 
 namespace strake::pictures {
@@ -55,7 +55,7 @@ ViewCandidate candidate_of(const Vec3d& viewer, double share) {
 
 /// A direction and what it shows of the two where nothing else stands before them.
 struct ScoreBound {
-  SightBuffer sight;
+  VisibilityBuffer sight;
   ViewCandidate alone;
 };
 
@@ -83,7 +83,7 @@ std::vector<Vec3d> candidate_directions(const Vec3d& away) {
 
 double visible_share(const NearTriangles& triangles, const Vec3d& viewer, const Sight& sight) {
   const Window window = window_of(viewer, sight);
-  SightBuffer buffer(window, triangles);
+  VisibilityBuffer buffer(window, triangles);
   buffer.cover(window, triangles);
   return visibility(buffer.shares());
 }
@@ -115,7 +115,7 @@ Result<BestCandidates> find_best(const NearTriangles& triangles, std::span<const
                                  const Sight& sight, const parallel::Context& context) {
   Result<std::vector<ScoreBound>> bounds = parallel::transform(
       context, {.name = "viewpoints", .n = directions.size()}, [&](std::size_t i) {
-        SightBuffer alone(window_of(directions[i], sight), triangles);
+        VisibilityBuffer alone(window_of(directions[i], sight), triangles);
         const double share = visibility(alone.shares());
         return ScoreBound{std::move(alone), candidate_of(directions[i], share)};
       });

@@ -146,7 +146,7 @@ void expect_points_of_gap(const Bodies& of, const Pair& p) {
   EXPECT_NEAR(length(p.on_a_mm - p.on_b_mm), p.d_mm, 1e-6);
 }
 
-void expect_way_out(const Bodies& of, const Pair& p) {
+void expect_exit_direction(const Bodies& of, const Pair& p) {
   const Body &in = p.deep_in_a ? of.a : of.b, &other = p.deep_in_a ? of.b : of.a;
   EXPECT_GE(in.depth(p.point_mm), -p.d_upper_mm - room_of(p));
   EXPECT_GE(other.depth(p.point_mm), -room_of(p));
@@ -187,7 +187,7 @@ void check(const Bodies& of, const Options& options, Observation& observed) {
   if (p->d_upper_mm < 0) ++observed.deep;
   if (!(p->d_lower_mm > 0) && !(p->d_upper_mm < 0)) ++observed.open;
   if (p->d_mm < 0)
-    expect_way_out(of, *p);
+    expect_exit_direction(of, *p);
   else
     expect_points_of_gap(of, *p);
 }

@@ -143,10 +143,10 @@ TEST(Offsets, AreTheSumsForAnyTeam) {
     for (const unsigned workers : kTeams) {
       Team team(workers);
       std::vector<std::size_t> summed = lengths;
-      ASSERT_TRUE(detail::sum_up({.team = &team}, summed));
+      ASSERT_TRUE(detail::prefix_sum({.team = &team}, summed));
       EXPECT_EQ(summed, expected) << n << " lengths, " << workers << " workers";
       summed = lengths;
-      ASSERT_TRUE(detail::sum_up({}, summed));
+      ASSERT_TRUE(detail::prefix_sum({}, summed));
       EXPECT_EQ(summed, expected);
     }
   }
@@ -162,7 +162,7 @@ TEST(Offsets, ThatCannotBeCountedAreAnErrorForAnyTeam) {
       std::vector<std::size_t> lengths(50'000);
       lengths[second] = 1;
       lengths[first] = kMax;
-      const Status summed = detail::sum_up({.team = &team}, lengths);
+      const Status summed = detail::prefix_sum({.team = &team}, lengths);
       EXPECT_EQ(static_cast<bool>(summed), good) << first << ", " << second;
       if (!summed) {
         EXPECT_EQ(summed.error().code, ErrorCode::input);

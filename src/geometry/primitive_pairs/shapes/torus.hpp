@@ -50,7 +50,7 @@ class Torus {
   /// Returns the depth of a point, minus the distance outside; off by at most error().
   [[nodiscard]] double depth(const Vec3d& p) const;
   /// Returns the unit direction from a point in the body to the nearest surface point.
-  [[nodiscard]] Vec3d way_out(const Vec3d& p) const;
+  [[nodiscard]] Vec3d exit_direction(const Vec3d& p) const;
 
   /// Returns a point in coordinates about the centre along the orthonormal axes.
   [[nodiscard]] Vec3d local(const Vec3d& p) const;

@@ -83,7 +83,7 @@ class LeastDepthInTorus {
       const double next = try_point(p);
       if (!(next < last)) break;
       last = next;
-      n = ring_.way_out(inner_.point_in_body(p));
+      n = ring_.exit_direction(inner_.point_in_body(p));
     }
   }
 
@@ -95,7 +95,7 @@ class LeastDepthInTorus {
     constexpr double kPays = 1e-4;
     for (int step = 0; step < kMaxSlides; ++step) {
       const double before = least_;
-      const Vec3d from = at_, to = support(hull_.shape, ring_.way_out(inner_.point_in_body(from)));
+      const Vec3d from = at_, to = support(hull_.shape, ring_.exit_direction(inner_.point_in_body(from)));
       for (int i = 1; i <= kStops; ++i) try_point(from + (to - from) * (1.0 * i / kStops));
       for (int i = 1; i <= kStops; ++i) try_point(from + (to - from) * (1.0 * i / kStops / kStops));
       if (!(least_ < before - kPays * std::abs(before))) return;

@@ -19,12 +19,12 @@ struct VisibleShares {
 
 /// Which of the two objects of a clash each point of a window shows: an item buffer that knows
 /// nothing of all others but what of the two they hide.
-class SightBuffer {
+class VisibilityBuffer {
  public:
   /// Nothing is seen.
-  SightBuffer() = default;
+  VisibilityBuffer() = default;
   /// The two alone. The window has no box and no planes, and as many rows as columns.
-  SightBuffer(const Window& window, const NearTriangles& triangles);
+  VisibilityBuffer(const Window& window, const NearTriangles& triangles);
 
   /// Takes away what others hide.
   void cover(const Window& window, const NearTriangles& triangles);
