@@ -119,8 +119,8 @@ bool measure(std::uint64_t objects, bool turned, double clearance_mm) {
   }
   if (const unsigned largest = teams.back(); largest > 1 && objects * largest <= kMaxSideBySide) {
     const double together_s = side_by_side_s(*scene, options, largest);
-    fmt::print("  {:>2} runs of one worker side by side: {:.2f}x is what the machine gives\n", largest,
-               largest * alone_s / together_s);
+    fmt::print("  {:>2} runs of one worker side by side: {:.2f}x is what the machine gives\n",
+               largest, largest * alone_s / together_s);
   }
   std::fflush(stdout);  // the next may take minutes
   return true;

@@ -67,7 +67,8 @@ struct Subject {
   std::string scene;
   /// Not an isometric one, in which whole families of edges lie on each other on paper.
   Vec3l direction{5, -7, 4};
-  std::vector<PeerTarget> target{{"occt"}, {"line_art_edges"}, {"line_art"}, {"tech_draw", 0, 0, 10}};
+  std::vector<PeerTarget> target{
+      {"occt"}, {"line_art_edges"}, {"line_art"}, {"tech_draw", 0, 0, 10}};
 };
 
 std::vector<Subject> usual_subjects() {
@@ -417,8 +418,9 @@ class Bench {
 
   /// Asks a peer, and prints and keeps what became of it; false where its lines are not Strake's.
   bool run_peer(const Peer& peer, const PeerTarget& target, const Ours& ours) {
-    const PeerAnswer answer = bench::run_peer(peer, {file_, subject_.direction, kSharp_deg, kThreads,
-                                                arguments_.run.limit_s, folder_.path()});
+    const PeerAnswer answer = bench::run_peer(
+        peer,
+        {file_, subject_.direction, kSharp_deg, kThreads, arguments_.run.limit_s, folder_.path()});
     const cli::PeerRow row = row_of(peer, answer, ours);
     if (answer.reply.outcome != cli::kMeasured) return without_answer(row, answer.reply);
     const std::vector<PaperLine> visible = paper_.visible(answer);

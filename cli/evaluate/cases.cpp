@@ -75,8 +75,8 @@ generate::ShipOptions viewed_ship(ViewedShip ship, double scale) {
   constexpr std::uint64_t kMin = 2000, kMinCrowd = 6000;
   generate::ShipOptions options;
   options.seed = 7;
-  options.objects = ship == ViewedShip::whole ? scaled(kWhole, scale, kMin)
-                                              : scaled(kCrowd, scale, kMinCrowd);
+  options.objects =
+      ship == ViewedShip::whole ? scaled(kWhole, scale, kMin) : scaled(kCrowd, scale, kMinCrowd);
   if (ship == ViewedShip::whole) return options;
   options.imported_detail = 8;
   options.imported_triangles =

@@ -92,8 +92,9 @@ class Evaluation {
     const hlr::View hlr_view = view_of(view, ship.box);
     for (const auto& [stage, name] :
          {std::pair(hlr::Stage::local, "local"), std::pair(hlr::Stage::global, "global")}) {
-      Result<StageRecord> measured = measure(
-          view.name, name, drawing_contenders(ship.scene, hlr_view, stage, record_.settings.threads));
+      Result<StageRecord> measured =
+          measure(view.name, name,
+                  drawing_contenders(ship.scene, hlr_view, stage, record_.settings.threads));
       if (!measured) return measured.error();
       one.stages.push_back(std::move(*measured));
     }

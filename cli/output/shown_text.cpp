@@ -22,7 +22,7 @@ std::string shown_cell(std::string_view text) {
   constexpr std::size_t kMaxColumns = 200;
   std::string all = printable(text);
   return report::columns_in(all) > kMaxColumns ? report::fit_to_columns(all, kMaxColumns)
-                                                : std::move(all);
+                                               : std::move(all);
 }
 
 }  // namespace strake::cli

@@ -40,8 +40,8 @@ struct UnitConfusion {
 };
 
 /// Factors of 10 and 12 are left out: parts that are so much larger than others are common. A cube
-/// or a plate that is 25 or 40 times as large is so, too: inches have to be distinguished from those by a
-/// hundredth.
+/// or a plate that is 25 or 40 times as large is so, too: inches have to be distinguished from
+/// those by a hundredth.
 constexpr double kAlike = 1.12, kSame = 1.01;
 constexpr std::array<UnitConfusion, 4> kUnitConfusions{{{1000, "m", "mm", kAlike},
                                                         {25.4, "in", "mm", kSame},

@@ -159,8 +159,8 @@ StepReferences SyntaxCheck::references() {
     if (std::ranges::binary_search(known_, reference.to)) continue;
     if (result.missing++ < StepReferences::kMaxListed)
       result.listed.push_back("#" + std::to_string(reference.from) + " in line " +
-                            std::to_string(reference.line) + " refers to #" +
-                            std::to_string(reference.to) + ", which is not there");
+                              std::to_string(reference.line) + " refers to #" +
+                              std::to_string(reference.to) + ", which is not there");
   }
   return result;
 }

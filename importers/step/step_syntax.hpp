@@ -15,7 +15,7 @@ namespace strake::import_step {
 struct StepReferences {
   static constexpr std::size_t kMaxListed = 20;
 
-  std::size_t missing = 0;        ///< how many name an entity that is not there
+  std::size_t missing = 0;          ///< how many name an entity that is not there
   std::vector<std::string> listed;  ///< the first of them: "#12 in line 40 refers to #99"
 };
 

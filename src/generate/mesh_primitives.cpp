@@ -282,7 +282,7 @@ bool properly_cross(const ProfilePoint& a, const ProfilePoint& b, const ProfileP
 
 /// Whether the segment between two points meets no edge that does not end in one of them.
 bool is_visible_from(const Loop& loop, std::span<const std::vector<std::uint32_t>> others,
-          const ProfilePoint& from, const ProfilePoint& to) {
+                     const ProfilePoint& from, const ProfilePoint& to) {
   const auto blocked = [&](const std::vector<std::uint32_t>& ring) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const ProfilePoint& c = loop.points[ring[i]];

@@ -83,8 +83,8 @@ class Reading {
   Reading(const Result<ImportSettings>& settings, const parallel::Context& context)
       : importing_(settings), context_(context) {}
 
-  /// Has importers make what they read, several at once. That a file cannot be read is reported when it
-  /// is its turn.
+  /// Has importers make what they read, several at once. That a file cannot be read is reported
+  /// when it is its turn.
   Status make_scenes(std::span<const FileToRead> files);
   Result<model::Model> read(std::span<const FileToRead> files);
   /// Reads one file, and tells nothing of its place.

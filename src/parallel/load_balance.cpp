@@ -19,7 +19,8 @@ namespace {
 /// order; what is no cost at all, NaN among it, counts as 0.
 std::uint32_t rank_of(double cost) {
   const double largest = std::numeric_limits<float>::max();
-  return ~std::bit_cast<std::uint32_t>(cost > 0 ? static_cast<float>(std::min(cost, largest)) : 0.0F);
+  return ~std::bit_cast<std::uint32_t>(cost > 0 ? static_cast<float>(std::min(cost, largest))
+                                                : 0.0F);
 }
 
 struct Ranked {

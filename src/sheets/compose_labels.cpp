@@ -62,13 +62,13 @@ class LabelDiagnostics {
     const std::string where =
         list.spec->where + ", the view '" + sheet_.views[list.view].name + "'";
     const auto report = [&](std::size_t number, const char* code, const std::string& one,
-                             const std::string& many) {
+                            const std::string& many) {
       if (number == 1) warn(code, "1 object " + one, where);
       if (number > 1) warn(code, std::to_string(number) + " objects " + many, where);
     };
     const std::string some = " some of what '" + list.spec->text + "' names";
     report(count.blank, "tag-attribute-missing", "has nothing to be tagged with",
-            "have nothing to be tagged with");
+           "have nothing to be tagged with");
     report(count.partly, "tag-attribute-partly-missing", "lacks" + some, "lack" + some);
     const std::string& text = count.first_too_short;
     note_of(count.too_short, "tag-not-along",
@@ -77,9 +77,9 @@ class LabelDiagnostics {
                 "', at leaders: no straight part of them has room for the text",
             where);
     report(count.crowded, "tag-no-room",
-            "is without its tag '" + count.first_crowded + "': there is no room for it" + kRoomMend,
-            "are without their tags, as '" + count.first_crowded + "': there is no room for them" +
-                kRoomMend);
+           "is without its tag '" + count.first_crowded + "': there is no room for it" + kRoomMend,
+           "are without their tags, as '" + count.first_crowded + "': there is no room for them" +
+               kRoomMend);
   }
 
   /// Tells of what is as good as what was requested.

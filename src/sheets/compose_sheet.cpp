@@ -568,7 +568,7 @@ class Composer {
   const parallel::Context& context_;
   SheetArea room_;
   Picks picks_;
-  std::size_t used_ = 0;                                   ///< how many of them have been used
+  std::size_t used_ = 0;                                    ///< how many of them have been used
   std::vector<std::vector<model::ObjectId>> far_left_out_;  ///< of each view
   PipeScenes pipe_scenes_;
   std::vector<hlr::Drawing> drawings_;

@@ -83,8 +83,8 @@ bool are_sound(const Tile& tile) {
   constexpr std::uint64_t kMax = 1U << 31U;
   std::uint32_t at = 0;
   for (const Section& s : tile.sections) {
-    if (s.first != at || s.last < s.first || s.file >= tile.model.files.size() ||
-        s.bodies > kMax || s.shapes > kMax)
+    if (s.first != at || s.last < s.first || s.file >= tile.model.files.size() || s.bodies > kMax ||
+        s.shapes > kMax)
       return false;
     at = s.last;
   }

@@ -273,7 +273,7 @@ class Oracle {
 
   // An intersection is off the faces that it lies on by what its ends were rounded.
   mpq_class min_distance(const Tile& tile, const Line& e, std::uint32_t body,
-                           std::uint32_t part) const {
+                         std::uint32_t part) const {
     if (!e.crosses() && tile.body == body && tile.part == part) return 0;
     mpq_class size = 0;
     for (const mpq_class& x : tile.n) size += abs(x);

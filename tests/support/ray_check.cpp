@@ -314,8 +314,8 @@ class Checker {
     return {{at(s.a.x, along.x), at(s.a.y, along.y), at(s.a.z, along.z)}, scale, cross(d_, along)};
   }
 
-  [[nodiscard]] Found classify_point(const Segment& s, int axis, std::int64_t place, std::uint32_t object,
-                              bool wire) const {
+  [[nodiscard]] Found classify_point(const Segment& s, int axis, std::int64_t place,
+                                     std::uint32_t object, bool wire) const {
     const Sample p = sample(s, axis, place);
     const double one = 1.0 / static_cast<double>(p.scale);
     const Vec3d near{static_cast<double>(p.at.x) * one, static_cast<double>(p.at.y) * one,

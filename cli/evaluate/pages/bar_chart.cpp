@@ -23,7 +23,8 @@ constexpr double kLegendHeight = 20;
 constexpr std::array<std::string_view, 5> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                    "#56b4e9"};
 
-/// Returns the step between the lines of a scale from 0 to `maximum`: 1, 2 or 5 times a power of ten.
+/// Returns the step between the lines of a scale from 0 to `maximum`: 1, 2 or 5 times a power of
+/// ten.
 double step_of(double maximum) {
   constexpr double kLines = 6;
   const double power = std::pow(10, std::floor(std::log10(maximum / kLines)));

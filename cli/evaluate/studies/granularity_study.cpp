@@ -78,8 +78,8 @@ Status run_units(const StudyInput& input, const std::vector<WorkUnit>& units, St
   StudyRun first;
   for (const WorkUnit& unit : units) {
     input.narrate(fmt::format("granularity, {}: {}", unit.algorithm, unit.name));
-    Result<StudyRun> run = run_for_study(input, unit.contender,
-                                         {.min_chunk = unit.min_chunk, .with_regions = true});
+    Result<StudyRun> run =
+        run_for_study(input, unit.contender, {.min_chunk = unit.min_chunk, .with_regions = true});
     if (!run) return run.error();
     const bool is_first = &unit == &units.front();
     if (is_first) first = std::move(*run);

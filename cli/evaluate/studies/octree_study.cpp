@@ -102,8 +102,8 @@ TreeFigures figures_of_octree(const StudyInput& input, const std::vector<Box3l>&
   return figures;
 }
 
-/// Returns the figures of the hierarchy over boxes; `joined` receives the hash of the pairs that the
-/// engine finds by it.
+/// Returns the figures of the hierarchy over boxes; `joined` receives the hash of the pairs that
+/// the engine finds by it.
 Result<TreeFigures> figures_of_hierarchy(const StudyInput& input, const std::vector<Box3l>& boxes,
                                          std::string& joined) {
   std::vector<geometry::BoxItem> items(boxes.size());

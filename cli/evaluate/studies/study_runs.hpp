@@ -18,7 +18,7 @@ namespace strake::cli {
 struct StudyConditions {
   parallel::Distribution distribution = parallel::Distribution::planned;
   std::size_t min_chunk = 1;  ///< as of parallel::Context
-  bool with_regions = false;    ///< regions are reported, which reads clocks for each block
+  bool with_regions = false;  ///< regions are reported, which reads clocks for each block
 };
 
 /// Timed runs of one contender.

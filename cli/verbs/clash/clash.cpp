@@ -520,16 +520,16 @@ void add_engine_options(CLI::App& command, ClashOptions& options) {
       ->group("Running");
   command
       .add_option("--most-spheres", options.max_spheres,
-                   fmt::format("Spheres that sphere-subdivision tests for one pair of parts before "
-                               "it gives up and says so (default {})",
-                               clash::EngineOptions{}.max_spheres))
+                  fmt::format("Spheres that sphere-subdivision tests for one pair of parts before "
+                              "it gives up and says so (default {})",
+                              clash::EngineOptions{}.max_spheres))
       ->type_name("N")
       ->group("Running");
   command
       .add_option("--most-pairs", options.max_pairs,
-                   fmt::format("Most pairs of parts that may be within reach of each other, some "
-                               "300 bytes each (default {})",
-                               clash::EngineOptions{}.max_pairs))
+                  fmt::format("Most pairs of parts that may be within reach of each other, some "
+                              "300 bytes each (default {})",
+                              clash::EngineOptions{}.max_pairs))
       ->type_name("N")
       ->group("Running");
 }

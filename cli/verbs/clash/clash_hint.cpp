@@ -77,8 +77,8 @@ std::string hint_of_pair(const HitsByWhole& hits, const model::Model& model) {
                                      : model.groups[index(whole.assembly)].name);
   };
   const auto& [a, b] = largest->first;
-  return fmt::format("{} of {} hits lie {}: --group-by assembly makes them one line", largest->second,
-                     hits.all,
+  return fmt::format("{} of {} hits lie {}: --group-by assembly makes them one line",
+                     largest->second, hits.all,
                      a == b ? "within " + name(a) : "between " + name(a) + " and " + name(b));
 }
 

@@ -41,8 +41,8 @@ Status check_bcf(const ClashSetOptions& given) {
     return Error{ErrorCode::usage, "no .bcf is read", "--prefer", "add --bcf FILE"};
   if (given.bcf.empty()) return {};
   const bool selects = !given.keys.empty() || !given.select.empty() || !given.group.empty() ||
-                         !given.status.empty() || given.comment || given.assignee ||
-                         given.grouping.first_given() != nullptr;
+                       !given.status.empty() || given.comment || given.assignee ||
+                       given.grouping.first_given() != nullptr;
   if (selects)
     return Error{ErrorCode::usage, "a BCF file says what is decided about which clashes", "--bcf",
                  "leave out keys, --select, --group, --status, --comment and --assignee"};

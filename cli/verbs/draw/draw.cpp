@@ -298,15 +298,15 @@ void add_running(CLI::App& command, DrawOptions& options) {
 void add_paper(CLI::App& command, DrawOptions& options) {
   command
       .add_option("--scale", options.scale,
-                   "Paper to model, as 1:50 or 10:1 (default: the largest usual one that fits the "
-                   "paper)")
+                  "Paper to model, as 1:50 or 10:1 (default: the largest usual one that fits the "
+                  "paper)")
       ->type_name("1:N")
       ->group("Output");
   command
       .add_option("--paper", options.paper,
-                   "A4, A3, A2, A1 or A0, with ,portrait for upright paper, or width x height as "
-                   "900mmx420mm; what does not fit it at a given --scale is an error (default: A3, "
-                   "and larger where --scale asks for it)")
+                  "A4, A3, A2, A1 or A0, with ,portrait for upright paper, or width x height as "
+                  "900mmx420mm; what does not fit it at a given --scale is an error (default: A3, "
+                  "and larger where --scale asks for it)")
       ->type_name("SIZE")
       ->group("Output");
   command.add_option("--title", options.title, "Title of the sheet")->group("Output");

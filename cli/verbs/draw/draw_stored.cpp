@@ -397,7 +397,8 @@ Result<FormerSheet> former_sheet(Session& session, OpenedProject& opened, const 
   Result<drawing::NeutralDrawing> drawing =
       drawing::lay_out(former->drawing, former->model, layout, session.context());
   if (!drawing) return drawing.error();
-  return FormerSheet{std::move(*drawing), std::move(former->model), ink_options(view_request->shown)};
+  return FormerSheet{std::move(*drawing), std::move(former->model),
+                     ink_options(view_request->shown)};
 }
 
 Result<report::ViewDocument> stored_document(Session& session, OpenedProject& opened,

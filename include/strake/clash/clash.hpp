@@ -34,7 +34,8 @@ struct Counters {
   std::uint64_t depth_cells = 0;  ///< steps of searches for depth; spheres of sphere_subdivision
   std::uint64_t volume_triangle_pairs = 0;
   std::uint64_t volumes_given_up = 0;  ///< pairs of parts whose common volume takes too long
-  std::uint64_t regions_given_up = 0;  ///< pairs of objects whose regions could not be distinguished
+  std::uint64_t regions_given_up =
+      0;  ///< pairs of objects whose regions could not be distinguished
 };
 
 /// A pair of objects that went to the narrow phase, whatever came of it.

@@ -20,10 +20,11 @@ enum class Level : std::uint8_t { hard, soft, insulation, none };
 
 /// Bits of Pair::flags.
 enum Flag : std::uint16_t {
-  kBorderline = 1U << 0U,  ///< d cannot be distinguished from a threshold: the severer class is given
-  kUncertain = 1U << 1U,   ///< the bracket straddles a threshold: the class is that of d
-  kOpen = 1U << 2U,        ///< one of the two is an open surface
-  kInverted = 1U << 3U,    ///< one of the two came inside out
+  kBorderline =
+      1U << 0U,  ///< d cannot be distinguished from a threshold: the severer class is given
+  kUncertain = 1U << 1U,  ///< the bracket straddles a threshold: the class is that of d
+  kOpen = 1U << 2U,       ///< one of the two is an open surface
+  kInverted = 1U << 3U,   ///< one of the two came inside out
 };
 
 /// One of several regions where a pair of objects meets or comes too near.

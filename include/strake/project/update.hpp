@@ -76,8 +76,8 @@ struct Changes {
 };
 
 /// Tells which file of one model is which of the other: by label, then by what is in them
-/// (report::match_files()); what `given_pairs` says, as OLD=NEW, comes first. Errors: usage, for what is
-/// asked; cancelled.
+/// (report::match_files()); what `given_pairs` says, as OLD=NEW, comes first. Errors: usage, for
+/// what is asked; cancelled.
 [[nodiscard]] Result<report::FileMatches> match_files(const model::Model& then,
                                                       const model::Model& now,
                                                       std::span<const std::string> given_pairs,
@@ -151,9 +151,9 @@ struct Update {
 
 /// What update() reads.
 struct UpdateRequest {
-  /// Files that take the place of those that they match: by path, as `given_pairs`, by name, or by what
-  /// is in them. What is not said of one is as it was said of the file before. None: every file of
-  /// the project, where it lies.
+  /// Files that take the place of those that they match: by path, as `given_pairs`, by name, or by
+  /// what is in them. What is not said of one is as it was said of the file before. None: every
+  /// file of the project, where it lies.
   std::vector<io::FileToRead> files;
   std::vector<std::string> given_pairs;  ///< OLD=NEW
 };

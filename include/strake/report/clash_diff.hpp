@@ -71,8 +71,8 @@ struct ClashDiff {
 };
 
 /// Tells which file of one run is which of the other, by the ids that the results name, and by the
-/// places of results where there are only ids that are positions. What `given_pairs` says, as OLD=NEW,
-/// comes first. Errors: usage, as of match_files() of RunFiles and parse_file_pairs().
+/// places of results where there are only ids that are positions. What `given_pairs` says, as
+/// OLD=NEW, comes first. Errors: usage, as of match_files() of RunFiles and parse_file_pairs().
 [[nodiscard]] Result<FileMatches> match_files(const ClashDocument& before,
                                               const ClashDocument& after,
                                               std::span<const std::string> given_pairs = {});

@@ -100,8 +100,8 @@ struct ViewDiffOptions {
 };
 
 /// Tells which file of one drawing is which of the other, by the ids of what is drawn, and where
-/// they do not decide by the places of lines. What `given_pairs` says, as OLD=NEW, comes first. Errors:
-/// usage, as of match_files() of RunFiles and parse_file_pairs().
+/// they do not decide by the places of lines. What `given_pairs` says, as OLD=NEW, comes first.
+/// Errors: usage, as of match_files() of RunFiles and parse_file_pairs().
 [[nodiscard]] Result<FileMatches> match_files(const ViewDocument& before, const ViewDocument& after,
                                               std::span<const std::string> given_pairs = {});
 

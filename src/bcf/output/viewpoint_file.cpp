@@ -117,7 +117,8 @@ class ViewpointWriter {
     const double away_mm = viewpoint.half_height_mm / kTangentOfHalf;
     const geometry::Vec3d eye_mm = viewpoint.target_mm - viewpoint.direction * away_mm;
     xml_.begin("PerspectiveCamera").vector("CameraViewPoint", eye_mm, kMmPerMetre);
-    xml_.vector("CameraDirection", viewpoint.direction, 1).vector("CameraUpVector", viewpoint.up, 1);
+    xml_.vector("CameraDirection", viewpoint.direction, 1)
+        .vector("CameraUpVector", viewpoint.up, 1);
     xml_.leaf("FieldOfView", kFieldOfView);
     if (contents_.bcf.version_3) xml_.leaf("AspectRatio", shortest(viewpoint.aspect));
     xml_.end();

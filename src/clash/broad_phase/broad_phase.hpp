@@ -119,8 +119,8 @@ struct Cell {
 enum class Change : std::uint8_t { none, near, changed };
 
 /// Returns the pairs of find_candidate_pairs() of which one object at least has changed, where they
-/// need no boxes along faces; nothing where there are more than `limit` pairs of boxes. `change` has
-/// an entry per object. Errors: cancelled.
+/// need no boxes along faces; nothing where there are more than `limit` pairs of boxes. `change`
+/// has an entry per object. Errors: cancelled.
 [[nodiscard]] Result<std::optional<CandidatePairs>> find_changed_pairs(
     const ScenePartList& list, const Sets& sets, const SearchReach& reach,
     std::span<const Change> change, std::uint64_t limit, const parallel::Context& context);

@@ -36,7 +36,8 @@ struct ItemRun {
 }
 
 /// Returns all of so many numbers as runs of at most so many.
-[[nodiscard]] inline std::vector<ItemRun> runs_of_length(std::size_t numbers, std::size_t max_length) {
+[[nodiscard]] inline std::vector<ItemRun> runs_of_length(std::size_t numbers,
+                                                         std::size_t max_length) {
   std::vector<ItemRun> runs;
   for (std::size_t first = 0; first < numbers; first += max_length)
     runs.push_back({first, std::min(numbers, first + max_length)});

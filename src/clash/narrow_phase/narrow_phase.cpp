@@ -321,15 +321,17 @@ Status mark_enclosed(const StageInputs& stage, std::vector<Candidate>& candidate
     if (may_enclose(b, a) && has_corner_in_box(b, a)) parts[b.unique] = b.placed.part;
   }
   std::vector<std::optional<EnclosingSurface>> around(parts.size());
-  const Status made = parallel::for_each(
-      work.context(), {.name = "winding numbers", .n = parts.size(), .grain = 1},
-      [&](std::size_t p) {
-        if (parts[p] == nullptr) return;
-        WindingNumber winding(*parts[p]);
-        const double max_openness = geometry::has_incomplete_faces(*parts[p]) ? kMaxOutOfFaces : kMaxOut;
-        const double openness = winding.openness(max_openness);
-        if (openness <= max_openness) around[p] = {std::move(winding), openness, max_openness};
-      });
+  const Status made =
+      parallel::for_each(work.context(), {.name = "winding numbers", .n = parts.size(), .grain = 1},
+                         [&](std::size_t p) {
+                           if (parts[p] == nullptr) return;
+                           WindingNumber winding(*parts[p]);
+                           const double max_openness =
+                               geometry::has_incomplete_faces(*parts[p]) ? kMaxOutOfFaces : kMaxOut;
+                           const double openness = winding.openness(max_openness);
+                           if (openness <= max_openness)
+                             around[p] = {std::move(winding), openness, max_openness};
+                         });
   if (!made) return made.error();
   return work.for_each_of(
       *enclosable, "pairs within open surfaces", PairTasks::kGrain,

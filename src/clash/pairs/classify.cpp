@@ -78,8 +78,7 @@ Classification classify(const SignedSeparation& s, double width, const Threshold
       j.flags |= kUncertain;
     }
   }
-  if (j.cls == Class::no_hit && t.weld > kMaxWeldBySnap)
-    j.cls = least_certain_class(j.severest, t);
+  if (j.cls == Class::no_hit && t.weld > kMaxWeldBySnap) j.cls = least_certain_class(j.severest, t);
   j.severest = std::max(j.severest, j.cls);
   return j;
 }

@@ -133,8 +133,8 @@ class PartRegionFinder {
          .distance = std::max(whole_.separation.d, 0.0),
          .interiors_meet = whole_.separation.interiors_meet,
          .one = one,
-         .max_pairs = std::max(kMinPairs, kPairsPerTriangle * (part_a_.triangles.size() +
-                                                                  part_b_.triangles.size()))},
+         .max_pairs = std::max(
+             kMinPairs, kPairsPerTriangle * (part_a_.triangles.size() + part_b_.triangles.size()))},
         work_.pair);
     if (found) found_ = std::move(*found);
     return found.has_value();

@@ -58,7 +58,8 @@ std::optional<std::string> utc_text(const TimeParts& parts, int zone) {
                                    chrono::month(static_cast<unsigned>(parts.month)),
                                    chrono::day(static_cast<unsigned>(parts.day))};
   // Seconds that are put in before midnight count as those after it; 24:00 is the next day.
-  if (!day.ok() || parts.hours > 24 || parts.minutes > 59 || parts.seconds > 60) return std::nullopt;
+  if (!day.ok() || parts.hours > 24 || parts.minutes > 59 || parts.seconds > 60)
+    return std::nullopt;
   if (parts.hours == 24 && parts.minutes + parts.seconds > 0) return std::nullopt;
   const chrono::sys_seconds at = chrono::sys_days(day) + chrono::hours(parts.hours) +
                                  chrono::minutes(parts.minutes) + chrono::seconds(parts.seconds) -

@@ -47,7 +47,8 @@ double length_on_paper(const Line& line) {
 
 /// Returns the circles that are seen head-on with half of their way or more, the largest about
 /// each centre.
-std::vector<VisibleCircle> visible_circles(const NeutralDrawing& drawing, const Ink& ink, double least) {
+std::vector<VisibleCircle> visible_circles(const NeutralDrawing& drawing, const Ink& ink,
+                                           double least) {
   std::vector<double> length(drawing.curves.all.size());
   std::vector<model::ObjectId> object(length.size());
   for (const Line& line : ink.lines) {

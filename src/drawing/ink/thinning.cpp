@@ -122,7 +122,9 @@ class ObjectThinner {
     for (const InkedLine& line : lines) flats.push_back(line.flat);
     return flats;
   }
-  static double spacing_of(std::span<const InkedLine> lines) { return 2 * lines.front().flat.reach; }
+  static double spacing_of(std::span<const InkedLine> lines) {
+    return 2 * lines.front().flat.reach;
+  }
 
   /// Finds the inner intervals of all lines; false where there are none, or `stop` is requested.
   bool find_inner(const std::stop_token& stop) {

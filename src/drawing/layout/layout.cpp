@@ -109,7 +109,8 @@ struct Tally {
 /// coincident. Errors: cancelled.
 Status count_lines(NeutralDrawing& drawing, const parallel::Context& context) {
   const auto add_visible = [](Tally& tally, model::ObjectId object) {
-    if (tally.visible_objects.empty() || tally.visible_objects.back() != object) tally.visible_objects.push_back(object);
+    if (tally.visible_objects.empty() || tally.visible_objects.back() != object)
+      tally.visible_objects.push_back(object);
   };
   const Result<Tally> tally = parallel::reduce(
       context, {.name = "account of lines", .n = drawing.lines.size(), .grain = 65536}, Tally{},
@@ -128,7 +129,8 @@ Status count_lines(NeutralDrawing& drawing, const parallel::Context& context) {
   hlr::Account& account = drawing.account;
   auto visible_objects = tally->visible_objects.begin();
   for (std::uint32_t object = 0; object < account.fates.size(); ++object) {
-    const bool on_paper = visible_objects != tally->visible_objects.end() && model::index(*visible_objects) == object;
+    const bool on_paper =
+        visible_objects != tally->visible_objects.end() && model::index(*visible_objects) == object;
     if (on_paper) ++visible_objects;
     if (account.fates[object] != hlr::Fate::drawn || on_paper) continue;
     account.fates[object] = hlr::Fate::coincident;

@@ -35,7 +35,7 @@ struct ContactRegionOptions {
   bool interiors_meet = false;  ///< as meet() returned
   SingleRegionDetail one = SingleRegionDetail::described;
   std::uint64_t max_pairs = std::uint64_t{1}
-                             << 22U;  ///< of near triangles, before the search is given up
+                            << 22U;  ///< of near triangles, before the search is given up
 };
 
 /// Returns the contact regions of two parts: the connected components of the set of pairs of

@@ -10,7 +10,7 @@
 namespace strake::geometry {
 
 struct NearTriangleOptions {
-  double reach = 0;        ///< grid units
+  double reach = 0;         ///< grid units
   std::uint64_t limit = 0;  ///< pairs
 };
 

@@ -362,8 +362,8 @@ class Centring {
     return true;
   }
 
-  /// Where half-spaces do not decide, as in a profile: to the middle of the common box, or of the box
-  /// that counts, along each axis along which that is as deep.
+  /// Where half-spaces do not decide, as in a profile: to the middle of the common box, or of the
+  /// box that counts, along each axis along which that is as deep.
   void move_along_axes(Depth& depth) const {
     for (const Vec3d& axis : a_.planes()->axes) {
       const double way = middle_along(axis) - dot(axis, depth.point);

@@ -299,7 +299,8 @@ void BoundaryTraversal::finish(DualTraversal& traversal, std::uint64_t node_pair
 bool BoundaryTraversal::traverse_along_slivers(QueryContext& work) {
   const auto aligned = rotate_along_slivers(a_, b_, work.context());
   if (!aligned) return false;
-  const auto run = [&](BoundaryTraversal& piece, DistanceTraversal& traversal, std::uint64_t limit) {
+  const auto run = [&](BoundaryTraversal& piece, DistanceTraversal& traversal,
+                       std::uint64_t limit) {
     return traversal.run(
         0.0,
         [&](const NearTrianglePair& pair) {

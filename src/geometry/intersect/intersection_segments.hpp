@@ -43,7 +43,8 @@ struct IntersectionSegments {
 /// axes. Both need an oriented box, and where needs_bvhs() says so a tree.
 [[nodiscard]] IntersectionSegments find_intersection_segments(const PartWithObb& a,
                                                               const PartWithObb& b,
-                                                              std::size_t limit, QueryContext& work);
+                                                              std::size_t limit,
+                                                              QueryContext& work);
 
 /// Returns the same segments by testing every pair of triangles.
 [[nodiscard]] std::vector<IntersectionSegment> find_intersection_segments_brute_force(

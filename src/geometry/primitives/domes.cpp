@@ -285,7 +285,7 @@ Tessellation make(const SphericalDishPrimitive& p, const TessellationTarget& tar
   if (target.eye)
     for (int finer = 1; finer <= 4; finer *= 2) {
       auto contoured = cap_in_view(p, target, std::min(n * finer, kMaxDomeSegments),
-                              std::min(rows * finer, kMaxDomeSegments / 2));
+                                   std::min(rows * finer, kMaxDomeSegments / 2));
       if (!contoured) break;
       if (contoured->mesh.sag_mm <= 1.5 * target.sag || finer == 4) return std::move(*contoured);
     }

@@ -39,8 +39,8 @@ double step_of(const RevolutionSweep& sweep, double angle) {
 /// A tube that reaches its axis: the section is the circle's outer part, closed along the axis.
 Tessellation clipped(const CircularTorusPrimitive& p, const TessellationTarget& target) {
   const double half = arc_cos(-p.centre_radius / p.tube_radius);
-  const int n = std::max(
-      4, arc_segments(p.tube_radius, 2 * half, kRimShare * target.sag, kMaxTorusSegments));
+  const int n =
+      std::max(4, arc_segments(p.tube_radius, 2 * half, kRimShare * target.sag, kMaxTorusSegments));
   const double rim_sag = sagitta(p.tube_radius, 2 * half / n);
   const double outer = p.centre_radius + p.tube_radius;
   const RevolutionSweep sweep = sweep_of(p.angle, outer, target.sag - rim_sag, target.linear);
@@ -231,7 +231,8 @@ Tessellation make(const CircularTorusPrimitive& p, const TessellationTarget& tar
   const int n = circle_segments(p.tube_radius, kRimShare * target.sag, kMaxTorusSegments);
   const double rim_sag = sagitta(p.tube_radius, 2 * kPi / n);
   if (target.eye)
-    if (auto contoured = torus_from_eye(p, target, n, target.sag - rim_sag)) return std::move(*contoured);
+    if (auto contoured = torus_from_eye(p, target, n, target.sag - rim_sag))
+      return std::move(*contoured);
   if (target.towards) return ContouredTorus(p, target, n, target.sag - rim_sag).make();
   const bool full = is_full_turn(p.angle);
   const EndPhases phases = full ? EndPhases{} : end_phases(p, target.linear, n);

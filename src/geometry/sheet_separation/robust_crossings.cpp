@@ -447,8 +447,8 @@ IntersectionSegments keep_robust_segments(const PartWithBvh& a, const PartWithBv
 SheetIntersection find_sheet_intersection(const PartWithBvh& a, const PartWithBvh& b, double within,
                                           std::size_t limit, QueryContext& work) {
   const PairLocalPart view_a(a, {}), view_b(b, b.placed.origin - a.placed.origin);
-  const IntersectionSegments pieces =
-      keep_robust_segments(a, b, find_intersection_segments(a, b, limit, work), within, limit, work);
+  const IntersectionSegments pieces = keep_robust_segments(
+      a, b, find_intersection_segments(a, b, limit, work), within, limit, work);
   SheetIntersection curve{
       .segments = {}, .pieces = {}, .crosses = !pieces.all.empty(), .truncated = pieces.truncated};
   for (const IntersectionSegment& piece : pieces.all) {

@@ -71,7 +71,8 @@ Result<Box3l> box_in_view(const model::Scene& scene, const std::vector<bool>& ob
                           const model::ViewTessellationOptions& tessellation_options,
                           const model::ViewTessellation& plan, const parallel::Context& context) {
   const PartialScene part = scene_of(scene, objects);
-  auto own = model::tessellate_for_view(part.scene, objects, tessellation_options, part.plan(plan), context);
+  auto own = model::tessellate_for_view(part.scene, objects, tessellation_options, part.plan(plan),
+                                        context);
   if (!own) return own.error();
   const model::Scene& shown = *own ? **own : part.scene;
   Box3l box = geometry::empty_box<std::int64_t>();
@@ -177,8 +178,8 @@ Result<WholeExtent> whole_extent(const model::Scene& scene, const std::vector<bo
   auto boxes = object_extents(scene, drawn, view, *shapes, context);
   if (!boxes) return boxes.error();
   whole.boxes = std::move(*boxes);
-  const auto extent =
-      drawn_extent(scene, drawn, *shapes, *tessellation_options, whole.tessellation, options, context);
+  const auto extent = drawn_extent(scene, drawn, *shapes, *tessellation_options, whole.tessellation,
+                                   options, context);
   if (!extent) return extent.error();
   whole.drawn = *extent;
   const bool finer = whole.tessellation.any && options.sag_mm > 0;

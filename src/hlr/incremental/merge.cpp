@@ -245,7 +245,8 @@ Status merge_lines(const Comparison& comparison, const ResolvedLines& resolved, 
   if (Status s = merge_curves(comparison, resolved, object_runs, earlier.curves, objects, context);
       !s)
     return s;
-  earlier.counted = merged(comparison, resolved.to_solve, earlier.counted, resolved.drawing.counted);
+  earlier.counted =
+      merged(comparison, resolved.to_solve, earlier.counted, resolved.drawing.counted);
   if (!earlier.options.hidden)
     earlier.left_out =
         merged(comparison, resolved.to_solve, earlier.left_out, resolved.drawing.left_out);

@@ -15,7 +15,7 @@ namespace strake::hlr {
 /// Lines that were found anew, and whose they are.
 struct ResolvedLines {
   const std::vector<bool>& to_solve;  ///< by object
-  const Drawing& drawing;          ///< its pieces, curves and counts are those of these objects
+  const Drawing& drawing;             ///< its pieces, curves and counts are those of these objects
 };
 
 /// Makes of an earlier drawing that of the objects now: pieces, curves and counts of lines. Objects

@@ -224,7 +224,8 @@ class ReachSearch {
         context_,
         {.name = "what hides changes", .n = changed_.boxes.size(), .grain = kObjectsAtOnce},
         [&](std::size_t o, std::vector<std::uint32_t>& out) {
-          if (!reach.needed[o] && may_hide(to_solve, o)) out.push_back(static_cast<std::uint32_t>(o));
+          if (!reach.needed[o] && may_hide(to_solve, o))
+            out.push_back(static_cast<std::uint32_t>(o));
         });
     if (!hiding) return hiding.error();
     for (const std::uint32_t object : *hiding) reach.needed[object] = true;

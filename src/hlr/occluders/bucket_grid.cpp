@@ -233,8 +233,8 @@ BucketGrid::Cells BucketGrid::across(const SegmentQuery& s, bool steep, std::uin
   const double largest = std::min(end, steep ? s.v1 : s.u1);
   const double p = at + (least - from) * slope, q = at + (largest - from) * slope;
   // The bound of rounding of the bucket's sides and of the line; |slope| <= 1.
-  const double slack = 1e-12 * (std::abs(at) + std::abs(from) + std::abs(least) + std::abs(largest) +
-                                std::abs(along.lo) + std::abs(along.hi)) +
+  const double slack = 1e-12 * (std::abs(at) + std::abs(from) + std::abs(least) +
+                                std::abs(largest) + std::abs(along.lo) + std::abs(along.hi)) +
                        s.beside / std::abs(step);
   return {to_side.cell(std::max(lo, std::min(p, q) - slack)),
           to_side.cell(std::min(hi, std::max(p, q) + slack))};

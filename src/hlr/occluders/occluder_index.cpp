@@ -63,8 +63,8 @@ PaperRotation rotation_along(std::span<const ProjectedEdge> edges, const ViewBox
 }
 
 std::vector<ViewBox> rotated_boxes(const OccluderPolygons& all,
-                                  std::span<const OccluderPolygon> polygons,
-                                  const PaperRotation& rotation) {
+                                   std::span<const OccluderPolygon> polygons,
+                                   const PaperRotation& rotation) {
   std::vector<ViewBox> boxes;
   boxes.reserve(polygons.size());
   for (const OccluderPolygon& p : polygons) {
@@ -78,7 +78,7 @@ std::vector<ViewBox> rotated_boxes(const OccluderPolygons& all,
 
 /// Returns whether the part is indexed in axes of its own (decision 0031).
 bool index_rotated(const OccluderPolygons& all, std::span<const OccluderPolygon> polygons,
-                  std::span<const ProjectedEdge> edges, std::size_t from, OccluderPart& part) {
+                   std::span<const ProjectedEdge> edges, std::size_t from, OccluderPart& part) {
   const ViewPoint &lo = part.box.lo, &hi = part.box.hi;
   if (std::max({std::abs(lo.u), std::abs(lo.v), std::abs(hi.u), std::abs(hi.v)}) > kFarthestRotated)
     return false;

@@ -59,7 +59,8 @@ void OccluderBuilder::add_group(std::span<const std::uint32_t> triangles, Occlud
 void OccluderBuilder::add_wide(std::uint32_t t, OccluderPolygons& out) {
   ExactNormal n = triangle_normal(projected_.part, t);
   Triangle i = projected_.part.triangles[t];
-  const Int128 facing = projected_.viewer.facing(n, projected_.part.vertices[i[0]].as<std::int64_t>());
+  const Int128 facing =
+      projected_.viewer.facing(n, projected_.part.vertices[i[0]].as<std::int64_t>());
   if (facing == 0) return;
   if (facing < 0) {
     for (Int128& x : n) x = -x;
@@ -68,7 +69,8 @@ void OccluderBuilder::add_wide(std::uint32_t t, OccluderPolygons& out) {
   OccluderPolygon& p = start(i[0], out);
   p.wide = static_cast<std::int32_t>(out.wide_normals.size());
   p.back = facing < 0;
-  p.edge_on = projected_.find_edge_on && may_be_edge_on(projected_.part, t, projected_.viewer.direction);
+  p.edge_on =
+      projected_.find_edge_on && may_be_edge_on(projected_.part, t, projected_.viewer.direction);
   out.wide_normals.push_back(n);
   add_corners(p, i, out);
 }
@@ -186,8 +188,8 @@ class PartMerger {
         edges_(edges),
         shape_(shape),
         projected_{.part = part,
-              .viewer = settings.features.viewer,
-              .find_edge_on = settings.find_edge_on} {}
+                   .viewer = settings.features.viewer,
+                   .find_edge_on = settings.find_edge_on} {}
 
   Result<bool> run() {
     first_ = static_cast<std::uint32_t>(shape_.polygons.size());

@@ -53,7 +53,10 @@ class OccluderBuilder {
   /// `perspective_map`: null where the view is orthographic.
   OccluderBuilder(const ProjectedPart& projected, std::uint32_t part_index,
                   const PerspectiveMap* perspective_map)
-      : projected_(projected), part_index_(part_index), perspective_map_(perspective_map), loops_(projected) {}
+      : projected_(projected),
+        part_index_(part_index),
+        perspective_map_(perspective_map),
+        loops_(projected) {}
 
   /// Adds coplanar triangles that look the same way and of which all, or none, may be edge-on: as
   /// one polygon if that is convex, or else each.

@@ -82,7 +82,8 @@ Result<ProjectedShape> project_shape(const SectionedShape& sectioned,
     if (!convex) return convex.error();
     // A part that was rounded has a contact distance within itself, and some facets are edge-on but
     // for rounding: the signs account for neither.
-    const bool exact = sectioned.within == 0 && (shape.parts.empty() || !shape.parts.back().edge_on);
+    const bool exact =
+        sectioned.within == 0 && (shape.parts.empty() || !shape.parts.back().edge_on);
     if (*convex && exact && is_outside(part, viewer)) classify_edges(part, viewer, own);
   }
   if (!shape.parts.empty()) shape.farthest = shape.parts.front().farthest;

@@ -199,7 +199,8 @@ bool SilhouetteLoops::outline(std::span<const std::uint32_t> triangles) {
   const bool front = projected_.planes[triangles[0]].facing > 0;
   for (const std::uint32_t t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = projected_.part.triangles[t][k], b = projected_.part.triangles[t][(k + 1) % 3];
+      const std::uint32_t a = projected_.part.triangles[t][k],
+                          b = projected_.part.triangles[t][(k + 1) % 3];
       directed_.push_back(front ? std::array{a, b} : std::array{b, a});
     }
   std::sort(directed_.begin(), directed_.end());

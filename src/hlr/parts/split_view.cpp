@@ -84,7 +84,7 @@ class ViewSplitter {
 
   /// Returns by place in `objects` which of them are among those that are requested; both ascend.
   static std::vector<bool> solve_flags(const std::vector<std::uint32_t>& objects,
-                                    const std::vector<std::uint32_t>& to_solve) {
+                                       const std::vector<std::uint32_t>& to_solve) {
     std::vector<bool> is_to_solve(objects.size());
     auto next = to_solve.begin();
     for (std::size_t i = 0; i < objects.size() && next != to_solve.end(); ++i) {
@@ -153,7 +153,8 @@ class ViewSplitter {
           const std::uint32_t o = objects[i];
           const bool hides = hides_ && !on_paper.empty() && !on_paper_[o].empty() &&
                              hideable.may_be_hidden_by(rounded_outwards(on_paper_[o]));
-          return is_to_solve[i] || hides || (crosses_ && whole_.boxes[o].meets(box)) || holds_eye(o);
+          return is_to_solve[i] || hides || (crosses_ && whole_.boxes[o].meets(box)) ||
+                 holds_eye(o);
         });
     if (!needed) return needed.error();
     std::vector<std::uint32_t> found;
@@ -208,7 +209,8 @@ class ViewSplitter {
   }
 
   /// Makes parts for the lines of some objects, of which `objects` has all that is needed.
-  Status split(const std::vector<std::uint32_t>& to_solve, const std::vector<std::uint32_t>& objects) {
+  Status split(const std::vector<std::uint32_t>& to_solve,
+               const std::vector<std::uint32_t>& objects) {
     if (to_solve.size() < 2 || bytes_of(to_solve, to_solve) <= max_bytes_) {
       auto part = find_part(to_solve, objects);
       return part ? split_further(to_solve, std::move(*part)) : part.error();

@@ -15,7 +15,7 @@ namespace strake::hlr {
 /// A part of a view: objects whose lines it finds, and what may hide or cross these.
 struct ViewPart {
   std::vector<std::uint32_t> objects;  ///< both, ascending
-  std::vector<bool> to_solve;             ///< by place in `objects`: its lines are found here
+  std::vector<bool> to_solve;          ///< by place in `objects`: its lines are found here
   std::uint64_t bytes = 0;             ///< about what a worker takes for it
 };
 

@@ -58,7 +58,8 @@ struct CutObject {
   std::uint32_t object = 0, colour = 0;
 };
 
-Result<std::vector<CutObject>> cut_objects(const model::Scene& scene, const SectionedShapes& sectioned,
+Result<std::vector<CutObject>> cut_objects(const model::Scene& scene,
+                                           const SectionedShapes& sectioned,
                                            const parallel::Context& context) {
   return parallel::collect<CutObject>(
       context,
@@ -131,7 +132,8 @@ double rarest_angle(std::span<const Neighbours::value_type> neighbours,
 
 }  // namespace
 
-Result<std::vector<Hatch>> choose_hatches(const model::Scene& scene, const SectionedShapes& sectioned,
+Result<std::vector<Hatch>> choose_hatches(const model::Scene& scene,
+                                          const SectionedShapes& sectioned,
                                           const std::vector<std::int64_t>& contact,
                                           const std::vector<Hatch>& given, double usual_mm,
                                           const parallel::Context& context) {
@@ -340,7 +342,8 @@ void add_body(const ViewJob& job, std::span<const SectionPlane> planes, std::uin
     if (!is_towards(job, plane) || sectioned.cut->rims[p].empty()) continue;
     const HatchGrid grid(plane.normal, job.view, hatch.angle_deg,
                          hatch.spacing_mm * geometry::kGridPerMm);
-    for (const geometry::Segment& line : grid.within(sectioned.cut->rims[p], sectioned.planes[p], origin))
+    for (const geometry::Segment& line :
+         grid.within(sectioned.cut->rims[p], sectioned.planes[p], origin))
       out.push_back({line[0] + origin, line[1] + origin, b, b, EdgeKind::hatch, false});
   }
 }
@@ -357,7 +360,8 @@ Result<std::vector<Hatch>> choose_hatches(const ViewJob& job, std::span<const Se
   const double usual_mm = job.options.hatch_spacing_mm < 0 ? usual_number(side_mm / kUsualShare)
                                                            : job.options.hatch_spacing_mm;
   if (const Status status = check(job, usual_mm, side_mm); !status) return status.error();
-  return choose_hatches(*job.scene, job.sectioned, job.contact, job.options.hatches, usual_mm, context);
+  return choose_hatches(*job.scene, job.sectioned, job.contact, job.options.hatches, usual_mm,
+                        context);
 }
 
 Result<std::vector<Line>> hatch_lines(const ViewJob& job, std::span<const SectionPlane> planes,

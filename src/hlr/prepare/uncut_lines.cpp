@@ -20,7 +20,8 @@ std::vector<Box3l> boxes_of_what_is_left(const ViewJob& job) {
   std::vector<Box3l> boxes(scene.bodies.size(), geometry::empty_box<std::int64_t>());
   for (std::uint32_t b = 0; b < boxes.size(); ++b) {
     const SectionedShape& sectioned = job.sectioned_shape_of(b);
-    if (job.drawn[model::index(scene.bodies[b].object)] && !sectioned.away && !sectioned.source->box.empty())
+    if (job.drawn[model::index(scene.bodies[b].object)] && !sectioned.away &&
+        !sectioned.source->box.empty())
       boxes[b] = scene.bodies[b].box(*sectioned.source);
   }
   return boxes;

@@ -36,7 +36,7 @@ std::string name_of(const SectionPlane& plane) {
 }
 
 void report_unmet_planes(const model::Scene& scene, const std::vector<bool>& drawn,
-                   std::span<const SectionPlane> planes, Diagnostics& diagnostics) {
+                         std::span<const SectionPlane> planes, Diagnostics& diagnostics) {
   for (const SectionPlane& plane : planes) {
     bool kept = false, away = false;
     for (const model::GridBody& body : scene.bodies) {

@@ -212,7 +212,9 @@ Status widen_contact(ViewJob& job, const parallel::Context& context) {
         job.contact[b] = std::max(job.contact[b], job.sectioned_shape_of(b).within);
         largest_contact = std::max(largest_contact, job.contact[b]);
       },
-      [](std::int64_t& into, std::int64_t largest_contact) { into = std::max(into, largest_contact); });
+      [](std::int64_t& into, std::int64_t largest_contact) {
+        into = std::max(into, largest_contact);
+      });
   if (!largest) return largest.error();
   job.contact_distance_mm = static_cast<double>(*largest) * geometry::kMmPerGrid;
   return {};
@@ -326,7 +328,9 @@ Result<model::ViewTessellationOptions> tessellation_of(const View& view, const O
   // What is left whole may reach beyond the planes.
   const ViewVolume shown(
       view, options.uncut.empty() ? std::span(*planes) : std::span<const SectionPlane>());
-  tessellation_options.shows = [shown](const Box3l& box) { return shown.meets(box.inflated(kRoom)); };
+  tessellation_options.shows = [shown](const Box3l& box) {
+    return shown.meets(box.inflated(kRoom));
+  };
   return tessellation_options;
 }
 
@@ -350,9 +354,10 @@ Result<ViewJob> begin_job(const ViewInput& input, const parallel::Context& conte
   if (whole != nullptr) job.to_solve = whole->to_solve;
   const auto tessellation_options = tessellation_of(view, options);
   if (!tessellation_options) return tessellation_options.error();
-  auto own = whole != nullptr ? model::tessellate_for_view(scene, job.drawn, *tessellation_options,
-                                                           whole->tessellation, context)
-                              : model::tessellate_for_view(scene, job.drawn, *tessellation_options, context);
+  auto own = whole != nullptr
+                 ? model::tessellate_for_view(scene, job.drawn, *tessellation_options,
+                                              whole->tessellation, context)
+                 : model::tessellate_for_view(scene, job.drawn, *tessellation_options, context);
   if (!own) return own.error();
   if (*own) job.own = std::make_unique<model::Scene>(std::move(**own));
   job.scene = job.own ? job.own.get() : &scene;

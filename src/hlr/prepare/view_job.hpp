@@ -71,7 +71,7 @@ struct ViewJob {
   geometry::Vec3l origin;
   std::optional<geometry::Box3l> limits;  ///< relative to origin, clipped to what is drawn
   std::vector<bool> drawn;                ///< per object
-  std::vector<bool> to_solve;                ///< as WholeView::asked; or empty
+  std::vector<bool> to_solve;             ///< as WholeView::asked; or empty
   std::vector<bool> opaque;               ///< per body: is drawn, and hides what lies behind it
   std::vector<std::int64_t> contact;      ///< per body: contact distance in grid units
   double contact_distance_mm = 0;         ///< the largest contact distance
@@ -87,7 +87,9 @@ struct ViewJob {
     return body.origin - origin;
   }
   /// Returns whether the lines of a drawn object are wanted.
-  [[nodiscard]] bool solves(std::uint32_t object) const { return to_solve.empty() || to_solve[object]; }
+  [[nodiscard]] bool solves(std::uint32_t object) const {
+    return to_solve.empty() || to_solve[object];
+  }
   /// Returns whether the object of an edge of this kind hides nothing of it, see
   /// Options::own_polylines.
   [[nodiscard]] bool spares_own(EdgeKind kind) const {

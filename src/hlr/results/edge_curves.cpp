@@ -47,7 +47,8 @@ bool is_chord(const geometry::Ellipse& curve, const geometry::Vec3d& a, const ge
 Result<ShapeCurves> curves_of(const ViewJob& job, const SectionedShape& sectioned,
                               const geometry::Mat3d& linear) {
   ShapeCurves result;
-  const auto found = sectioned_edges(sectioned, {job.viewer, job.cos_sharp, job.options.smooth}, {});
+  const auto found =
+      sectioned_edges(sectioned, {job.viewer, job.cos_sharp, job.options.smooth}, {});
   if (!found) return found.error();
   const std::vector<FeatureEdge>& edges = *found;
   result.edges = static_cast<std::uint32_t>(edges.size());

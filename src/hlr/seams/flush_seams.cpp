@@ -141,8 +141,8 @@ bool lies_on(const Segment& line, const LineMeasure& on, std::int64_t rounded) {
 
 /// Finds the seam of an edge of the drawing among those of its body. A part that is cut has other
 /// numbers for its edges, which are found by their places.
-const FlushSeam* seam_of(const FeatureEdge& edge, const SectionedShape& sectioned, const Vec3l& origin,
-                         std::span<const FlushSeam> of_body) {
+const FlushSeam* seam_of(const FeatureEdge& edge, const SectionedShape& sectioned,
+                         const Vec3l& origin, std::span<const FlushSeam> of_body) {
   if (!sectioned.cut) {
     const auto number = std::pair(edge.part, edge.part_edge);
     const auto found = std::ranges::lower_bound(

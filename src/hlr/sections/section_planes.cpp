@@ -73,8 +73,7 @@ Result<std::vector<SectionPlane>> section_planes(std::span<const Section> sectio
   std::ranges::sort(planes);
   const auto repeated = std::ranges::unique(planes);
   planes.erase(repeated.begin(), repeated.end());
-  if (planes.size() > kMaxPlanes)
-    return section_error("more than 16 section planes", "give fewer");
+  if (planes.size() > kMaxPlanes) return section_error("more than 16 section planes", "give fewer");
   return planes;
 }
 

@@ -124,7 +124,8 @@ class EdgeCutter {
  private:
   void add(const FeatureEdge& e) {
     const Segment whole{e.a.as<std::int64_t>(), e.b.as<std::int64_t>()};
-    const auto left = sectioned_.away ? std::nullopt : geometry::left_of(whole, std::span(sectioned_.planes));
+    const auto left =
+        sectioned_.away ? std::nullopt : geometry::left_of(whole, std::span(sectioned_.planes));
     if (!left) return push(e, whole, true);
     const Segment before{whole[0], (*left)[0]}, after{(*left)[1], whole[1]};
     push(e, before, true);

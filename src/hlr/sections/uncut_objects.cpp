@@ -52,7 +52,8 @@ bool is_left_whole(const model::Scene& scene, model::ObjectId object,
 }  // namespace
 
 std::vector<bool> find_uncut(const model::Scene& scene, const std::vector<bool>& drawn,
-                             const std::vector<bool>& to_solve, std::span<const SectionPlane> planes) {
+                             const std::vector<bool>& to_solve,
+                             std::span<const SectionPlane> planes) {
   if (planes.empty() || std::ranges::find(to_solve, true) == to_solve.end()) return {};
   std::vector<bool> uncut(to_solve.size());
   for (std::uint32_t o = 0; o < to_solve.size(); ++o)

@@ -101,7 +101,7 @@ struct Viewer {
   }
   /// Returns whether a segment is a point on paper.
   [[nodiscard]] constexpr bool projects_to_point(const geometry::Vec3l& a,
-                                             const geometry::Vec3l& b) const {
+                                                 const geometry::Vec3l& b) const {
     return is_zero(wide_cross(b - a, eye ? *eye - a : direction));
   }
   /// Returns the viewer in the coordinates of a body that is placed at an offset.

@@ -200,7 +200,8 @@ class Solver {
     bool empty = false;
     for (std::size_t k = 0; k < 3 && !empty; ++k) {
       const Vec3l &q = f.corner[k], &r = f.corner[(k + 1) % 3];
-      apply({side_on_paper(q, r, e.a), side_on_paper(q, r, e.b), side * same_way(e, q, r)}, range, empty);
+      apply({side_on_paper(q, r, e.a), side_on_paper(q, r, e.b), side * same_way(e, q, r)}, range,
+            empty);
     }
     if (empty) return;
     Int128 size = 0;

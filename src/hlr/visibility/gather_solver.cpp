@@ -297,7 +297,8 @@ bool OccluderGatherer::gather_body(std::uint32_t b, bool self) {
 bool OccluderGatherer::test_part(const ProjectedShape& shape, const OccluderPart& part,
                                  const Rule& rule) {
   if (!may_be_hidden_by(local_, part.box)) return true;
-  if (!part.rotation.is_none() && !make_query(part.rotation).may_be_hidden_by(part.rotated_box)) return true;
+  if (!part.rotation.is_none() && !make_query(part.rotation).may_be_hidden_by(part.rotated_box))
+    return true;
   if (is_deep_under(part, std::max(rule.contact, rule.lying))) {
     ++work.tests;
     work.wide_tests += local_.narrow ? 0 : 1;

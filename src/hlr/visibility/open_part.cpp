@@ -59,7 +59,7 @@ ViewBox open_box(const ViewPoint& a, const ViewPoint& b, const OpenRange& open) 
 }
 
 SegmentQuery rotated_query(const ViewPoint& a, const ViewPoint& b, const OpenRange& open,
-                          const PaperRotation& rotation) {
+                           const PaperRotation& rotation) {
   SegmentQuery s;
   const std::int64_t whole = kExactInDouble / (2 * PaperRotation::kMax);
   const bool exact = std::max({std::abs(a.u), std::abs(a.v), std::abs(b.u), std::abs(b.v)}) < whole;

@@ -17,6 +17,6 @@ namespace strake::hlr {
 
 /// Returns the query for what may hide the open part of an edge in boxes that are rotated.
 [[nodiscard]] SegmentQuery rotated_query(const ViewPoint& a, const ViewPoint& b,
-                                        const OpenRange& open, const PaperRotation& rotation);
+                                         const OpenRange& open, const PaperRotation& rotation);
 
 }  // namespace strake::hlr

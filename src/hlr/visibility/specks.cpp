@@ -64,7 +64,8 @@ class Absorber {
     const bool is_short = rule_.within(spans_[first].a, spans_[last - 1].b, longest_);
     const bool lonely = (before == nullptr || before->stays) && (after == nullptr || after->stays);
     const bool at_end = before != nullptr || after != nullptr;
-    const std::uint8_t kind = is_short && !lonely ? kind_beside(before, after) : largest(first, last);
+    const std::uint8_t kind =
+        is_short && !lonely ? kind_beside(before, after) : largest(first, last);
     for (std::size_t i = first; i < last; ++i) {
       spans_[i].kind = kind;
       spans_[i].stays = is_short && lonely && at_end;

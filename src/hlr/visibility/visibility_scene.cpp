@@ -71,7 +71,8 @@ Status project_shapes(VisibilityScene& visibility, const parallel::Context& cont
   const parallel::StageTimer timer(context.report, kLocalStep);
   const ViewJob& job = visibility.job;
   const model::Scene& scene = *job.scene;
-  const std::size_t shapes = visibility.perspective_map ? scene.bodies.size() : job.sectioned.all.size();
+  const std::size_t shapes =
+      visibility.perspective_map ? scene.bodies.size() : job.sectioned.all.size();
   parallel::Lowest body_of(shapes);
   const Status found = parallel::for_each(
       context,

@@ -304,7 +304,8 @@ Status Importer::adopt_features() {
     shapes_[mesh].features = std::move(features.rows);
   }
   std::uint64_t copied = 0;
-  const std::uint64_t maximum = 16 * (input_.file.bytes.size() + buffers_.total_bytes()) + (1U << 28U);
+  const std::uint64_t maximum =
+      16 * (input_.file.bytes.size() + buffers_.total_bytes()) + (1U << 28U);
   for (const VisitedNode& visit : visits_) {
     if (!nodes_.has_mesh(visit.node)) continue;
     const GltfNode& node = nodes_[visit.node];

@@ -81,8 +81,7 @@ void ImportReport::take_diagnostic(const gltf::JsonValue& line, std::string_view
   std::string code = line["code"].text_value();
   const auto& counts = facts_.diagnostics.counts();
   const auto before = std::ranges::find(counts, code, &Diagnostics::Count::code);
-  const bool fits =
-      before == counts.end() ? counts.size() < kMaxCodes : before->severity == *known;
+  const bool fits = before == counts.end() ? counts.size() < kMaxCodes : before->severity == *known;
   // All of one code count with the severity of the first.
   if (!is_code(code) || !fits)
     code = std::string(kOther) + '-' + std::string(severity_name(*known));

@@ -69,25 +69,29 @@ Diagnostics place_diagnostics(const std::vector<FilePlace>& files, bool on_map) 
     if (on_map)
       for (const FilePlace& file : files)
         diagnostics.add(Severity::warning, "map-place-unknown",
-                 "it says nothing of its place on a map: its coordinates stay its own", file.file);
+                        "it says nothing of its place on a map: its coordinates stay its own",
+                        file.file);
     return diagnostics;
   }
   for (const FilePlace& file : files) {
     if (!file.place) {
       if (on_map)
         diagnostics.add(Severity::warning, "map-place-unknown",
-                 "it says nothing of its place on a map: its coordinates stay its own", file.file);
+                        "it says nothing of its place on a map: its coordinates stay its own",
+                        file.file);
     } else if (file.place->crs != first->place->crs) {
       if (on_map)
         diagnostics.add(Severity::warning, "map-other",
-                 "it lies on the map " + in_quotes(file.place->crs) + ", and " + first->file +
-                     " on " + in_quotes(first->place->crs) + ": they do not meet",
-                 file.file);
+                        "it lies on the map " + in_quotes(file.place->crs) + ", and " +
+                            first->file + " on " + in_quotes(first->place->crs) +
+                            ": they do not meet",
+                        file.file);
     } else if (!on_map && !are_same(*file.place, *first->place)) {
       diagnostics.add(Severity::note, "map-place-differs",
-               "it lies on the map " + in_quotes(file.place->crs) + " otherwise than " +
-                   first->file + ": in coordinates of their own they do not meet as they do there",
-               file.file);
+                      "it lies on the map " + in_quotes(file.place->crs) + " otherwise than " +
+                          first->file +
+                          ": in coordinates of their own they do not meet as they do there",
+                      file.file);
     }
   }
   return diagnostics;

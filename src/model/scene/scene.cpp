@@ -32,8 +32,8 @@ using geometry::Mat3d;
 
 constexpr double kMaxWeldMm = 1000;
 
-/// Returns which seams of a body are closed: those that its numbers cannot distinguish, before wider
-/// ones that are requested.
+/// Returns which seams of a body are closed: those that its numbers cannot distinguish, before
+/// wider ones that are requested.
 geometry::Seams seams_of(const Model& model, const Body& body, const SceneOptions& options) {
   if (!std::holds_alternative<geometry::TriangleMesh>(model.shapes[index(body.shape)])) return {};
   const auto on_grid = [](double units) {

@@ -44,7 +44,8 @@ Result<std::vector<bool>> finer_shapes(const Scene& scene, const std::vector<boo
                                        const ViewTessellationOptions& tessellation_options,
                                        const parallel::Context& context) {
   std::vector<bool> finer;
-  if (!(tessellation_options.sag_mm > 0 && tessellation_options.sag_mm < scene.sag_mm)) return finer;
+  if (!(tessellation_options.sag_mm > 0 && tessellation_options.sag_mm < scene.sag_mm))
+    return finer;
   std::vector<bool> curved(scene.shapes.size());
   for (std::uint32_t s = 0; s < curved.size(); ++s) {
     const geometry::Primitive* const primitive = primitive_of(scene, s);
@@ -59,7 +60,8 @@ Result<std::vector<bool>> finer_shapes(const Scene& scene, const std::vector<boo
             (!drawn.empty() && !drawn[index(body.object)]))
           return;
         const geometry::Box3l box = body.box(scene.shapes[body.grid_shape]);
-        if (!box.empty() && (!tessellation_options.shows || tessellation_options.shows(box))) result.set(body.grid_shape);
+        if (!box.empty() && (!tessellation_options.shows || tessellation_options.shows(box)))
+          result.set(body.grid_shape);
       });
   if (!status) return status.error();
   finer.resize(scene.shapes.size());
@@ -69,7 +71,7 @@ Result<std::vector<bool>> finer_shapes(const Scene& scene, const std::vector<boo
 
 /// Returns whether a body gets a shape of its own, as an eye sees its contours.
 bool is_in_view_of_eye(const Scene& scene, const GridBody& body,
-                      const ViewTessellationOptions& tessellation_options) {
+                       const ViewTessellationOptions& tessellation_options) {
   if (!tessellation_options.eye) return false;
   const geometry::Primitive* const primitive = primitive_of(scene, body.grid_shape);
   if (primitive == nullptr || !geometry::is_round(*primitive)) return false;
@@ -123,8 +125,8 @@ Result<ShapesOfView> shapes_of_view(const Scene& scene, const std::vector<bool>&
 }
 
 /// Returns whether a shape is made anew where it is drawn.
-bool changes(const Scene& scene, std::uint32_t shape, const ViewTessellationOptions& tessellation_options,
-             const ViewTessellation& plan) {
+bool changes(const Scene& scene, std::uint32_t shape,
+             const ViewTessellationOptions& tessellation_options, const ViewTessellation& plan) {
   if (plan.is_finer(shape)) return true;
   const geometry::Primitive* const primitive = primitive_of(scene, shape);
   return tessellation_options.towards && primitive != nullptr && geometry::is_round(*primitive);
@@ -163,20 +165,22 @@ Result<ViewTessellation> plan_view_tessellation(const Scene& scene, const std::v
   return plan;
 }
 
-Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::vector<bool>& drawn,
-                                                 const ViewTessellationOptions& tessellation_options,
-                                                 const parallel::Context& context) {
-  const Result<ViewTessellation> plan = plan_view_tessellation(scene, drawn, tessellation_options, context);
+Result<std::optional<Scene>> tessellate_for_view(
+    const Scene& scene, const std::vector<bool>& drawn,
+    const ViewTessellationOptions& tessellation_options, const parallel::Context& context) {
+  const Result<ViewTessellation> plan =
+      plan_view_tessellation(scene, drawn, tessellation_options, context);
   if (!plan) return plan.error();
   return tessellate_for_view(scene, drawn, tessellation_options, *plan, context);
 }
 
-Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::vector<bool>& drawn,
-                                                 const ViewTessellationOptions& tessellation_options,
-                                                 const ViewTessellation& plan,
-                                                 const parallel::Context& context) {
+Result<std::optional<Scene>> tessellate_for_view(
+    const Scene& scene, const std::vector<bool>& drawn,
+    const ViewTessellationOptions& tessellation_options, const ViewTessellation& plan,
+    const parallel::Context& context) {
   if (!plan.any) return std::optional<Scene>();
-  const Result<ShapesOfView> shapes_of = shapes_of_view(scene, drawn, tessellation_options, context);
+  const Result<ShapesOfView> shapes_of =
+      shapes_of_view(scene, drawn, tessellation_options, context);
   if (!shapes_of) return shapes_of.error();
   const ShapesOfView& view = *shapes_of;
   // Only shares the work out: between 4 and 64 no difference can be seen (decision 0073).
@@ -195,9 +199,11 @@ Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::
         const GridBody& body = scene.bodies[view.first[i]];
         const std::uint32_t s = body.grid_shape;
         if (!own && !changes(scene, s, tessellation_options, plan)) return scene.shapes[s];
-        GridShapeOptions wanted{.sag_mm = plan.is_finer(s) ? tessellation_options.sag_mm : scene.sag_mm};
+        GridShapeOptions wanted{.sag_mm =
+                                    plan.is_finer(s) ? tessellation_options.sag_mm : scene.sag_mm};
         if (own)
-          wanted.eye = geometry::to_mm(*tessellation_options.eye - (body.origin - scene.shapes[s].base));
+          wanted.eye =
+              geometry::to_mm(*tessellation_options.eye - (body.origin - scene.shapes[s].base));
         else if (tessellation_options.towards)
           wanted.towards = tessellation_options.towards->as<double>();
         return made_for(scene, s, scene.model->bodies[body.body].placement.linear, wanted, builder);
@@ -210,7 +216,8 @@ Result<std::optional<Scene>> tessellate_for_view(const Scene& scene, const std::
   result.diagnostics = scene.diagnostics;
   result.lacking = scene.lacking;
   result.sag_mm = scene.sag_mm;
-  if (tessellation_options.sag_mm > 0) result.sag_mm = std::min(result.sag_mm, tessellation_options.sag_mm);
+  if (tessellation_options.sag_mm > 0)
+    result.sag_mm = std::min(result.sag_mm, tessellation_options.sag_mm);
   result.weld_mm = scene.weld_mm;
   auto bodies = parallel::transform(
       context, {.name = "bodies of the view", .n = scene.bodies.size(), .grain = kBodiesPerRun},

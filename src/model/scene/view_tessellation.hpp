@@ -42,8 +42,8 @@ struct ViewTessellation {
 /// Returns what tessellate_for_view() makes anew. `shows` is called by all workers. Errors:
 /// cancelled, out of memory.
 [[nodiscard]] Result<ViewTessellation> plan_view_tessellation(
-    const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& tessellation_options,
-    const parallel::Context& context);
+    const Scene& scene, const std::vector<bool>& drawn,
+    const ViewTessellationOptions& tessellation_options, const parallel::Context& context);
 
 /// Returns a scene as a view sees it: its primitives are tessellated anew where that changes them,
 /// once per shape and rotation as in `scene`; for an eye once per shape and place, of bodies that
@@ -54,13 +54,14 @@ struct ViewTessellation {
 ///
 /// Applied twice it changes nothing more. The model must outlive the result. Errors: cancelled.
 [[nodiscard]] Result<std::optional<Scene>> tessellate_for_view(
-    const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& tessellation_options,
-    const parallel::Context& context);
+    const Scene& scene, const std::vector<bool>& drawn,
+    const ViewTessellationOptions& tessellation_options, const parallel::Context& context);
 
 /// Does the same as a plan says, which may be that of more than is drawn here: what is finer then
 /// is not asked of `shows`.
 [[nodiscard]] Result<std::optional<Scene>> tessellate_for_view(
-    const Scene& scene, const std::vector<bool>& drawn, const ViewTessellationOptions& tessellation_options,
-    const ViewTessellation& plan, const parallel::Context& context);
+    const Scene& scene, const std::vector<bool>& drawn,
+    const ViewTessellationOptions& tessellation_options, const ViewTessellation& plan,
+    const parallel::Context& context);
 
 }  // namespace strake::model

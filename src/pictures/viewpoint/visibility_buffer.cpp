@@ -52,7 +52,8 @@ void VisibilityBuffer::cover(const Window& window, const NearTriangles& triangle
     const WindowRange range = range_of(window, run.box);
     if (range.farthest > window.eye_mm || !may_hide(range)) continue;
     for (std::uint32_t i = run.first; i < run.end; ++i)
-      if (const auto projected = project_triangle(window, triangles[i], i)) cover(window, *projected);
+      if (const auto projected = project_triangle(window, triangles[i], i))
+        cover(window, *projected);
   }
 }
 

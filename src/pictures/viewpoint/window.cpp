@@ -67,7 +67,7 @@ WindowRange range_of(const Window& w, const Box3d& box) {
 }
 
 std::optional<ProjectedTriangle> project_triangle(const Window& w, const NearTriangle& triangle,
-                                          std::uint32_t number) {
+                                                  std::uint32_t number) {
   const WindowPoint a = window_point(w, triangle.at[0]), b = window_point(w, triangle.at[1]),
                     c = window_point(w, triangle.at[2]);
   ProjectedTriangle projected;
@@ -81,7 +81,8 @@ std::optional<ProjectedTriangle> project_triangle(const Window& w, const NearTri
   if (first >= end || area == 0) return std::nullopt;
   projected.shares = {share_of(b, c, 1 / area), share_of(c, a, 1 / area), share_of(a, b, 1 / area)};
   for (std::size_t k = 0; k < 3; ++k)
-    if (const double along = projected.shares[k].along; along != 0) projected.per_along[k] = 1 / along;
+    if (const double along = projected.shares[k].along; along != 0)
+      projected.per_along[k] = 1 / along;
   const auto mixed = [&](double Slope::* of) {
     return a.depth * (projected.shares[0].*of) + b.depth * (projected.shares[1].*of) +
            c.depth * (projected.shares[2].*of);
@@ -124,7 +125,8 @@ bool may_cut(const Window& w, const Box3d& box) {
   });
 }
 
-TriangleRow::TriangleRow(const Window& window, const ProjectedTriangle& triangle, std::uint32_t row) {
+TriangleRow::TriangleRow(const Window& window, const ProjectedTriangle& triangle,
+                         std::uint32_t row) {
   const double y = row + 0.5;
   double left = triangle.left, right = triangle.right;
   std::array<double, 3> at{};

@@ -64,13 +64,13 @@ struct ProjectedTriangle {
 
 /// Returns the triangle where the window has the middle of a point in it that is before the eye.
 [[nodiscard]] std::optional<ProjectedTriangle> project_triangle(const Window& window,
-                                                        const NearTriangle& triangle,
-                                                        std::uint32_t number);
+                                                                const NearTriangle& triangle,
+                                                                std::uint32_t number);
 
 /// Returns the triangles that a window may have something of: others, then the clash's own, each in
 /// their order.
 [[nodiscard]] std::vector<ProjectedTriangle> project_triangles(const Window& window,
-                                                       const NearTriangles& triangles);
+                                                               const NearTriangles& triangles);
 
 /// Whether a window may leave out some of a box.
 [[nodiscard]] bool may_cut(const Window& window, const geometry::Box3d& box);

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "project/changes/displaced_bodies.hpp"
 #include "project/changes/fingerprints.hpp"
 #include "project/changes/pair_objects.hpp"
-#include "project/changes/displaced_bodies.hpp"
 #include "strake/parallel/for_each.hpp"
 #include "strake/parallel/transform.hpp"
 #include "strake/project/update.hpp"

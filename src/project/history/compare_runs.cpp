@@ -110,8 +110,8 @@ class RunComparer {
       if (then == before.tests.end()) {
         made_.diff.tests_added.push_back(now.name);
         const ObservationAt none{ObservationAt::Kind::not_known, {}, no_test(now)};
-        const Status status =
-            observations->each(now.test, runs_, [&](const ClashRow& row, const ObservationPair& observed) {
+        const Status status = observations->each(
+            now.test, runs_, [&](const ClashRow& row, const ObservationPair& observed) {
               return add(*observations, row, {none, observed.second}, 0, t);
             });
         if (!status) return status;
@@ -120,8 +120,8 @@ class RunComparer {
       compare_settings(*then, now);
       if (const Status status = count(*then, now); !status) return status;
       const auto of_before = static_cast<std::uint32_t>(then - before.tests.begin());
-      const Status status =
-          observations->each(now.test, runs_, [&](const ClashRow& row, const ObservationPair& observed) {
+      const Status status = observations->each(
+          now.test, runs_, [&](const ClashRow& row, const ObservationPair& observed) {
             return add(*observations, row, observed, of_before, t);
           });
       if (!status) return status;
@@ -132,8 +132,8 @@ class RunComparer {
         continue;
       made_.diff.tests_gone.push_back(then.name);
       const ObservationAt none{ObservationAt::Kind::cannot_tell, {}, no_test(then)};
-      const Status status =
-          observations->each(then.test, runs_, [&](const ClashRow& row, const ObservationPair& observed) {
+      const Status status = observations->each(
+          then.test, runs_, [&](const ClashRow& row, const ObservationPair& observed) {
             return add(*observations, row, {observed.first, none}, t, 0);
           });
       if (!status) return status;
@@ -175,10 +175,11 @@ class RunComparer {
         {now.name, "settings", quoted(then.settings), quoted(now.settings)});
   }
 
-  Status add(Observations& observations, const ClashRow& row, const ObservationPair& observed, std::uint32_t test_before,
-             std::uint32_t test_after) {
+  Status add(Observations& observations, const ClashRow& row, const ObservationPair& observed,
+             std::uint32_t test_before, std::uint32_t test_after) {
     const auto& [then, now] = observed;
-    const bool was = then.kind == ObservationAt::Kind::found, is = now.kind == ObservationAt::Kind::found;
+    const bool was = then.kind == ObservationAt::Kind::found,
+               is = now.kind == ObservationAt::Kind::found;
     if (!was && !is) return {};
     Entry& entry = entries_.emplace_back();
     if (was) entry.before = before_.add(row, then.now, test_before);
@@ -194,7 +195,7 @@ class RunComparer {
     }
     entry.list = is ? &made_.diff.added
                     : (other.kind == ObservationAt::Kind::cannot_tell ? &made_.diff.cannot_tell
-                                                                 : &made_.diff.gone);
+                                                                      : &made_.diff.gone);
     return {};
   }
 
@@ -222,7 +223,8 @@ class RunComparer {
 
 }  // namespace
 
-Result<std::unique_ptr<RunComparison>> compare_runs(Database& database, const ComparedRuns& request) {
+Result<std::unique_ptr<RunComparison>> compare_runs(Database& database,
+                                                    const ComparedRuns& request) {
   const Result<std::pair<KeptRun, KeptRun>> runs = runs_to_compare(database, request);
   if (!runs) return runs.error();
   const auto& [before, after] = *runs;

@@ -137,7 +137,8 @@ Status check_test_name(Database& database, const std::string& name) {
 
 }  // namespace
 
-Result<std::pair<KeptRun, KeptRun>> runs_to_compare(Database& database, const ComparedRuns& request) {
+Result<std::pair<KeptRun, KeptRun>> runs_to_compare(Database& database,
+                                                    const ComparedRuns& request) {
   if (request.test)
     if (const Status status = check_test_name(database, *request.test); !status)
       return status.error();

@@ -16,7 +16,7 @@ namespace strake::project {
 namespace {
 
 Result<std::vector<std::string>> selected_tests(Database& database,
-                                               const std::optional<std::string>& test) {
+                                                const std::optional<std::string>& test) {
   if (!test) return last_tests(database);
   const Result<std::vector<std::string>> names = test_names(database);
   if (!names) return names.error();

@@ -65,7 +65,8 @@ ObservationAt current_observation(const ClashRow& row) {
 
 /// Returns what a run said: what the first one after it that said something else found written, or
 /// what is written today.
-ObservationAt observation_at(const ClashRow& row, const std::vector<FormerObservation>* former, std::int64_t run) {
+ObservationAt observation_at(const ClashRow& row, const std::vector<FormerObservation>* former,
+                             std::int64_t run) {
   if (run < row.first_run) return {};
   if (former != nullptr) {
     const auto later = std::ranges::upper_bound(*former, run, {}, &FormerObservation::run);
@@ -88,7 +89,7 @@ Result<Observations> Observations::of(Database& database) {
 }
 
 Status Observations::each(std::int64_t test, const std::pair<std::int64_t, std::int64_t>& runs,
-                    const Take& take) {
+                          const Take& take) {
   const Result<FormerObservations> former = read_former(*database_, test);
   if (!former) return former.error();
   Result<Statement> select = database_->prepare("SELECT " + std::string(kClashColumns) +
@@ -103,8 +104,8 @@ Status Observations::each(std::int64_t test, const std::pair<std::int64_t, std::
     if (!row) return row.error();
     const auto at = former->find(row->id);
     const auto* const observation = at == former->end() ? nullptr : &at->second;
-    const Status status =
-        take(*row, {observation_at(*row, observation, runs.first), observation_at(*row, observation, runs.second)});
+    const Status status = take(*row, {observation_at(*row, observation, runs.first),
+                                      observation_at(*row, observation, runs.second)});
     if (!status) return status;
   }
 }

@@ -52,7 +52,8 @@ Status check_test(const std::map<std::int64_t, TestName>& tests, const std::stri
 }
 
 /// Returns what somebody said and did besides the status, for people.
-std::string event_text(const ClashRow& before, const ClashRow& after, const ClashDecision& decision) {
+std::string event_text(const ClashRow& before, const ClashRow& after,
+                       const ClashDecision& decision) {
   std::string text = decision.comment.value_or(std::string());
   const auto add = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
   if (after.comment.empty() && !before.comment.empty()) add("the comment is taken back");

@@ -120,7 +120,13 @@ Result<ClashRow> row_of(const Database& database, const Statement& at) {
 report::DecisionComment ClashEvent::person_comment() const {
   if (run) return {};
   if (!original) return {at, who, comment};
-  return {at, who, original->text, original->guid, original->topic, original->first_at, original->first_by};
+  return {at,
+          who,
+          original->text,
+          original->guid,
+          original->topic,
+          original->first_at,
+          original->first_by};
 }
 
 Result<ClashEvent> event_of(const Database& database, const Statement& at) {

@@ -76,7 +76,7 @@ struct ClashEvent {
   std::optional<std::int64_t> run;  ///< the run that did it; absent: a person, between runs
   std::string at, who;
   report::DecisionStatus before{}, after{};
-  std::string comment;            ///< what it tells
+  std::string comment;                           ///< what it tells
   std::optional<OriginalComment> original = {};  ///< absent: what it tells is what was said
 
   /// Returns what somebody said; of what a program did, nothing.

@@ -55,6 +55,7 @@ struct LifeChange {
 
 /// Returns it. An approved clash comes back where its class is severer, where d is less than it was
 /// by more than `deeper_mm`, and where the two meet at more places.
-[[nodiscard]] LifeChange next(const LifeState& state, const Observation& observed, double deeper_mm);
+[[nodiscard]] LifeChange next(const LifeState& state, const Observation& observed,
+                              double deeper_mm);
 
 }  // namespace strake::project

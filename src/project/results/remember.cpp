@@ -93,7 +93,8 @@ class DecidedBuilder {
       const clash::Pair& pair = report.pairs[at];
       results.push_back(
           {pair.a, pair.b, pair.cls, pair.allowed >= 0, reported.reopened, false, nullptr});
-      reported_.push_back({test, results.size() - 1, add(reported_decision(reported, memory.is_new(at), report))});
+      reported_.push_back(
+          {test, results.size() - 1, add(reported_decision(reported, memory.is_new(at), report))});
       decision_of_.emplace(reported.row.id, reported_.back().decision);
       if (pair.allowed < 0) count(decisions_.back().status, rest);
     }
@@ -153,8 +154,9 @@ class DecidedBuilder {
     return decisions_.size() - 1;
   }
 
-  [[nodiscard]] static report::Decision reported_decision(const ReportedClash& reported, bool is_new,
-                                                const clash::Report& report) {
+  [[nodiscard]] static report::Decision reported_decision(const ReportedClash& reported,
+                                                          bool is_new,
+                                                          const clash::Report& report) {
     report::Decision decision = decision_of(reported.row, report.name);
     if (decision.status == DecisionStatus::undecided && !is_new)
       decision.status = DecisionStatus::active;

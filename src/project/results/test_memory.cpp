@@ -328,15 +328,16 @@ Status TestMemory::update_not_found(ClashRow row) {
     wait(std::move(row), why.empty() ? kOnlyPosition : std::move(why));
     return {};
   }
-  const Observation observed{why.empty() ? ObservationKind::gone : ObservationKind::cannot_tell, row.now, why};
+  const Observation observed{why.empty() ? ObservationKind::gone : ObservationKind::cannot_tell,
+                             row.now, why};
   const ClashRow before = row;
   return apply(before, row, observed, std::nullopt);
 }
 
 /// Keeps what runs before said of a row, and of one without a result what the run that saw it last
 /// knew of its objects.
-Status TestMemory::keep_history(const ClashRow& before, const ClashRow& row, const Observation& observed,
-                                bool has_result) {
+Status TestMemory::keep_history(const ClashRow& before, const ClashRow& row,
+                                const Observation& observed, bool has_result) {
   const auto measures = [](const ClashRow& r) {
     return std::tuple(r.now.cls, r.now.d_mm, r.now.regions, r.gone_run.has_value(), r.unknown);
   };
@@ -439,7 +440,8 @@ Status TestMemory::take_watched() {
   }
   for (std::size_t r = 0; r < rows->size(); ++r) {
     ClashRow& row = (*rows)[r];
-    const Status status = results[r] ? update_found(std::move(row), *results[r]) : update_not_found(std::move(row));
+    const Status status =
+        results[r] ? update_found(std::move(row), *results[r]) : update_not_found(std::move(row));
     if (!status) return status;
   }
   return {};
@@ -467,14 +469,16 @@ Status TestMemory::take_positional() {
   for (std::size_t i = 0; i < positional_results_.size(); ++i) {
     const std::size_t at = positional_results_[i];
     if (found[i]) is_found[*found[i]] = true;
-    const Status status = found[i] ? update_found(rows[*found[i]], at) : add(at, key_of(report_.pairs[at]));
+    const Status status =
+        found[i] ? update_found(rows[*found[i]], at) : add(at, key_of(report_.pairs[at]));
     if (!status) return status;
   }
   for (std::size_t r = 0; r < rows.size(); ++r) {
     if (is_found[r]) continue;
     const Observation observed{ObservationKind::cannot_tell, rows[r].now, waiting_[r].why};
     const ClashRow before = rows[r];
-    if (const Status status = apply(before, rows[r], observed, std::nullopt); !status) return status;
+    if (const Status status = apply(before, rows[r], observed, std::nullopt); !status)
+      return status;
   }
   return {};
 }

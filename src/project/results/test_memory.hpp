@@ -70,8 +70,8 @@ class TestMemory {
   [[nodiscard]] Status update_not_found(ClashRow row);
   [[nodiscard]] Status apply(const ClashRow& before, ClashRow& row, const Observation& observed,
                              std::optional<std::size_t> pair);
-  [[nodiscard]] Status keep_history(const ClashRow& before, const ClashRow& row, const Observation& observed,
-                                    bool has_result);
+  [[nodiscard]] Status keep_history(const ClashRow& before, const ClashRow& row,
+                                    const Observation& observed, bool has_result);
   [[nodiscard]] Status park(ClashRow& row);
   [[nodiscard]] Result<std::vector<ClashRow>> watched();
   [[nodiscard]] Result<ClashRow> existing(std::int64_t id);
@@ -103,7 +103,7 @@ class TestMemory {
   std::set<std::int64_t> handled_;  ///< rows that this run has dealt with, or that wait
   std::map<std::int64_t, OpenParts> open_before_;  ///< of rows whose results the run before had
   TestTrend trend_;
-  std::vector<bool> is_new_;                ///< of each result
+  std::vector<bool> is_new_;            ///< of each result
   std::vector<std::size_t> maybe_new_;  ///< all that may be, in any order
   std::map<std::size_t, ReportedClash> reported_;
   std::vector<ClashRow> not_found_;

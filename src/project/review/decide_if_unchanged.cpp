@@ -78,8 +78,8 @@ class LaterChanges {
     if (*there) {
       const std::string run = "run " + std::to_string(former_.integer(0));
       change = clash.unknown.empty() ? fmt::format("{} finds it otherwise: {}, d = {:.3f} mm", run,
-                                                 name(clash.now.cls), clash.now.d_mm)
-                                   : run + " cannot tell whether it is there: " + clash.unknown;
+                                                   name(clash.now.cls), clash.now.d_mm)
+                                     : run + " cannot tell whether it is there: " + clash.unknown;
     }
     former_.reset();
     return change;
@@ -100,7 +100,7 @@ Result<KnownState> current_state(Database& database) {
 }
 
 Result<DecideOutcome> decide_if_unchanged(Database& database, std::span<const std::string> keys,
-                                       const ClashDecision& decision, const KnownState& known) {
+                                          const ClashDecision& decision, const KnownState& known) {
   Result<ClashRows> rows = ClashRows::of(database);
   if (!rows) return rows.error();
   Result<LaterChanges> changes = LaterChanges::of(database, known);

@@ -39,13 +39,14 @@ struct DecideOutcome {
 /// find or measures otherwise, whatever events were seen, and a key that no clash has: all others
 /// stand. To be called within a transaction. Errors: those of decide(), but for unknown keys.
 [[nodiscard]] Result<DecideOutcome> decide_if_unchanged(Database& database,
-                                                     std::span<const std::string> keys,
-                                                     const ClashDecision& decision,
-                                                     const KnownState& known);
+                                                        std::span<const std::string> keys,
+                                                        const ClashDecision& decision,
+                                                        const KnownState& known);
 
 /// Returns the rows of the clashes of which a status or comment changed after an event, the first
 /// `limit` of them in the order of their ids.
 [[nodiscard]] Result<std::vector<std::int64_t>> changed_since(Database& database,
-                                                              std::int64_t event, std::size_t limit);
+                                                              std::int64_t event,
+                                                              std::size_t limit);
 
 }  // namespace strake::project

@@ -161,7 +161,8 @@ class ReviewTaker {
       known.keys.insert(key_of(comment_made));
       // It may have gone out with all that its event tells.
       known.keys.insert(key_of({event.at, event.who, event.comment}));
-      if (!comment_made.guid.empty()) known.by_guid[comment_made.guid] = rules_.compared(comment_made.text);
+      if (!comment_made.guid.empty())
+        known.by_guid[comment_made.guid] = rules_.compared(comment_made.text);
       // Behind a comment an event tells what else was set.
       const std::string& comment = clash.row.comment;
       if (!comment.empty() && event.comment.starts_with(comment))
@@ -230,8 +231,8 @@ class ReviewTaker {
     ClashEvent event{clash.row.id, std::nullopt, comment.at,  comment.by,
                      clash.status, clash.status, comment.text};
     if (!comment.guid.empty())
-      event.original =
-          OriginalComment{comment.text, comment.guid, comment.topic, comment.first_at, comment.first_by};
+      event.original = OriginalComment{comment.text, comment.guid, comment.topic, comment.first_at,
+                                       comment.first_by};
     return rows_.add(event);
   }
 

@@ -224,7 +224,8 @@ Result<FilePlan> plan_update(const std::vector<StoredFile>& files,
   std::vector<FileToStore*> to_place;
   for (const std::size_t f : sought) to_place.push_back(&plan.read[f]);
   PlaceFinder finder(files, plan);
-  if (const Status status = finder.find(known, std::move(to_place), given_pairs, then, context); !status)
+  if (const Status status = finder.find(known, std::move(to_place), given_pairs, then, context);
+      !status)
     return status.error();
   return plan;
 }

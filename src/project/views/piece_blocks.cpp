@@ -108,8 +108,8 @@ class BlockReader {
       return false;
     for (std::size_t i = 0; i < n; ++i) {
       const auto largest = static_cast<std::int64_t>(objects_);
-      if (!is_number(object[i], objects_) || !is_number(edge[i], kMaxEdges) || apart[i] <= -largest ||
-          apart[i] >= largest || !is_number(object[i] + apart[i], objects_))
+      if (!is_number(object[i], objects_) || !is_number(edge[i], kMaxEdges) ||
+          apart[i] <= -largest || apart[i] >= largest || !is_number(object[i] + apart[i], objects_))
         return false;
       pieces[i].object = model::ObjectId{static_cast<std::uint32_t>(object[i])};
       pieces[i].edge = static_cast<std::uint32_t>(edge[i]);

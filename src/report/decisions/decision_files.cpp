@@ -127,8 +127,9 @@ bool is_in_force(const std::string& text, const FileContentsByLabel& former,
 /// file.
 void leave_out_new_names(std::span<const std::string> given_pairs, FileContentsByLabel& former) {
   const auto is_old_name = [&](std::string_view label) {
-    return std::ranges::any_of(
-        given_pairs, [&](const std::string& text) { return text.starts_with(std::string(label) + "="); });
+    return std::ranges::any_of(given_pairs, [&](const std::string& text) {
+      return text.starts_with(std::string(label) + "=");
+    });
   };
   for (const std::string& text : given_pairs)
     for_each_reading(text, [&](const std::string& was, const std::string& is) {

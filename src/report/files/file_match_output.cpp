@@ -107,7 +107,7 @@ std::string file_matches_text(const FileMatches& files) {
 
 void append_file_matches(std::string& out, const FileMatches& files) {
   const auto listed = those_of(files, {FileRelation::requested, FileRelation::renamed,
-                                     FileRelation::split, FileRelation::merged});
+                                       FileRelation::split, FileRelation::merged});
   if (!listed.empty()) {
     out += ",\n";
     append_list(

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "report/files/file_map.hpp"
-#include "report/view/line_match.hpp"
 #include "report/view/drawn_ids.hpp"
+#include "report/view/line_match.hpp"
 
 namespace strake::report {
 namespace {

@@ -236,7 +236,7 @@ struct Server::State {
   RequestHandler* service = nullptr;  ///< while it serves
   std::map<MHD_Connection*, Connection> connections;
   std::set<MHD_Connection*> waiting;  ///< suspended
-  Clock::time_point last_poll;      ///< when what waits was resumed last
+  Clock::time_point last_poll;        ///< when what waits was resumed last
 };
 
 Server::Server(std::unique_ptr<State> state) : state_(std::move(state)) {}

@@ -135,8 +135,8 @@ Answer Site::state(const Request& request) {
 Answer Site::decide(DecisionRequest request, project::Transaction transaction) {
   request.decision.by = contents_.by;
   request.decision.at = contents_.utc_now();
-  const Result<project::DecideOutcome> done =
-      project::decide_if_unchanged(contents_.database, request.keys, request.decision, request.known);
+  const Result<project::DecideOutcome> done = project::decide_if_unchanged(
+      contents_.database, request.keys, request.decision, request.known);
   if (!done) return error_answer(done.error());
   Result<std::string> answer = project_answer(contents_.database, request.known.event, &*done);
   if (!answer) return error_answer(answer.error());

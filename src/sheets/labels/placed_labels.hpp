@@ -40,7 +40,7 @@ class PlacedLabels {
   struct Conflicts {
     std::vector<Label> blockers;  ///< whose text or leader it covers, or which cover its own
     std::vector<Label> crossed;   ///< whose leaders it only crosses
-    std::size_t visited = 0;    ///< bins and labels that the query looked at
+    std::size_t visited = 0;      ///< bins and labels that the query looked at
   };
   /// A label at one of its places; number 0: none.
   struct Blocker {

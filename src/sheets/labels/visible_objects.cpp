@@ -7,7 +7,8 @@
 
 namespace strake::sheets {
 
-std::vector<VisibleObject> visible_objects(const drawing::Ink& ink, const std::vector<bool>& picked) {
+std::vector<VisibleObject> visible_objects(const drawing::Ink& ink,
+                                           const std::vector<bool>& picked) {
   std::vector<VisibleObject> all;
   double longest = 0;
   for (const drawing::Line& line : ink.lines) {

@@ -21,7 +21,7 @@ struct VisibleObject {
 
 /// Returns the picked objects that have visible lines, in the order of the model.
 [[nodiscard]] std::vector<VisibleObject> visible_objects(const drawing::Ink& ink,
-                                                   const std::vector<bool>& picked);
+                                                         const std::vector<bool>& picked);
 
 /// Returns where leaders to an object may end: the middle of its longest visible line and, on long
 /// ones, the quarters.

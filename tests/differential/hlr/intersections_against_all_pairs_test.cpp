@@ -58,7 +58,8 @@ struct Observation {
   std::uint64_t pairs = 0;
 };
 
-Observation observe(const model::Scene& scene, Intersections which, const parallel::Context& context = {}) {
+Observation observe(const model::Scene& scene, Intersections which,
+                    const parallel::Context& context = {}) {
   const std::vector<bool> drawn(scene.model->objects.size(), true);
   std::vector<std::int64_t> contact(scene.bodies.size());
   for (std::size_t b = 0; b < contact.size(); ++b) contact[b] = static_cast<std::int64_t>(b % 4);
@@ -156,7 +157,8 @@ TEST(IntersectionsAgainstAllPairs, ShipStraightAndAskew) {
     const auto scene = model::make_scene(ship->model, {}, context);
     ASSERT_TRUE(scene);
     const Observation observed = observe(*scene, Intersections::objects, context);
-    // Of some thousand pairs; flush ones are reported by planes, whether the ship stands askew or not.
+    // Of some thousand pairs; flush ones are reported by planes, whether the ship stands askew or
+    // not.
     EXPECT_LT(observed.pairs, 4 * ship->model.objects.size());
     all.lines += observed.lines;
     all.pairs += observed.pairs;

@@ -203,8 +203,8 @@ TEST_P(ContactRegionsProperty, AsTheCellsOfALatticeHaveIt) {
 }
 
 /// Places by joining every two near triangles, which asking for all about a single place does.
-std::optional<std::vector<ContactRegion>> requested(const Subject& x, const Subject& y, double reach,
-                                                SingleRegionDetail one) {
+std::optional<std::vector<ContactRegion>> requested(const Subject& x, const Subject& y,
+                                                    double reach, SingleRegionDetail one) {
   QueryContext work;
   return contact_regions(x.treed(), y.treed(), {.reach = reach, .one = one}, work);
 }

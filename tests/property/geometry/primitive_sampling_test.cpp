@@ -230,8 +230,9 @@ TEST(PrimitiveSampling, NoPointOfTheBodiesContradictsABracket) {
 }
 
 TEST(PrimitiveSampling, NoPointOfSlenderBodiesContradictsABracket) {
-  const Observation observed = check_pairs(first(kSlenderPairs), draw_slender,
-                                [](std::uint64_t, const PrimitiveSeparation&, const Sampled&) {});
+  const Observation observed =
+      check_pairs(first(kSlenderPairs), draw_slender,
+                  [](std::uint64_t, const PrimitiveSeparation&, const Sampled&) {});
   EXPECT_GT(observed.answered, kSlenderPairs * 8 / 10);
   EXPECT_GT(observed.apart, kSlenderPairs / 8);
   EXPECT_GT(observed.meeting, kSlenderPairs / 8);
@@ -243,8 +244,8 @@ TEST(PrimitiveSampling, NoPointOfSlenderBodiesContradictsABracket) {
 TEST(PrimitiveSampling, BodiesLieNoDeeperInRingsThanTheirNearestPlace) {
   constexpr std::array<std::uint64_t, 9> kSeeds{11338, 12058, 22097, 39274, 79208,
                                                 87649, 93701, 97514, 99620};
-  const Observation observed = check_pairs(kSeeds, draw_slender,
-                                [](std::uint64_t, const PrimitiveSeparation&, const Sampled&) {});
+  const Observation observed = check_pairs(
+      kSeeds, draw_slender, [](std::uint64_t, const PrimitiveSeparation&, const Sampled&) {});
   EXPECT_EQ(observed.held, kSeeds.size());
 }
 

@@ -37,8 +37,8 @@ struct Observation {
   hlr::Signatures signatures;
 };
 
-Observation observe(const ChangingModel& changing, const hlr::View& view, const hlr::Options& options,
-          const parallel::Context& context) {
+Observation observe(const ChangingModel& changing, const hlr::View& view,
+                    const hlr::Options& options, const parallel::Context& context) {
   Observation state;
   state.model = std::make_unique<model::Model>(changing.build());
   state.scene = model::make_scene(*state.model, {.sag_mm = 0.3}, context).value();

@@ -79,8 +79,8 @@ class CurvesOfAShip : public testing::TestWithParam<bool> {
           const int steps = 1 + static_cast<int>(length / kStepMm);
           for (int k = 0; k <= steps; ++k) {
             const Vec3d q = p + e * (static_cast<double>(k) / steps);
-            check_point(object,
-                 wire.origin + Vec3l{std::llround(q.x), std::llround(q.y), std::llround(q.z)});
+            check_point(object, wire.origin +
+                                    Vec3l{std::llround(q.x), std::llround(q.y), std::llround(q.z)});
           }
         }
     }

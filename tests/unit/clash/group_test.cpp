@@ -140,8 +140,9 @@ TEST(Groups, ByWhatTheTwoArePartsOf) {
   std::vector<std::pair<std::string, std::size_t>> reported;
   for (const Group& group : found) reported.emplace_back(group.name, group.results.size());
   std::ranges::sort(reported);
-  EXPECT_EQ(reported, (std::vector<std::pair<std::string, std::size_t>>{
-                      {"/P and /Q", 3}, {"/P and u.obj", 1}, {"within /P", 1}, {"within /Q", 1}}));
+  EXPECT_EQ(reported,
+            (std::vector<std::pair<std::string, std::size_t>>{
+                {"/P and /Q", 3}, {"/P and u.obj", 1}, {"within /P", 1}, {"within /Q", 1}}));
   EXPECT_EQ(found[0].name, "/P and /Q");
 }
 

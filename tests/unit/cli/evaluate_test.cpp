@@ -384,10 +384,9 @@ TEST(Evaluate, AStudyRunsUnderItsConditions) {
     if (!status) return status.error();
     return Computed{{{"tests", 7}}, [] { return std::string("a"); }, {}};
   };
-  const auto run = run_for_study(input, contender,
-                                 {.distribution = parallel::Distribution::equal_ranges,
-                                  .min_chunk = 4,
-                                  .with_regions = true});
+  const auto run = run_for_study(
+      input, contender,
+      {.distribution = parallel::Distribution::equal_ranges, .min_chunk = 4, .with_regions = true});
   ASSERT_TRUE(run.has_value()) << run.error().text();
   EXPECT_EQ(region_named(run->regions, "loop").busy_s.size(), 3U);
   EXPECT_EQ(run->counter("tests"), "7");

@@ -257,8 +257,9 @@ TEST(Layout, APerspectiveHasAFrameWhereItEnds) {
   EXPECT_EQ(other_view.frame->top, 136.5);
   EXPECT_EQ(other_view.frame->right, 273);
   EXPECT_EQ(other_view.frame->bottom, 152.5);
-  EXPECT_NE(svg_of(other_view).find("id=\"view-frame\" class=\"frame\">\n<path d=\"M150 136.5L273 136.5 "
-                              "273 152.5 150 152.5Z\"/>"),
+  EXPECT_NE(svg_of(other_view)
+                .find("id=\"view-frame\" class=\"frame\">\n<path d=\"M150 136.5L273 136.5 "
+                      "273 152.5 150 152.5Z\"/>"),
             std::string::npos);
   drawing.pieces.clear();
   EXPECT_FALSE(laid_out(drawing, options).frame);

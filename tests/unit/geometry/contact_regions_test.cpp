@@ -84,7 +84,8 @@ struct RegionQuery {
   bool interiors_meet = false;
 };
 
-std::vector<ContactRegion> places(const IndexedMesh& a, const IndexedMesh& b, const RegionQuery& query) {
+std::vector<ContactRegion> places(const IndexedMesh& a, const IndexedMesh& b,
+                                  const RegionQuery& query) {
   const Subject x(a), y(b, {});
   QueryContext work;
   const ContactRegionOptions question{.reach = query.reach_mm * kMm,
@@ -169,8 +170,8 @@ TEST(ContactRegionsTest, NothingNearForOneFarInsideTheOther) {
 TEST(ContactRegionsTest, GivesUpWhereThereAreMorePairsThanRequested) {
   const Subject a(pipe(50 * kMm, 0, 0, 0, 500 * kMm)), b(pipe(50 * kMm, 0, 0, 0, 500 * kMm));
   QueryContext work;
-  EXPECT_FALSE(contact_regions(a.treed(), b.treed(), {.reach = 1 * kMm, .max_pairs = 10}, work)
-                   .has_value());
+  EXPECT_FALSE(
+      contact_regions(a.treed(), b.treed(), {.reach = 1 * kMm, .max_pairs = 10}, work).has_value());
 }
 
 /// A point stood askew on the grid.

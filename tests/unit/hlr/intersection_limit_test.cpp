@@ -46,7 +46,8 @@ TEST(IntersectionLimit, SkinsThatCrossEverywhereAreRefused) {
   test::SceneBuilder scene;
   for (const std::uint32_t k : {0U, 1U}) scene.object({{{soup(2900, kSeed + k)}, {}}});
   const std::string reported = error_of(scene, {});
-  EXPECT_NE(reported.find("cross each other along more than 1580000 lines"), std::string::npos) << reported;
+  EXPECT_NE(reported.find("cross each other along more than 1580000 lines"), std::string::npos)
+      << reported;
   EXPECT_NE(reported.find("--intersections off"), std::string::npos) << reported;
   parallel::Team team(3);
   EXPECT_EQ(error_of(scene, {.team = &team}), reported);

@@ -153,7 +153,8 @@ TEST(Specks, SolversAgreeAndHiddenPiecesDecideNothing) {
     std::size_t next = 0;
     for (const hlr::EdgePiece& p : all.pieces) {
       if (p.state != State::visible) continue;
-      while (next < visible_only.pieces.size() && visible_only.pieces[next].state != State::visible) ++next;
+      while (next < visible_only.pieces.size() && visible_only.pieces[next].state != State::visible)
+        ++next;
       ASSERT_LT(next, visible_only.pieces.size()) << seed;
       ASSERT_EQ(visible_only.pieces[next].a, p.a) << seed;
       ASSERT_EQ(visible_only.pieces[next].b, p.b) << seed;

@@ -80,7 +80,7 @@ TEST(Registry, StatesHowAModelOfAnotherFormatIsConverted) {
   const std::string formats =
       ": unsupported format (Strake reads RVM, glTF/GLB, OBJ, STL and PLY; ";
   EXPECT_NE(stated("a.txt").find(formats + "export the model as one of these; a program "
-                                         "strake-import-txt in PATH would be taken, too)"),
+                                           "strake-import-txt in PATH would be taken, too)"),
             std::string::npos);
   EXPECT_NE(stated("a").find(formats + "export the model as one of these)"), std::string::npos);
   EXPECT_NE(stated("a.IFC").find("pip install 'strake[ifc]' (or convert it: IfcConvert"),

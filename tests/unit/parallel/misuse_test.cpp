@@ -50,8 +50,7 @@ constexpr std::array kWorkers = {1U, 2U, 3U, 8U, 64U};
 
 TEST(Misuse, a_chunk_of_any_size_runs_every_item_once) {
   for (const unsigned workers : kWorkers)
-    for (const std::size_t chunk :
-         {kMax, kMax / 2 + 1, kMax / 4 + 1, kMax - 1, std::size_t{0}}) {
+    for (const std::size_t chunk : {kMax, kMax / 2 + 1, kMax / 4 + 1, kMax - 1, std::size_t{0}}) {
       Team team(workers);
       std::vector<std::atomic<int>> runs(100);
       for (int round = 0; round < 20; ++round)

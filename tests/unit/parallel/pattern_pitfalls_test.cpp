@@ -105,7 +105,9 @@ struct Observation {
 };
 
 /// The nearest first, in the manner of qsort; never says "equal".
-int compare_depths(const Observation& a, const Observation& b) { return a.depth >= b.depth ? -1 : 1; }
+int compare_depths(const Observation& a, const Observation& b) {
+  return a.depth >= b.depth ? -1 : 1;
+}
 
 bool wrong_before(const Observation& a, const Observation& b) { return compare_depths(a, b) < 0; }
 

@@ -44,7 +44,7 @@ void add_room(ClashModel& m, double half, int open_axis = -1, double open_side =
 
 /// What rays from the eye, or from the plane that cuts, see near the clash.
 RayShares ray_shares(const PicturedClash& clash, const Subject& subject,
-               const ClashViewpoint& viewpoint) {
+                     const ClashViewpoint& viewpoint) {
   const Scenery scenery = clash.scenery();
   const Vec3d toward = -viewpoint.direction;
   double from = dot(viewpoint.eye_mm - viewpoint.target_mm, toward);

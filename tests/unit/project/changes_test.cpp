@@ -146,7 +146,7 @@ TEST(Changes, ACopyAtTheSamePlaceIsAdded) {
 
 TEST(Changes, AMeshWhoseCornersAreAllDisplacedHasMoved) {
   EXPECT_EQ(reported({{.id = "x", .shape = triangle({0, 0, 0})}},
-                 {{.id = "x", .shape = triangle({12.5, 0, 3})}}),
+                     {{.id = "x", .shape = triangle({12.5, 0, 3})}}),
             "x: moved");
   model::Shape bent = triangle({12.5, 0, 3});
   std::get<geometry::TriangleMesh>(bent).vertices[2].z += 0.5;
@@ -198,11 +198,12 @@ TEST(Changes, ObjectsOfFilesThatHaveNothingInCommonCameAndWent) {
 }
 
 TEST(Changes, TheListIsInTheOrderOfTheModel) {
-  EXPECT_EQ(reported({{.id = "b"}, {.id = "d", .at = {1000, 0, 0}}, {.id = "e", .at = {2000, 0, 0}}},
-                 {{.id = "a", .at = {3000, 0, 0}},
-                  {.id = "c", .at = {4000, 0, 0}},
-                  {.id = "d", .at = {1001, 0, 0}}}),
-            "a: added; b: removed; c: added; d: moved; e: removed");
+  EXPECT_EQ(
+      reported({{.id = "b"}, {.id = "d", .at = {1000, 0, 0}}, {.id = "e", .at = {2000, 0, 0}}},
+               {{.id = "a", .at = {3000, 0, 0}},
+                {.id = "c", .at = {4000, 0, 0}},
+                {.id = "d", .at = {1001, 0, 0}}}),
+      "a: added; b: removed; c: added; d: moved; e: removed");
 }
 
 TEST(Changes, OutputsHaveEveryChange) {

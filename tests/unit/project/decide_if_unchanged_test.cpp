@@ -28,7 +28,7 @@ ClashDecision decision_by(const std::string& who, DecisionStatus status) {
 class DecideIfUnchanged : public ::testing::Test {
  protected:
   DecideOutcome decide(const std::vector<std::string>& keys, const ClashDecision& decision,
-                         const KnownState& known) {
+                       const KnownState& known) {
     return decide_if_unchanged(*database_, keys, decision, known).value();
   }
   KnownState now() { return current_state(*database_).value(); }
@@ -54,7 +54,7 @@ TEST_F(DecideIfUnchanged, what_somebody_decided_meanwhile_is_refused_and_the_res
   const KnownState known = now();
   decide({clash_key(1)}, decision_by("bob", DecisionStatus::reviewed), known);
   const DecideOutcome done = decide({clash_key(0), clash_key(1), clash_key(2)},
-                                      decision_by("ann", DecisionStatus::approved), known);
+                                    decision_by("ann", DecisionStatus::approved), known);
   EXPECT_EQ(done.changed, 2U);
   ASSERT_EQ(done.refused.size(), 1U);
   EXPECT_EQ(done.refused[0].key, clash_key(1));
@@ -90,7 +90,7 @@ TEST_F(DecideIfUnchanged, a_run_meanwhile_that_leaves_a_clash_as_it_is_is_no_cha
   // One that a person had resolved is gone without another word.
   ASSERT_TRUE(database_->execute("UPDATE clash SET gone_run = 2 WHERE id = 3"));
   const DecideOutcome done = decide({clash_key(0), clash_key(1), clash_key(2)},
-                                      decision_by("ann", DecisionStatus::approved), known);
+                                    decision_by("ann", DecisionStatus::approved), known);
   EXPECT_EQ(done.changed, 1U);
   ASSERT_EQ(done.refused.size(), 2U);
   EXPECT_EQ(done.refused[0].why, "a later run made it resolved: no longer found");
@@ -98,7 +98,8 @@ TEST_F(DecideIfUnchanged, a_run_meanwhile_that_leaves_a_clash_as_it_is_is_no_cha
   EXPECT_EQ(status(1), "approved");
 }
 
-TEST_F(DecideIfUnchanged, what_a_later_run_found_is_not_decided_about_by_who_knows_its_events_alone) {
+TEST_F(DecideIfUnchanged,
+       what_a_later_run_found_is_not_decided_about_by_who_knows_its_events_alone) {
   const std::int64_t known_run = now().run;
   add_run(*database_, 2);
   ASSERT_TRUE(database_->execute(

@@ -14,7 +14,8 @@ using report::Reopened;
 
 constexpr Measure kThen{clash::Class::contact, -1, 2};
 
-LifeChange after(DecisionStatus status, ObservationKind sight, Measure now = kThen, double deeper_mm = 1) {
+LifeChange after(DecisionStatus status, ObservationKind sight, Measure now = kThen,
+                 double deeper_mm = 1) {
   return next({status, kThen, true}, {sight, now, "X"}, deeper_mm);
 }
 
@@ -66,7 +67,8 @@ TEST(LifeCycle, never_changes_what_it_cannot_decide) {
 
 TEST(LifeCycle, brings_approved_ones_back_where_they_got_worse) {
   const auto reopened = [](Measure now, double deeper_mm = 1) {
-    const LifeChange change = after(DecisionStatus::approved, ObservationKind::found, now, deeper_mm);
+    const LifeChange change =
+        after(DecisionStatus::approved, ObservationKind::found, now, deeper_mm);
     EXPECT_EQ(change.status, change.reopened == Reopened::no ? DecisionStatus::approved
                                                              : DecisionStatus::undecided);
     EXPECT_EQ(change.cause.empty(), change.reopened == Reopened::no);
@@ -80,8 +82,9 @@ TEST(LifeCycle, brings_approved_ones_back_where_they_got_worse) {
   EXPECT_EQ(reopened({clash::Class::clearance_violation, 3, 2}), Reopened::no);
   EXPECT_EQ(reopened({clash::Class::contact, -1, 3}), Reopened::more_regions);
   EXPECT_EQ(reopened({clash::Class::contact, -1, 0}), Reopened::no) << "they were not counted";
-  EXPECT_EQ(next({DecisionStatus::approved, {}, false}, {ObservationKind::found, kThen, ""}, 1).reopened,
-            Reopened::no)
+  EXPECT_EQ(
+      next({DecisionStatus::approved, {}, false}, {ObservationKind::found, kThen, ""}, 1).reopened,
+      Reopened::no)
       << "what it was is not known";
 }
 

@@ -138,10 +138,10 @@ class Remembered : public ::testing::Test {
   }
   std::unique_ptr<Database> database_;
   parallel::Context context_;
-  bool follows_ = false;    ///< whether runs follow changes
-  bool reports_changes_ = false;      ///< whether such runs tell what they did to the results
-  int reported_ = 0;            ///< runs that told
-  bool is_forged_ = false;  ///< rows belong to another test than the one that found them
+  bool follows_ = false;          ///< whether runs follow changes
+  bool reports_changes_ = false;  ///< whether such runs tell what they did to the results
+  int reported_ = 0;              ///< runs that told
+  bool is_forged_ = false;        ///< rows belong to another test than the one that found them
 };
 
 using Statuses = std::vector<std::string>;

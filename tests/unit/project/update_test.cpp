@@ -113,7 +113,8 @@ TEST_F(Updates, WhatIsLikeNothingIsRefused) {
   const Result<Update> refused = update(project, {{{other, {}}}, {}}, {kNow}, {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::usage);
-  const Result<Update> update_result = update(project, {{{other, {}}}, {"a.obj=z.obj"}}, {kNow}, {});
+  const Result<Update> update_result =
+      update(project, {{{other, {}}}, {"a.obj=z.obj"}}, {kNow}, {});
   ASSERT_TRUE(update_result) << update_result.error().text();
   EXPECT_EQ(labels(project), std::vector<std::string>{"z.obj"});
   EXPECT_EQ(count(*update_result, ChangeKind::added), 8U);

@@ -198,7 +198,8 @@ TEST(FileMatch, RequestedPairsComeFirst) {
   const FileMatches swapped = matched(before, after, {{"a", "b"}});
   EXPECT_EQ(swapped.matches, (std::vector<FileMatch>{{"b", "a", FileRelation::renamed, 9, 9},
                                                      {"a", "b", FileRelation::requested, 9, 9}}));
-  const FileMatches reported = matched({file("x", ids(0, 2))}, {file("y", ids(5, 7))}, {{"x", "y"}});
+  const FileMatches reported =
+      matched({file("x", ids(0, 2))}, {file("y", ids(5, 7))}, {{"x", "y"}});
   EXPECT_EQ(file_matches_text(reported),
             "files are taken as renamed: x -> y (as asked for, 0 of 4 ids in common)\n");
 }

@@ -192,7 +192,8 @@ TEST(ViewDrawing, WhatIsWrongIsReported) {
             std::string::npos);
   EXPECT_NE(reported("\"direction\":[0,0,1]", "\"direction\":[0,0]").find("direction"),
             std::string::npos);
-  EXPECT_NE(reported("\"scale_text\":\"", "\"scale_word\":\"").find("scale_text"), std::string::npos);
+  EXPECT_NE(reported("\"scale_text\":\"", "\"scale_word\":\"").find("scale_text"),
+            std::string::npos);
   EXPECT_NE(reported("\"stage\":\"global\"", "\"stage\":\"worldwide\"").find("stage"),
             std::string::npos);
   EXPECT_NE(reported("\"hash\":\"", "\"hash\":\"x").find("hash"), std::string::npos);

@@ -10,8 +10,8 @@ namespace {
 
 using test::Counts;
 using test::exempted;
-using test::Row;
 using test::ResultLines;
+using test::Row;
 using test::warned;
 
 constexpr const char* kRule = "[[same_assembly]]\nname = \"parts of one\"\nlevel = \"assembly\"\n";
@@ -28,7 +28,8 @@ TEST(Assemblies, NamesOfUnnamedElementsGiveTheLevel) {
             row.group("SUBEQUIPMENT 1 of EQUIPMENT /T-101", tank))
       .cube("BOX 2 of EQUIPMENT /T-101", {}, tank);
   const auto outcome = row.run(kRule);
-  EXPECT_EQ(outcome.reported[0], (ResultLines{"/P-101/N1-BOX 1 of SUBEQUIPMENT 1 of EQUIPMENT /T-101 HIT"}));
+  EXPECT_EQ(outcome.reported[0],
+            (ResultLines{"/P-101/N1-BOX 1 of SUBEQUIPMENT 1 of EQUIPMENT /T-101 HIT"}));
   EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"parts of one", 3}}));
 }
 
@@ -55,7 +56,7 @@ TEST(Assemblies, WhatWasExportedFromBelowASite) {
       .cube("c", {}, row.group("/F-1/C", row.group("/OTHER SITE")));
   EXPECT_EQ(row.hits(kRule),
             (ResultLines{"BOX 2 of EQUIPMENT /P-101-BOX 1 of SUBEQUIPMENT 1 of EQUIPMENT /F-1 HIT",
-                  "a-b HIT", "b-c HIT"}));
+                         "a-b HIT", "b-c HIT"}));
 }
 
 TEST(Assemblies, TheAttributeTypeDecides) {
@@ -93,7 +94,7 @@ TEST(Assemblies, AnEquipmentBelowItsLevelIsOneOfItsOwn) {
       .cube("BOX 2 of EQUIPMENT /P-1", {}, one)
       .cube("BOX 1 of EQUIPMENT /P-2", {}, two);
   EXPECT_EQ(row.hits(kRule), (ResultLines{"BOX 1 of STRUCTURE /SKID-BOX 1 of EQUIPMENT /P-1 HIT",
-                                   "BOX 2 of EQUIPMENT /P-1-BOX 1 of EQUIPMENT /P-2 HIT"}));
+                                          "BOX 2 of EQUIPMENT /P-1-BOX 1 of EQUIPMENT /P-2 HIT"}));
 }
 
 }  // namespace

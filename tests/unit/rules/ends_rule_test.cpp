@@ -21,8 +21,8 @@ using geometry::SnoutPrimitive;
 using geometry::Vec3d;
 using test::ClashModel;
 using test::exempted;
-using test::run_rules;
 using test::ResultLines;
+using test::run_rules;
 using test::warned;
 
 /// From a cylinder's frame to one whose axis runs along x or y.

@@ -10,8 +10,8 @@ namespace strake::rules {
 namespace {
 
 using test::expect_lines;
-using test::Row;
 using test::ResultLines;
+using test::Row;
 using test::warned;
 
 // Rules that match objects, but are of no use for any pair of them.

@@ -13,8 +13,8 @@ namespace {
 using test::Counts;
 using test::exempted;
 using test::expect_lines;
-using test::Row;
 using test::ResultLines;
+using test::Row;
 using test::warned;
 
 /// "hard-soft" for each result: the levels of its two sides.
@@ -31,8 +31,8 @@ TEST(Levels, InsulationBySelection) {
   const Row row = plain_row();
   auto outcome = row.run("[insulation]\nselect = 'b or c'");
   EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "b-c HIT", "c-d HIT", "d-e HIT"}));
-  EXPECT_EQ(levels(outcome.reports[0]),
-            (ResultLines{"hard-insulation", "insulation-insulation", "insulation-hard", "hard-hard"}));
+  EXPECT_EQ(levels(outcome.reports[0]), (ResultLines{"hard-insulation", "insulation-insulation",
+                                                     "insulation-hard", "hard-hard"}));
   EXPECT_TRUE(outcome.diagnostics.kept().empty());
   outcome = row.run("[insulation]\nselect = 'b or c'\nagainst_insulation = false");
   EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "c-d HIT", "d-e HIT"}));

@@ -20,8 +20,8 @@ using test::ClashModel;
 using test::Counts;
 using test::exempted;
 using test::expect_lines;
-using test::Row;
 using test::ResultLines;
+using test::Row;
 using test::warned;
 
 TEST(RulesPlan, SeveralTestsInTheOrderOfTheFile) {
@@ -52,7 +52,8 @@ thickness_cap = false
 
 TEST(RulesPlan, OneSetAloneIsAgainstEverything) {
   const Row row = Row().cube("a").cube("b").cube("c");
-  EXPECT_EQ(row.hits("[[test]]\nname = \"x\"\na = \"a or b\""), (ResultLines{"a-b HIT", "b-c HIT"}));
+  EXPECT_EQ(row.hits("[[test]]\nname = \"x\"\na = \"a or b\""),
+            (ResultLines{"a-b HIT", "b-c HIT"}));
   EXPECT_EQ(row.hits("[[test]]\nname = \"x\"\nb = \"a\""), (ResultLines{"a-b HIT"}));
 }
 
@@ -66,7 +67,8 @@ TEST(RulesPlan, UnitGroupsByAttributeAndByRule) {
                       .cube("f")
                       .cube("g", {{"UNIT", "7"}});
   auto outcome = row.run("[unit_groups]\nattribute = \"UNIT\"");
-  EXPECT_EQ(outcome.reported[0], (ResultLines{"b-c HIT", "c-d HIT", "d-e HIT", "e-f HIT", "f-g HIT"}))
+  EXPECT_EQ(outcome.reported[0],
+            (ResultLines{"b-c HIT", "c-d HIT", "d-e HIT", "e-f HIT", "f-g HIT"}))
       << "a negative number is no unit";
   EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"unit groups", 1}}));
   EXPECT_EQ(warned(outcome.diagnostics, "unit-not-a-number"),
@@ -82,7 +84,8 @@ select = "a"
 number = 7
 select = "name ~ '^[acdf]$'"
 )toml");
-  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "d-e HIT", "e-f HIT"})) << "the first rule decides";
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "d-e HIT", "e-f HIT"}))
+      << "the first rule decides";
   EXPECT_EQ(exempted(outcome.reports[0]), (Counts{{"skids", 3}}));
 }
 
@@ -101,9 +104,11 @@ TEST(RulesPlan, SameAssemblyByLevel) {
   const auto with = [&](const std::string& keys) {
     return row.hits("[[same_assembly]]\nname = \"one\"\n" + keys);
   };
-  EXPECT_EQ(with("level = 2"), (ResultLines{"pump-d HIT", "e-f HIT"})) << "a group that is an object too";
+  EXPECT_EQ(with("level = 2"), (ResultLines{"pump-d HIT", "e-f HIT"}))
+      << "a group that is an object too";
   EXPECT_EQ(with("level = 1"), (ResultLines{"e-f HIT"}));
-  EXPECT_EQ(with("level = 3"), (ResultLines{"a-b HIT", "b-pump HIT", "pump-d HIT", "d-e HIT", "e-f HIT"}));
+  EXPECT_EQ(with("level = 3"),
+            (ResultLines{"a-b HIT", "b-pump HIT", "pump-d HIT", "d-e HIT", "e-f HIT"}));
   EXPECT_EQ(with("level = \"parent\""), (ResultLines{"b-pump HIT", "pump-d HIT", "e-f HIT"}));
   EXPECT_EQ(with("group = \"p*p\""), (ResultLines{"pump-d HIT", "d-e HIT", "e-f HIT"}));
   EXPECT_EQ(with("group = \"fan\"\nacross_files = true"),
@@ -167,9 +172,10 @@ TEST(RulesPlan, WhatABranchIsConnectedToItsEndsAre) {
   row.cube("pump");
   const std::string rule =
       "[[connected]]\nname = \"x\"\nattributes = [\"HREF\", \"TREF\"]\ngroups = true\n";
-  EXPECT_EQ(row.hits(rule),
-            (ResultLines{"flange-elbow HIT", "elbow-strainer HIT", "strainer-tee HIT", "tee-cap HIT"}));
-  EXPECT_EQ(row.hits(rule + "inherited = \"all\""), (ResultLines{"flange-elbow HIT", "tee-cap HIT"}));
+  EXPECT_EQ(row.hits(rule), (ResultLines{"flange-elbow HIT", "elbow-strainer HIT",
+                                         "strainer-tee HIT", "tee-cap HIT"}));
+  EXPECT_EQ(row.hits(rule + "inherited = \"all\""),
+            (ResultLines{"flange-elbow HIT", "tee-cap HIT"}));
   EXPECT_EQ(row.hits(rule + "inherited = \"none\"").size(), 6U);
   EXPECT_EQ(row.hits("[[connected]]\nname = \"x\"\nattributes = \"TREF\"").size(), 5U);
 }
@@ -187,7 +193,8 @@ TEST(RulesPlan, TheHeadOfABranchIsItsFirstObjectAndTheTailItsLast) {
   EXPECT_EQ(wrong.hits(named).size(), 3U) << "the tail runs into what the head is joined to";
   const std::string either = "[[connected]]\nname = \"x\"\nattributes = [\"HREF\", \"TREF\"]\n";
   EXPECT_EQ(right.hits(either), (ResultLines{"flange-elbow HIT"}));
-  EXPECT_EQ(wrong.hits(either), (ResultLines{"flange-elbow HIT"})) << "which end is which is not said";
+  EXPECT_EQ(wrong.hits(either), (ResultLines{"flange-elbow HIT"}))
+      << "which end is which is not said";
   Row row_of_one;
   const auto branch = row_of_one.group("/100-B-2", {{"HREF", "pump"}, {"TREF", "tank"}});
   row_of_one.cube("pump").cube("spool", {}, branch).cube("tank");
@@ -289,7 +296,8 @@ TEST(RulesPlan, Insulation) {
   EXPECT_EQ(row.hits(""), ResultLines{});
   EXPECT_EQ(row.hits("[insulation]"), (ResultLines{"a-b HIT", "b-c HIT"}));
   EXPECT_EQ(row.hits("[insulation]\nagainst_insulation = false"), (ResultLines{"a-b HIT"}));
-  EXPECT_EQ(row.hits("[obstruction]\n[insulation]"), (ResultLines{"a-b HIT", "b-c HIT", "c-d HIT"}));
+  EXPECT_EQ(row.hits("[obstruction]\n[insulation]"),
+            (ResultLines{"a-b HIT", "b-c HIT", "c-d HIT"}));
   EXPECT_EQ(row.hits("[obstruction]\n[insulation]\nagainst_soft = false"),
             (ResultLines{"a-b HIT", "b-c HIT"}));
 }
@@ -326,7 +334,8 @@ TEST(RulesPlan, DisciplinesTheFirstThatPicksAnObjectCounts) {
 [matrix.cells.pipes]
 hull = { touch_overlap = "10.5mm", thickness_cap = false }
 )toml");
-  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "b-c CONTACT"})) << "d is of no discipline";
+  EXPECT_EQ(outcome.reported[0], (ResultLines{"a-b HIT", "b-c CONTACT"}))
+      << "d is of no discipline";
   EXPECT_EQ(outcome.reports[0].name, "matrix");
   EXPECT_EQ(outcome.reports[0].disciplines[0].objects, 2U);
   EXPECT_EQ(outcome.reports[0].disciplines[1].objects, 1U);

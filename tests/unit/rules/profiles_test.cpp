@@ -12,8 +12,8 @@
 namespace strake::rules {
 namespace {
 
-using test::Row;
 using test::ResultLines;
+using test::Row;
 
 /// Cubes of a row overlap by 10 mm; allowing that much makes contacts of them.
 const std::string kContacts = "[defaults]\ntouch_overlap = \"11mm\"\nthickness_cap = false\n";
@@ -54,7 +54,8 @@ TEST(Profiles, ANozzleMeetsItsBranch) {
       .cube("/P-1/N1", {{"Cref", "/B1"}}, pump)
       .cube("BOX 1 of EQUIPMENT /P-1", {}, pump)
       .cube("TUBE 1 of BRANCH /B1", {}, branch);
-  EXPECT_EQ(row.hits(text_of("plant")), (ResultLines{"BOX 1 of EQUIPMENT /P-1-TUBE 1 of BRANCH /B1 HIT"}));
+  EXPECT_EQ(row.hits(text_of("plant")),
+            (ResultLines{"BOX 1 of EQUIPMENT /P-1-TUBE 1 of BRANCH /B1 HIT"}));
 }
 
 TEST(Profiles, WeldsOfAShipAreAllowedWhileTheyAreNoHit) {
@@ -70,11 +71,11 @@ TEST(Profiles, WeldsOfAShipAreAllowedWhileTheyAreNoHit) {
       .cube("bed", {}, cabin)
       .cube("wall 2", {}, other);
   EXPECT_EQ(row.hits(text_of("ship")), (ResultLines{"deck-beam HIT", "beam-steel pipe HIT",
-                                             "steel pipe-wall HIT", "bed-wall 2 HIT"}));
-  EXPECT_EQ(
-      row.hits(kContacts + text_of("ship")),
-      (ResultLines{"deck-beam CONTACT by welds of steel", "beam-steel pipe CONTACT",
-            "steel pipe-wall CONTACT", "bed-wall 2 CONTACT by fitted parts of the accommodation"}));
+                                                    "steel pipe-wall HIT", "bed-wall 2 HIT"}));
+  EXPECT_EQ(row.hits(kContacts + text_of("ship")),
+            (ResultLines{"deck-beam CONTACT by welds of steel", "beam-steel pipe CONTACT",
+                         "steel pipe-wall CONTACT",
+                         "bed-wall 2 CONTACT by fitted parts of the accommodation"}));
 }
 
 TEST(Profiles, RoomsOfABuildingAreNotBuilt) {
@@ -86,8 +87,9 @@ TEST(Profiles, RoomsOfABuildingAreNotBuilt) {
                       .cube("duct", {{"ifcType", "IfcDuctSegment"}})
                       .cube("IfcOpeningElement/7");
   EXPECT_EQ(row.hits(text), (ResultLines{"wall-IfcSlab/1 HIT", "IfcSlab/1-duct HIT"}));
-  EXPECT_EQ(row.hits(kContacts + text),
-            (ResultLines{"wall-IfcSlab/1 CONTACT by joints of the fabric", "IfcSlab/1-duct CONTACT"}));
+  EXPECT_EQ(
+      row.hits(kContacts + text),
+      (ResultLines{"wall-IfcSlab/1 CONTACT by joints of the fabric", "IfcSlab/1-duct CONTACT"}));
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ namespace {
 
 using test::box_mesh;
 using test::ClashModel;
-using test::run_rules;
 using test::ResultLines;
+using test::run_rules;
 using test::warned;
 
 /// In reach of each other are: core, which lies in a block; bar, through a wall; twin, which is
@@ -40,7 +40,7 @@ ClashModel scene(bool core_first = true) {
 
 /// The results that a rule between two selections with some keys does not allow.
 ResultLines open_under(const ClashModel& m, const std::string& a, const std::string& b,
-                const std::string& keys) {
+                       const std::string& keys) {
   const auto outcome = run_rules(
       m.model, "[[allowed]]\nname = \"meant\"\na = \"" + a + "\"\nb = \"" + b + "\"\n" + keys);
   ResultLines open = outcome.reported.at(0);
@@ -186,11 +186,13 @@ TEST(RulesVolume, ATestCountsSmallerHits) {
   };
   EXPECT_EQ(run("2cm3").reported.at(0).size(), 4U);
   const auto larger = run("2.001cm3");
-  EXPECT_EQ(larger.reported.at(0), (ResultLines{"core-block HIT", "twin-twin2 HIT", "floor-post CONTACT"}));
+  EXPECT_EQ(larger.reported.at(0),
+            (ResultLines{"core-block HIT", "twin-twin2 HIT", "floor-post CONTACT"}));
   EXPECT_EQ(larger.reports.at(0).not_reported.by_volume.hit, 1U);
   EXPECT_EQ(larger.reports.at(0).not_reported.by_volume.all(), 1U);
   EXPECT_EQ(run("1l").reported.at(0), (ResultLines{"twin-twin2 HIT", "floor-post CONTACT"}));
-  EXPECT_EQ(run("1.001l").reported.at(0), (ResultLines{"floor-post CONTACT"})) << "contacts are no hits";
+  EXPECT_EQ(run("1.001l").reported.at(0), (ResultLines{"floor-post CONTACT"}))
+      << "contacts are no hits";
 }
 
 /// What a test reports does not change with what a rule allows of it.
@@ -239,7 +241,8 @@ TEST(RulesVolume, SheetsAreNotLeftOut) {
   m.object("sheet").body(sheet);
   m.box("bar", {-5, -5, -100}, {5, 5, 100});
   EXPECT_EQ(open_under(m, "*", "*", "max_volume = '1m3'").size(), 1U);
-  EXPECT_EQ(run_rules(m.model, "[[test]]\nname = 't'\nmin_volume = '1m3'").reported.at(0).size(), 1U);
+  EXPECT_EQ(run_rules(m.model, "[[test]]\nname = 't'\nmin_volume = '1m3'").reported.at(0).size(),
+            1U);
 }
 
 TEST(RulesVolume, VolumesAreMeasuredOnlyWhereARuleConcernsThePair) {

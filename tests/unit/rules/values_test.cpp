@@ -13,8 +13,8 @@ namespace {
 
 using test::Counts;
 using test::exempted;
-using test::Row;
 using test::ResultLines;
+using test::Row;
 using test::warned;
 
 std::vector<std::string> listed(const std::string& value, const std::string& separator = ",") {

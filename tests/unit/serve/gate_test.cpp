@@ -39,7 +39,8 @@ TEST(Gate, the_token_opens_everything_and_nothing_opens_without) {
   EXPECT_EQ(code_of(request_of("POST", "/api/decide", {kHost, kOrigin, kKey})), 200U);
   for (const std::string& wrong : {std::string(), std::string(39, 'a'), std::string(41, 'a'),
                                    std::string(39, 'a') + "b", kCookie})
-    EXPECT_EQ(code_of(request_of("GET", "/api/state", {kHost, {"Strake-Token", wrong}})), 403U) << wrong;
+    EXPECT_EQ(code_of(request_of("GET", "/api/state", {kHost, {"Strake-Token", wrong}})), 403U)
+        << wrong;
 }
 
 TEST(Gate, the_address_opens_the_page_and_nothing_else) {
@@ -82,11 +83,14 @@ TEST(Gate, pages_of_others_are_turned_away) {
                                    "https://127.0.0.1:8123", "http://localhost:8123"})
     EXPECT_EQ(code_of(request_of("POST", "/api/decide", {kHost, kKey, {"Origin", origin}})), 403U)
         << origin;
-  EXPECT_EQ(code_of(request_of("POST", "/api/decide", {kHost, kKey})), 403U) << "a write says who asks";
-  EXPECT_EQ(code_of(request_of("GET", "/api/state", {kHost, kKey, {"Sec-Fetch-Site", "cross-site"}})),
-            403U);
-  EXPECT_EQ(code_of(request_of("GET", "/api/state", {kHost, kKey, {"Sec-Fetch-Site", "same-origin"}})),
-            200U);
+  EXPECT_EQ(code_of(request_of("POST", "/api/decide", {kHost, kKey})), 403U)
+      << "a write says who asks";
+  EXPECT_EQ(
+      code_of(request_of("GET", "/api/state", {kHost, kKey, {"Sec-Fetch-Site", "cross-site"}})),
+      403U);
+  EXPECT_EQ(
+      code_of(request_of("GET", "/api/state", {kHost, kKey, {"Sec-Fetch-Site", "same-origin"}})),
+      200U);
 }
 
 TEST(Gate, headers_that_stand_there_twice_are_refused) {

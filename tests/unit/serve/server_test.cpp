@@ -117,14 +117,15 @@ TEST_F(ServerTest, bodies_are_limited_before_they_come) {
   start(small_limits());
   EXPECT_EQ(code_of(exchange("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: 1001\r\n\r\n")), 413);
   EXPECT_EQ(code_of(exchange("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: "
-                        "99999999999999999999999999\r\n\r\n")) /
+                             "99999999999999999999999999\r\n\r\n")) /
                 100,
             4);
-  EXPECT_EQ(code_of(exchange("POST /p HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n")), 411);
+  EXPECT_EQ(code_of(exchange("POST /p HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n")),
+            411);
   EXPECT_EQ(code_of(exchange("POST /p HTTP/1.1\r\nHost: x\r\n\r\n")), 411);
   EXPECT_EQ(code_of(exchange("POST /no HTTP/1.1\r\nHost: x\r\nContent-Length: 900\r\n\r\n")), 403);
-  const std::string whole =
-      exchange("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: 1000\r\n\r\n" + std::string(1000, 'b'));
+  const std::string whole = exchange("POST /p HTTP/1.1\r\nHost: x\r\nContent-Length: 1000\r\n\r\n" +
+                                     std::string(1000, 'b'));
   EXPECT_EQ(code_of(whole), 200);
 }
 

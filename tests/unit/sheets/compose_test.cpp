@@ -328,7 +328,8 @@ TEST(Sheet, WhatIsAmissIsNamed) {
   const std::string view = "[[view]]\nname=\"v\"\nselect=\"nobody\"\n";
   const Drawn nobody = drawn(with_frame(view));
   EXPECT_TRUE(reported(nobody.sheet, "selection-matches-nothing", "'nobody' picks no object"));
-  EXPECT_TRUE(reported(nobody.sheet, "view-empty", "the view 'v' shows nothing: it has no objects"));
+  EXPECT_TRUE(
+      reported(nobody.sheet, "view-empty", "the view 'v' shows nothing: it has no objects"));
   const Drawn outside = drawn(
       with_frame("[[view]]\nname=\"v\"\nlimits={min=[\"90m\",0,0],max=[\"91m\",\"1m\",\"1m\"]}\n"));
   EXPECT_TRUE(reported(outside.sheet, "view-empty", "nothing lies within what it shows"));
@@ -345,7 +346,7 @@ TEST(Sheet, WhatIsAmissIsNamed) {
   EXPECT_TRUE(reported(over.sheet, "view-on-title-block", "'c'"));
   const Drawn fields = drawn("[fields]\ntitel = \"x\"\n[[view]]\nname=\"v\"\n");
   EXPECT_TRUE(reported(fields.sheet, "field-not-filled",
-                   "fields of the title block left empty: drawn, checked"));
+                       "fields of the title block left empty: drawn, checked"));
   const Drawn without = drawn("[[view]]\nname=\"v\"\n");
   EXPECT_TRUE(reported(without.sheet, "field-not-filled", "; [fields] gives them"));
   for (const Diagnostic& d : without.sheet.diagnostics.kept())
@@ -523,7 +524,7 @@ TEST(Sheet, TagsWithoutRoomAreCountedAndTheFirstIsNamed) {
       "text=\"THE OBJECT {{name}} OF ALL\"\nheight=\"20mm\"\n"));
   EXPECT_TRUE(d.sheet.views[0].tags.texts.empty());
   EXPECT_TRUE(reported(d.sheet, "tag-no-room",
-                   "3 objects are without their tags, as 'THE OBJECT base OF ALL'"));
+                       "3 objects are without their tags, as 'THE OBJECT base OF ALL'"));
 }
 
 TEST(Sheet, GridLinesShowWhereTheViewLooksAlongThem) {

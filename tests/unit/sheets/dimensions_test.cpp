@@ -148,11 +148,12 @@ TEST(Dimensions, WhatCannotBeMeasuredIsReported) {
     return false;
   };
   const std::string side = "from={object=\"base\"}\nto=[0,0,0]\n";
-  EXPECT_TRUE(reported(dimensioned("from={object=\"<none>\"}\nto=[0,0,0]\n"), "no object is called"));
+  EXPECT_TRUE(
+      reported(dimensioned("from={object=\"<none>\"}\nto=[0,0,0]\n"), "no object is called"));
   EXPECT_TRUE(reported(dimensioned(side, "direction=\"iso\"\n"), "looks along no axis"));
   EXPECT_TRUE(reported(dimensioned("from=[0,0,0]\nto=[0,\"1m\",0]\n"), "lie on each other"));
   EXPECT_TRUE(reported(dimensioned(side, "eye=[\"9m\",\"-9m\",\"3m\"]\ntarget=[0,0,0]\n"),
-                   "is in perspective"));
+                       "is in perspective"));
 }
 
 TEST(Dimensions, FaultsNameWhatIsMissing) {

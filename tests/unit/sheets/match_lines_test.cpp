@@ -107,21 +107,24 @@ TEST(MatchLines, ThatFindNoNeighbourAreReportedWhereTheViewRequestsThem) {
   };
   const std::string on = "match_lines=\"on\"\n";
   const std::string alone = "[[view]]\n" + part_view("A", 120, kHere, kThere, on);
-  EXPECT_NE(reported(alone).find("the view 'A' has no match line: its limits end where those of no"),
-            std::string::npos);
+  EXPECT_NE(
+      reported(alone).find("the view 'A' has no match line: its limits end where those of no"),
+      std::string::npos);
   EXPECT_EQ(reported("[defaults]\n" + on + "[[view]]\n" + part_view("A", 120, kHere, kThere)), "");
   EXPECT_NE(reported("[[view]]\nname=\"v\"\n" + on).find("it has no limits"), std::string::npos);
   // Another direction, a gap, and no part of the side in common.
   std::string front = part_view("B", 300, R"("2m",0,0)", R"("6m","2m","2m")");
   front.replace(front.find("top"), 3, "front");
   EXPECT_NE(reported(alone + "[[view]]\n" + front), "");
-  EXPECT_NE(reported(alone + "[[view]]\n" + part_view("B", 300, R"("2.1m",0,0)", R"("6m","2m","2m")")),
-            "");
-  EXPECT_NE(reported(alone + "[[view]]\n" + part_view("B", 300, R"("2m","2m",0)", R"("6m","3m","2m")")),
-            "");
+  EXPECT_NE(
+      reported(alone + "[[view]]\n" + part_view("B", 300, R"("2.1m",0,0)", R"("6m","2m","2m")")),
+      "");
+  EXPECT_NE(
+      reported(alone + "[[view]]\n" + part_view("B", 300, R"("2m","2m",0)", R"("6m","3m","2m")")),
+      "");
   // Nothing of the model comes near to the side.
-  EXPECT_NE(reported("[[view]]\n" + part_view("A", 120, kHere, R"("9m","2m","2m")", on) + "[[view]]\n" +
-                 part_view("B", 300, R"("9m",0,0)", R"("12m","2m","2m")"))
+  EXPECT_NE(reported("[[view]]\n" + part_view("A", 120, kHere, R"("9m","2m","2m")", on) +
+                     "[[view]]\n" + part_view("B", 300, R"("9m",0,0)", R"("12m","2m","2m")"))
                 .find("end long before"),
             std::string::npos);
 }

@@ -16,7 +16,8 @@ namespace {
 Result<pictures::FolderOptions> folder_options(const PictureInput& given) {
   pictures::FolderOptions options;
   std::uint64_t max_pictures = options.max_pictures;
-  if (const Status status = whole_number(max_pictures, given.max_pictures, "--top-pictures"); !status)
+  if (const Status status = whole_number(max_pictures, given.max_pictures, "--top-pictures");
+      !status)
     return status.error();
   options.max_pictures = max_pictures;
   if (given.format == "png") options.format = pictures::PictureFormat::png;

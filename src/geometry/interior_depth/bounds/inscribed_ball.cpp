@@ -119,7 +119,7 @@ double DualSimplex::excess_error(const BallConstraint& c) const {
   double largest = 0;
   for (std::size_t i = 0; i < 4; ++i)
     largest += std::fabs(share(c, i)) *
-            (std::fabs(excess(rows_[i])) + kPivotEps * (std::fabs(rows_[i].offset) + extent_));
+               (std::fabs(excess(rows_[i])) + kPivotEps * (std::fabs(rows_[i].offset) + extent_));
   return largest;
 }
 

@@ -95,7 +95,8 @@ class LeastDepthInTorus {
     constexpr double kPays = 1e-4;
     for (int step = 0; step < kMaxSlides; ++step) {
       const double before = least_;
-      const Vec3d from = at_, to = support(hull_.shape, ring_.exit_direction(inner_.point_in_body(from)));
+      const Vec3d from = at_,
+                  to = support(hull_.shape, ring_.exit_direction(inner_.point_in_body(from)));
       for (int i = 1; i <= kStops; ++i) try_point(from + (to - from) * (1.0 * i / kStops));
       for (int i = 1; i <= kStops; ++i) try_point(from + (to - from) * (1.0 * i / kStops / kStops));
       if (!(least_ < before - kPays * std::abs(before))) return;
@@ -115,7 +116,7 @@ struct ArcInRing {
 };
 
 ArcInRing min_of(const PrimitiveOperand& inner, const std::vector<SweptArc>& arcs,
-                   const Torus& ring) {
+                 const Torus& ring) {
   ArcInRing of;
   for (const SweptArc& arc : arcs) {
     const double least = LeastDepthInTorus(inner, inner.hull(arc), ring).run();

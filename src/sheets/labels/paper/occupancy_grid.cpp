@@ -49,7 +49,8 @@ template <class Take>
 void OccupancyGrid::walk(const PaperPoint& a, const PaperPoint& b, Take&& take) const {
   const auto visible = clipped({a, b}, {0, 0, width_mm_, height_mm_});
   if (!visible) return;
-  const double dx = (visible->b.x - visible->a.x) / size_, dy = (visible->b.y - visible->a.y) / size_;
+  const double dx = (visible->b.x - visible->a.x) / size_,
+               dy = (visible->b.y - visible->a.y) / size_;
   const double steps = std::max(1.0, std::ceil(std::sqrt(dx * dx + dy * dy) * 2));
   const FixedPoint by_x = fixed_point(dx / steps), by_y = fixed_point(dy / steps);
   FixedPoint x = fixed_point(visible->a.x / size_) + by_x / 2,
