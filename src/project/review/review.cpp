@@ -128,7 +128,7 @@ class ReviewTaker {
     return rules_.prefers_review;
   }
 
-  [[nodiscard]] CommentKey key_of(const report::DecisionComment& comment) const {
+  [[nodiscard]] CommentKey comment_key(const report::DecisionComment& comment) const {
     return {rules_.compared(comment.by), rules_.compared(comment.text), comment.at};
   }
 
@@ -158,9 +158,9 @@ class ReviewTaker {
     for (const ClashEvent& event : *events) {
       if (event.run || event.comment.empty()) continue;
       const report::DecisionComment comment_made = event.person_comment();
-      known.keys.insert(key_of(comment_made));
+      known.keys.insert(comment_key(comment_made));
       // It may have gone out with all that its event tells.
-      known.keys.insert(key_of({event.at, event.who, event.comment}));
+      known.keys.insert(comment_key({event.at, event.who, event.comment}));
       if (!comment_made.guid.empty())
         known.by_guid[comment_made.guid] = rules_.compared(comment_made.text);
       // Behind a comment an event tells what else was set.
@@ -200,7 +200,7 @@ class ReviewTaker {
   Status take(report::DecisionComment comment, const std::string& decided_at,
               std::vector<CommentedClash>& clashes) {
     const std::string words = rules_.compared(comment.text);
-    const CommentKey key = key_of(comment);
+    const CommentKey key = comment_key(comment);
     for (const CommentedClash& clash : clashes) {
       const auto named = clash.known->by_guid.find(comment.guid);
       const bool is_same = named != clash.known->by_guid.end() && named->second == words;
@@ -210,7 +210,7 @@ class ReviewTaker {
     }
     if (comment.at.empty()) comment.at = decided_at;
     comment.text = valid_utf8(comment.text);
-    const CommentKey dated_key = key_of(comment);
+    const CommentKey dated_key = comment_key(comment);
     for (CommentedClash& clash : clashes) {
       KnownComments& known = *clash.known;
       known.keys.insert(dated_key);
