@@ -51,7 +51,7 @@ struct Tile {
 };
 
 /// From where all is seen: along a direction, or from a point.
-struct ObservationKind {
+struct Viewpoint {
   Vec direction;
   std::optional<Vec> eye;
 
@@ -62,7 +62,7 @@ struct ObservationKind {
 // Lines of one part, decided from the vertex coordinates of its triangles alone.
 class PartLines {
  public:
-  PartLines(const geometry::Part& part, const geometry::Vec3l& origin, const ObservationKind& sight,
+  PartLines(const geometry::Part& part, const geometry::Vec3l& origin, const Viewpoint& sight,
             double angle)
       : part_(part), origin_(origin), sight_(sight), angle_(angle) {}
 
@@ -179,7 +179,7 @@ class PartLines {
 
   const geometry::Part& part_;
   geometry::Vec3l origin_;
-  const ObservationKind& sight_;
+  const Viewpoint& sight_;
   double angle_;
 };
 
@@ -427,7 +427,7 @@ class Oracle {
   const hlr::View& view_;
   const hlr::Options& options_;
   const std::vector<EdgePiece>& given_;
-  ObservationKind sight_;
+  Viewpoint sight_;
   std::vector<hlr::HalfSpace> window_;
   Vec low_, high_;
   mpq_class contact_;

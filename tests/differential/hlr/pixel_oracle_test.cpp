@@ -25,15 +25,15 @@ using geometry::Vec3l;
 
 constexpr int kWidth = 700;
 
-struct ObservationKind {
+struct ViewCase {
   Vec3l direction, up;
 };
-const std::vector<ObservationKind> kSights = {{{1, -1, 1}, {0, 0, 1}},
+const std::vector<ViewCase> kSights = {{{1, -1, 1}, {0, 0, 1}},
                                               {{0, 0, 1}, {0, 1, 0}},
                                               {{0, -1, 0}, {0, 0, 1}},
                                               {{7, -3, 2}, {0, 0, 1}}};
 
-hlr::Drawing drawn(const model::Scene& scene, const ObservationKind& sight) {
+hlr::Drawing drawn(const model::Scene& scene, const ViewCase& sight) {
   auto drawing =
       hlr::draw(scene, {}, {.direction = sight.direction, .up = sight.up, .limits = {}}, {}, {});
   EXPECT_TRUE(drawing);
@@ -75,7 +75,7 @@ model::Model crowd(std::uint64_t seed, int objects) {
 }
 
 /// `most`: disagreements per million pixels that were asked about.
-void expect_agreement(const model::Scene& scene, const ObservationKind& sight, int width,
+void expect_agreement(const model::Scene& scene, const ViewCase& sight, int width,
                       double most, const std::string& what) {
   const test::PixelCheck check = test::check_by_pixels(scene, drawn(scene, sight), width);
   const std::string reported =
@@ -101,7 +101,7 @@ TEST(PixelOracle, CrowdsAgree) {
     const model::Model model = crowd(seed, 60);
     const auto scene = model::make_scene(model, {}, {});
     ASSERT_TRUE(scene);
-    for (const ObservationKind& sight : kSights)
+    for (const ViewCase& sight : kSights)
       expect_agreement(*scene, sight, kWidth, 0, "crowd " + std::to_string(seed));
   }
 }
@@ -140,7 +140,7 @@ TEST(PixelOracle, AGeneratedShipAgrees) {
   ASSERT_TRUE(ship);
   const auto scene = model::make_scene(ship->model, {}, {});
   ASSERT_TRUE(scene);
-  for (const ObservationKind& sight : kSights) expect_agreement(*scene, sight, kWidth, 0, "ship");
+  for (const ViewCase& sight : kSights) expect_agreement(*scene, sight, kWidth, 0, "ship");
 }
 
 TEST(PixelOracle, TheRealPlatformAgrees) {
@@ -152,7 +152,7 @@ TEST(PixelOracle, TheRealPlatformAgrees) {
   ASSERT_TRUE(model);
   const auto scene = model::make_scene(*model, {}, {});
   ASSERT_TRUE(scene);
-  for (const ObservationKind& sight : kSights) expect_agreement(*scene, sight, 1600, 0, "platform");
+  for (const ViewCase& sight : kSights) expect_agreement(*scene, sight, 1600, 0, "platform");
 }
 
 }  // namespace

@@ -156,12 +156,12 @@ TEST(Viewpoint, TheBestOfAllCandidatesIsChosen) {
     const clash::Pair& pair = pair_of(*clash.contents, subject.results[0]);
     const NearTriangles triangles(
         triangles_near(scenery, Roles(*clash.contents, subject), grid_point(pair.point_mm), 2000));
-    const ObservationKind sight{150, 1000};
+    const Sight sight{150, 1000};
     const auto all =
         evaluate_candidates(triangles, candidate_directions(pair.away), sight, {}).value();
     const ViewCandidate& best = best_of(all);
     for (const double cut : {1e300, 60.0, 0.0}) {
-      const ObservationKind cut_open{150, 1000, cut};
+      const Sight cut_open{150, 1000, cut};
       const auto directions = candidate_directions(pair.away);
       const ViewCandidate found = find_best(triangles, directions, cut_open, {}).value().best;
       const auto evaluated = evaluate_candidates(triangles, directions, cut_open, {}).value();

@@ -47,22 +47,22 @@ class SiteTest : public ::testing::Test {
                         {"Strake-Token", kSiteToken}},
             .body = {}};
   }
-  static unsigned refusal(Site& site, const Request& request_of) {
-    const auto refused = site.refuse(request_of);
+  static unsigned refusal(Site& site, const Request& sent) {
+    const auto refused = site.refuse(sent);
     return refused ? static_cast<unsigned>(refused->status) : 200U;
   }
   json decide(Site& site, const json& body, HttpStatus expected) {
-    Request request_of = request("POST", "/api/decide");
-    request_of.body = body.dump();
-    EXPECT_EQ(refusal(site, request_of), 200U);
-    const Answer answer = site.answer(request_of);
+    Request sent = request("POST", "/api/decide");
+    sent.body = body.dump();
+    EXPECT_EQ(refusal(site, sent), 200U);
+    const Answer answer = site.answer(sent);
     EXPECT_EQ(answer.status, expected) << *answer.body;
     return json::parse(*answer.body);
   }
   json state(Site& site, std::int64_t event) {
-    Request request_of = request("GET", "/api/state");
-    request_of.arguments = {{"event", std::to_string(event)}};
-    return json::parse(*site.answer(request_of).body);
+    Request sent = request("GET", "/api/state");
+    sent.arguments = {{"event", std::to_string(event)}};
+    return json::parse(*site.answer(sent).body);
   }
   std::unique_ptr<project::Database> database_ = project_with_clashes(3);
   int made_ = 0;
@@ -213,11 +213,11 @@ TEST_F(SiteTest, what_the_page_decides_itself_is_never_too_much_to_be_reported) 
 
 TEST_F(SiteTest, what_makes_no_sense_changes_nothing) {
   Site here = site();
-  Request request_of = request("POST", "/api/decide");
+  Request sent = request("POST", "/api/decide");
   for (const char* const body : {"", "null", "[1]", "{\"run\":1}",
                                  "{\"run\":1,\"event\":0,\"keys\":[\"k\"],\"status\":\"?\"}"}) {
-    request_of.body = body;
-    const Answer answer = here.answer(request_of);
+    sent.body = body;
+    const Answer answer = here.answer(sent);
     EXPECT_EQ(answer.status, HttpStatus::bad_request) << body;
     EXPECT_FALSE(json::parse(*answer.body)["error"].get<std::string>().empty());
   }
@@ -239,7 +239,7 @@ TEST_F(SiteTest, many_clients_of_a_server_see_what_one_of_them_decides) {
       R"({"run":1,"event":0,"keys":[")" + clash_key(2) + R"("],"status":"approved"})";
   const std::string answer =
       test::Client(served.port())
-          .send("POST /api/decide HTTP/1.1\r\n" + head +
+          .exchange("POST /api/decide HTTP/1.1\r\n" + head +
                 "Origin: http://127.0.0.1:8123\r\nContent-Type: application/json\r\n" +
                 "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
   EXPECT_EQ(test::code_of(answer), 200) << answer;
@@ -249,7 +249,7 @@ TEST_F(SiteTest, many_clients_of_a_server_see_what_one_of_them_decides) {
     readers.emplace_back([&] {
       for (int i = 0; i < 20; ++i)
         state = test::body_of(test::Client(served.port())
-                                  .send("GET /api/state?event=0 HTTP/1.1\r\n" + head + "\r\n"));
+                                  .exchange("GET /api/state?event=0 HTTP/1.1\r\n" + head + "\r\n"));
     });
   readers.clear();
   for (const std::string& state : found) {
@@ -259,7 +259,7 @@ TEST_F(SiteTest, many_clients_of_a_server_see_what_one_of_them_decides) {
   }
   const std::string without =
       test::Client(served.port())
-          .send("GET /api/state?event=0 HTTP/1.1\r\nHost: 127.0.0.1:8123\r\n\r\n");
+          .exchange("GET /api/state?event=0 HTTP/1.1\r\nHost: 127.0.0.1:8123\r\n\r\n");
   EXPECT_EQ(test::code_of(without), 403);
   EXPECT_NE(without.find("Cache-Control: no-store"), std::string::npos);
   EXPECT_TRUE(served.stop());
