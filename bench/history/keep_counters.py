@@ -15,4 +15,6 @@ for case in record['cases']:
         stage['reference_s'] = 0
         for contender in stage['contenders']:
             contender.update(seconds=[0], cpu_s=0, peak_bytes=0, regions=[], shared_wall_s=0)
+            for name in ('alone_s', 'kernel_s', 'kernel_alone_s'):
+                contender.pop(name, None)
 print(json.dumps(record, indent=1))

@@ -121,6 +121,7 @@ std::vector<Contender> drawing_contenders(const model::Scene& scene, const hlr::
                                           hlr::Stage stage, const std::vector<unsigned>& threads) {
   hlr::Options options;
   options.stage = stage;
+  options.clipped = false;  // as for any drawing that lists no lines
   std::vector<Contender> all;
   all.push_back(drawing_contender(kSequential, 1, scene, view, options));
   all.push_back(drawing_contender(kAgain, 1, scene, view, options));

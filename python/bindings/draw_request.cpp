@@ -141,6 +141,7 @@ Result<hlr::Options> line_options(const DrawRequest& request) {
     return usage("hidden lines cannot be drawn and left out", "visible_only",
                  "leave out hidden or visible_only");
   options.hidden = request.keep_hidden || request.hidden != "off";
+  options.clipped = request.keep_hidden;
   options.flush_seams = request.flush_seams;
   options.contact_distance_mm = request.contact_distance_mm.value_or(options.contact_distance_mm);
   options.sharp_angle_deg = request.sharp_angle_deg.value_or(options.sharp_angle_deg);

@@ -72,9 +72,9 @@ class Drawing:
 
     @cached_property
     def _whole(self) -> _core.DrawRun:
-        """The drawing with its hidden lines, which are found when they are asked for, unless they are shown anyway."""
+        """The drawing with all of its lines, which are found when they are asked for."""
         request = self._request
-        if request.visible_only or request.keep_hidden or request.hidden != "off":
+        if request.visible_only or request.keep_hidden:
             return self._core
         request.keep_hidden = True
         return self._again()
@@ -112,7 +112,7 @@ class Drawing:
     def segments(self) -> npt.NDArray[np.void]:
         """A structured array of all straight pieces, inked or not, hidden or not, without a copy and read-only.
 
-        Where `hidden` was "off" the first use draws once more, to find the hidden lines, unless `visible_only`.
+        The first use draws once more, to find lines that are hidden or clipped, unless `visible_only`.
 
         Fields: object, edge (number among those of the object), kind (LINE_KINDS), state (LINE_STATES), other (the second
         object of an intersection), a and b (3, mm of the model), a_paper and b_paper (2, mm on paper).
@@ -207,7 +207,7 @@ def draw(
         sag, weld: how fine curves are, and which seams close; None: by the paper, and by the precision of the files.
         uncut: selections of what a section leaves whole.
         obstructions, insulation: take in bodies of these categories.
-        visible_only: leave out hidden lines of everything: less time and memory.
+        visible_only: leave out hidden and clipped lines of everything: less time and memory.
         threads, progress: as in load().
 
     Raises: UsageError, with the argument as `where`; InputError for a view that reaches too far; KeyboardInterrupt.
@@ -225,7 +225,7 @@ DRAW_OPTIONS = options_of(draw, "select", "threads", "progress")
 
 
 def draw_request(view: str | Mapping[str, Any], select: _core.Pick, *, keep_hidden: bool = False, **options: Any) -> _core.DrawRequest:
-    """What draw() asks for with these of DRAW_OPTIONS; `keep_hidden` finds hidden lines though they are not shown.
+    """What draw() asks for with these of DRAW_OPTIONS; `keep_hidden` finds lines that are hidden or clipped though they are not shown.
 
     Raises: UsageError; TypeError for an option that draw() has not.
     """

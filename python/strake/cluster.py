@@ -225,7 +225,7 @@ def draw(
         view: as strake.draw() takes it.
         select: a selection, or several; None: all.
         options: what strake.draw() takes besides, but flush_seams=False, centre_lines, hatch, style and single_line; and
-            keep_hidden=True, which finds hidden lines though they are not shown, as .json and .view have them.
+            keep_hidden=True, which finds lines that are hidden or clipped though they are not shown, as .json and .view have them.
 
     An object has its lines in one tile, which also has whatever may hide or cross these: what lies before it along the
     view. Hidden lines that were not asked for are found when the drawing is asked for them, by a second run with the same

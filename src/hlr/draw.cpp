@@ -50,6 +50,7 @@ Result<Drawing> draw(const model::Scene& scene, const std::vector<bool>& drawn, 
   drawing.hatches = job->hatches;
   drawing.counted.resize(scene.model->objects.size());
   if (!options.hidden) drawing.left_out.resize(scene.model->objects.size());
+  if (!options.clipped) drawing.clipped_left_out.resize(scene.model->objects.size());
   const Result<SpeckedObjects> specked = solve(*job, context, drawing);
   if (!specked) return specked.error();
   if (const Status status = leave_out_hidden_objects(context, drawing); !status)

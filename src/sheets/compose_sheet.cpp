@@ -185,6 +185,7 @@ class Composer {
       options.solver = options_.solver;
       // Lines that the sheet does not show are not computed.
       options.hidden = view.hidden != HiddenLines::off;
+      options.clipped = false;
       options.hatches = std::move(chosen[v].hatches);
       options.uncut = std::move(chosen[v].uncut);
       if (!sags->empty()) options.sag_mm = (*sags)[v];

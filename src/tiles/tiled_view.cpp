@@ -267,7 +267,7 @@ Result<hlr::Drawing> join_solved(const CutView& cut, std::span<const std::filesy
     if (!tile) return tile.error();
     if (!join.expect(tile->counts(), cut.parts[k].objects)) return lost(solved[k]);
   }
-  if (const Status room = join.make_room(cut.options.hidden, context); !room) return room.error();
+  if (const Status room = join.make_room(cut.options, context); !room) return room.error();
   // All tiles say the same of the eye, and where the middle of the whole is.
   Diagnostics diagnostics;
   geometry::Vec3l origin;

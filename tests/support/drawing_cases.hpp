@@ -66,6 +66,7 @@ inline std::string difference(const hlr::Drawing& a, const hlr::Drawing& b) {
   if (auto text = difference_of_diagnostics(a.diagnostics, b.diagnostics); !text.empty())
     return text;
   if (a.left_out != b.left_out) return "edges left out";
+  if (a.clipped_left_out != b.clipped_left_out) return "clipped pieces left out";
   if (a.counted != b.counted) return "lines counted";
   if (a.hatches != b.hatches) return "hatches";
   if (a.origin != b.origin) return "origin";
@@ -120,6 +121,7 @@ inline hlr::Options some_options(Draw& draw) {
   if (draw.one_in(16)) options.flush_seams = false;
   if (draw.one_in(4)) options.hatch_spacing_mm = draw.one_in(3) ? 0 : 0.75;
   options.culling = !draw.one_in(6);
+  options.clipped = !draw.one_in(2);
   return options;
 }
 

@@ -226,9 +226,11 @@ void add_line_styles(CLI::App& command, DrawOptions& options) {
 /// Adds what hides lines, and which.
 void add_visibility(CLI::App& command, DrawOptions& options) {
   command
-      .add_flag("--visible-only", options.visible_only,
-                fmt::format("Leave hidden lines out of everything, of {} too: less time and memory",
-                            suffixes_by_ink(false)))
+      .add_flag(
+          "--visible-only", options.visible_only,
+          fmt::format("Leave hidden and clipped lines out of everything, of {} too: less time "
+                      "and memory",
+                      suffixes_by_ink(false)))
       ->group("Lines");
   add_choice(command, "--stage", options.stage, {"none", "local", "global"},
              "Hide nothing, within each object, or among all (default global)")

@@ -114,17 +114,15 @@ Status read_bucketing(const std::string& text, std::int32_t& bucketing) {
   return {};
 }
 
-/// Whether any output shows hidden lines, or holds them whatever is shown of them.
-bool keeps_hidden_lines(const DrawOptions& given, bool keep_hidden) {
-  if (given.visible_only) return false;
-  if (keep_hidden || (!given.hidden.empty() && given.hidden != "off")) return true;
-  return std::ranges::any_of(given.outputs, [](const std::string& file) {
+/// Whether any output holds lines that are not shown, too.
+bool any_lists_lines(const std::vector<std::string>& outputs) {
+  return std::ranges::any_of(outputs, [](const std::string& file) {
     const Result<drawing::DrawingWriter> writer = publish::find_drawing_writer(file);
     return writer && !writer->needs_ink;
   });
 }
 
-Result<hlr::Options> engine_options(const DrawOptions& given, bool keep_hidden) {
+Result<hlr::Options> engine_options(const DrawOptions& given, bool keep_lines) {
   hlr::Options options;
   if (given.stage == "none") options.stage = hlr::Stage::none;
   if (given.stage == "local") options.stage = hlr::Stage::local;
@@ -132,7 +130,8 @@ Result<hlr::Options> engine_options(const DrawOptions& given, bool keep_hidden) 
   if (given.global == "push") options.solver = hlr::Solver::push;
   options.culling = given.culling != "off";
   if (const Status s = read_bucketing(given.bucketing, options.bucketing); !s) return s.error();
-  options.hidden = keeps_hidden_lines(given, keep_hidden);
+  options.clipped = !given.visible_only && (keep_lines || any_lists_lines(given.outputs));
+  options.hidden = options.clipped || ink_options(given).hidden;
   if (given.visible_only && !given.hidden.empty() && given.hidden != "off")
     return Error{ErrorCode::usage, "hidden lines cannot be drawn and left out", "--visible-only",
                  "leave out --hidden or --visible-only"};
@@ -225,12 +224,12 @@ Result<drawing::Conventions> conventions_of(const DrawOptions& given) {
   return conventions;
 }
 
-Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool keep_hidden) {
+Result<DrawRequest> request_of(const DrawOptions& given, Session& session, bool keep_lines) {
   const Result<model::SceneOptions> scene = scene_options(given.scene, kSagMm);
   if (!scene) return scene.error();
   const Result<hlr::View> view = view_of(given, session.console());
   if (!view) return view.error();
-  const Result<hlr::Options> options = engine_options(given, keep_hidden);
+  const Result<hlr::Options> options = engine_options(given, keep_lines);
   if (!options) return options.error();
   Result<drawing::LayoutOptions> layout = layout_options(given);
   if (!layout) return layout.error();

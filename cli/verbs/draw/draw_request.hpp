@@ -56,9 +56,10 @@ struct DrawRequest {
 };
 
 /// Parses the options, and says where directions were rounded. Hidden lines are kept where an
-/// output shows them, or `keep_hidden`, unless --visible-only was given. Errors: usage.
+/// output shows them, and they and clipped ones where an output lists all lines, or `keep_lines`,
+/// unless --visible-only was given. Errors: usage.
 [[nodiscard]] Result<DrawRequest> request_of(const DrawOptions& given, Session& session,
-                                             bool keep_hidden);
+                                             bool keep_lines);
 
 /// Parses --scale, --paper and --title. Errors: usage.
 [[nodiscard]] Result<drawing::LayoutOptions> layout_options(const DrawOptions& given);

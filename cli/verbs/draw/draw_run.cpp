@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -151,10 +152,11 @@ void print_drawing_summary(Console& console, const drawing::NeutralDrawing& draw
     return drawing.count[static_cast<std::size_t>(state)];
   };
   const std::uint64_t visible = of(drawing::LineState::visible);
+  const std::uint64_t lines =
+      std::accumulate(drawing.count.begin(), drawing.count.end(), std::uint64_t{0});
   console.note(object_summary_line(drawing.account, model));
-  console.note(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible,
-                           drawing.lines.size(), scale_words(drawing), drawing.sheet.width_mm,
-                           drawing.sheet.height_mm));
+  console.note(fmt::format("{} visible of {} lines at {} on {} x {} mm", visible, lines,
+                           scale_words(drawing), drawing.sheet.width_mm, drawing.sheet.height_mm));
   for (const std::string& line : left_alone_lines(drawing)) console.note(line);
   if (visible > 0) return;
   console.note(of(drawing::LineState::clipped) > 0

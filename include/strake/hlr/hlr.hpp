@@ -146,6 +146,9 @@ struct Options {
   /// visible, a drawing takes less time and memory; its other pieces and the fates of its objects
   /// are the same.
   bool hidden = true;
+  /// Keep the pieces of edges that have none but clipped ones (decision 0125). Without them,
+  /// counted in Drawing::clipped_left_out, the other pieces and the fates of objects are the same.
+  bool clipped = true;
   /// Keep specks, pieces shorter than the precision of the sources can tell, each in its exact
   /// state. Otherwise their neighbours absorb them, and specks that join nothing become points.
   bool keep_specks = false;
@@ -261,8 +264,8 @@ struct Drawing {
   double sag_mm = 0;               ///< the sag requested of curved primitives; 0: unknown
   std::vector<EdgePiece> pieces;   ///< sorted by (object, edge, parameter)
   Curves curves;
-  /// By object, how many edges had hidden pieces left out, see Options::hidden. Empty: none had.
-  std::vector<std::uint32_t> left_out;
+  /// By object: edges whose hidden pieces were left out, and clipped pieces that were, if any.
+  std::vector<std::uint32_t> left_out, clipped_left_out;
   std::vector<LineCount> counted;  ///< by object
   std::vector<Hatch> hatches;      ///< by object, as sections chose them; empty: nothing is hatched
   /// A reference point, grid units: the middle of all that is drawn; in perspective the target.

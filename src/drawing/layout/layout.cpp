@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -124,7 +125,7 @@ Status count_lines(NeutralDrawing& drawing, const parallel::Context& context) {
         for (const model::ObjectId object : partial.visible_objects) add_visible(into, object);
       });
   if (!tally) return tally.error();
-  drawing.count = tally->count;
+  for (std::size_t s = 0; s < kLineStates; ++s) drawing.count[s] += tally->count[s];
 
   hlr::Account& account = drawing.account;
   auto visible_objects = tally->visible_objects.begin();
@@ -305,6 +306,8 @@ Result<NeutralDrawing> lay_out(const hlr::Drawing& drawing, const model::Model& 
   out.lines = std::move(*lines);
   out.frame = frame_of(out, placement);
   out.account = drawing.account;
+  out.count[static_cast<std::size_t>(LineState::clipped)] = std::accumulate(
+      drawing.clipped_left_out.begin(), drawing.clipped_left_out.end(), std::uint64_t{0});
   if (const Status status = count_lines(out, context); !status) return status.error();
   return out;
 }

@@ -41,7 +41,8 @@ bool describes_all(const EarlierDrawing& earlier) {
   return earlier.boxes.size() == objects && drawing.counted.size() == objects &&
          drawing.account.fates.size() == objects &&
          (drawing.hatches.empty() || drawing.hatches.size() == objects) &&
-         drawing.left_out.size() == (drawing.options.hidden ? 0 : objects);
+         drawing.left_out.size() == (drawing.options.hidden ? 0 : objects) &&
+         drawing.clipped_left_out.size() == (drawing.options.clipped ? 0 : objects);
 }
 
 /// What is requested of draw_changes().

@@ -250,6 +250,9 @@ Status merge_lines(const Comparison& comparison, const ResolvedLines& resolved, 
   if (!earlier.options.hidden)
     earlier.left_out =
         merged(comparison, resolved.to_solve, earlier.left_out, resolved.drawing.left_out);
+  if (!earlier.options.clipped)
+    earlier.clipped_left_out = merged(comparison, resolved.to_solve, earlier.clipped_left_out,
+                                      resolved.drawing.clipped_left_out);
   return {};
 }
 

@@ -136,8 +136,8 @@ void add(Hasher& hasher, const View& view) {
 /// change the work and no line; hatches and what is left uncut stand in the words of each object.
 void add(Hasher& hasher, const Options& options) {
   const auto& [stage, solver, sharp_angle, smooth, contact_distance, intersections, own_polylines,
-               flush_seams, sag, culling, bucketing, hidden, keep_specks, hatch_spacing, hatches,
-               uncut] = options;
+               flush_seams, sag, culling, bucketing, hidden, clipped, keep_specks, hatch_spacing,
+               hatches, uncut] = options;
   hasher.add(static_cast<std::uint32_t>(stage))
       .add(sharp_angle)
       .add(static_cast<std::uint32_t>(smooth))
@@ -146,7 +146,7 @@ void add(Hasher& hasher, const Options& options) {
       .add(static_cast<std::uint32_t>(own_polylines))
       .add(flush_seams ? 1U : 0U)
       .add(sag)
-      .add(hidden ? 1U : 0U)
+      .add((hidden ? 1U : 0U) | (clipped ? 0U : 2U))
       .add(keep_specks ? 1U : 0U)
       .add(hatch_spacing);
 }

@@ -92,6 +92,7 @@ struct BodyInstance {
   std::int64_t within = 0;             ///< contact distance within a part
   bool opaque = false;                 ///< hides; where there are limits, not wholly outside them
   bool cut = false;                    ///< the limits cut it
+  bool outside = false;                ///< wholly outside the limits
   bool forgives_rounding = false;      ///< see ViewJob::forgives_rounding()
   bool shares_self_occlusion = false;  ///< shares it with the other bodies of its shape
   bool repeated = false;               ///< equal bodies at its place hide what it hides

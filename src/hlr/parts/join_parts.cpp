@@ -38,7 +38,7 @@ bool PartJoin::expect(const PartCounts& counts, std::span<const std::uint32_t> o
   return true;
 }
 
-Status PartJoin::make_room(bool hidden, const parallel::Context& context) {
+Status PartJoin::make_room(const Options& options, const parallel::Context& context) {
   First sum;
   for (First& at : first_) {
     const First count = at;
@@ -54,7 +54,8 @@ Status PartJoin::make_room(bool hidden, const parallel::Context& context) {
   drawing_.curves.all.resize(sum.curve);
   drawing_.counted.resize(first_.size());
   drawing_.account.fates.resize(first_.size());
-  if (!hidden) drawing_.left_out.resize(first_.size());
+  if (!options.hidden) drawing_.left_out.resize(first_.size());
+  if (!options.clipped) drawing_.clipped_left_out.resize(first_.size());
   return {};
 }
 
@@ -64,7 +65,8 @@ bool PartJoin::add(const Drawing& part, const PartCounts& counts,
   if (found.pieces != counts.pieces || found.curved_edges != counts.curved_edges ||
       found.curves != counts.curves || part.counted.size() != objects.size() ||
       part.account.fates.size() != objects.size() ||
-      part.left_out.size() != (drawing_.left_out.empty() ? 0 : objects.size()))
+      part.left_out.size() != (drawing_.left_out.empty() ? 0 : objects.size()) ||
+      part.clipped_left_out.size() != (drawing_.clipped_left_out.empty() ? 0 : objects.size()))
     return false;
   const auto whole = [&](model::ObjectId id) { return model::ObjectId{objects[index(id)]}; };
   std::size_t piece = 0, edge = 0, curve = 0;
@@ -89,6 +91,7 @@ bool PartJoin::add(const Drawing& part, const PartCounts& counts,
       drawing_.curves.all[at.curve + k] = part.curves.all[curve++];
     drawing_.counted[o] = part.counted[i];
     if (!drawing_.left_out.empty()) drawing_.left_out[o] = part.left_out[i];
+    if (!drawing_.clipped_left_out.empty()) drawing_.clipped_left_out[o] = part.clipped_left_out[i];
     drawing_.account.fates[o] = part.account.fates[i];
   }
   for (const Defect& defect : part.account.defects)

@@ -30,8 +30,8 @@ class PartJoin {
   /// counts are not those of so many objects.
   [[nodiscard]] bool expect(const PartCounts& counts, std::span<const std::uint32_t> objects);
   /// Makes room for what all parts have, before the first is added;
-  /// `hidden` as in Options. Errors: memory.
-  [[nodiscard]] Status make_room(bool hidden, const parallel::Context& context);
+  /// `options` as those of all parts. Errors: memory.
+  [[nodiscard]] Status make_room(const Options& options, const parallel::Context& context);
   /// Adds a part; false where it is not the one that was expected.
   [[nodiscard]] bool add(const Drawing& part, const PartCounts& counts,
                          std::span<const std::uint32_t> objects, const std::vector<bool>& to_solve);

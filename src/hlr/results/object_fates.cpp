@@ -55,7 +55,8 @@ std::size_t end_of_object(std::span<const EdgePiece> pieces, std::size_t first) 
 /// It looks at no more of them than it must: pieces of millions are in no cache.
 Fate fate_of(std::uint32_t object, const Drawing& drawing, std::size_t& next) {
   const std::span<const EdgePiece> pieces = drawing.pieces;
-  bool clipped = false, point = false;
+  bool point = false;
+  bool clipped = !drawing.clipped_left_out.empty() && drawing.clipped_left_out[object] > 0;
   bool hidden = !drawing.left_out.empty() && drawing.left_out[object] > 0;
   for (; next < pieces.size() && object_of(pieces[next]) == object; ++next) {
     const State state = pieces[next].state;
@@ -120,7 +121,9 @@ Status leave_out_hidden_objects(const parallel::Context& context, Drawing& drawi
           const auto of = std::ranges::equal_range(
               rest, pieces.end(), static_cast<std::uint32_t>(object), {}, object_of);
           rest = of.end();
-          if (!of.empty() && !std::ranges::any_of(of, is_visible))
+          if (std::ranges::any_of(of, is_visible)) continue;
+          if (!drawing.clipped_left_out.empty()) drawing.clipped_left_out[object] = 0;
+          if (!of.empty())
             out.push_back({static_cast<std::size_t>(of.begin() - pieces.begin()),
                            static_cast<std::size_t>(of.end() - pieces.begin())});
         }

@@ -333,7 +333,7 @@ struct SolverInput {
 struct ObjectLines {
   std::vector<EdgePiece> pieces;
   std::uint64_t edges = 0, tests = 0, specks = 0;
-  std::uint32_t left_out = 0;
+  std::uint32_t left_out = 0, clipped = 0;
   bool specked = false;
 };
 
@@ -351,7 +351,9 @@ void solve_edge(const SolverInput& input, const Edge& e, ObjectLines& result) {
     result.pieces.push_back({scene.bodies[e.body].object, number, e.kind, s.state,
                              scene.bodies[e.other_body].object, at(s.range.lo), at(s.range.hi)});
   result.specks += absorb_specks(rule, first, result.pieces);
-  result.left_out += leave_out_unwanted(job.options, first, result.pieces) ? 1U : 0U;
+  const UnwantedPieces left_out = leave_out_unwanted(job.options, first, result.pieces);
+  result.left_out += left_out.hidden ? 1U : 0U;
+  result.clipped += left_out.clipped;
   result.specked = result.specked || has_visible_specks(rule, first, result.pieces);
 }
 
@@ -442,6 +444,7 @@ Result<SpeckedObjects> solve_brute_force(const ViewJob& job, const parallel::Con
     const ObjectLines& one = (*lines)[i];
     specked[i] = one.specked ? 1 : 0;
     if (!drawing.left_out.empty()) drawing.left_out[i] = one.left_out;
+    if (!drawing.clipped_left_out.empty()) drawing.clipped_left_out[i] = one.clipped;
     drawing.pieces.insert(drawing.pieces.end(), one.pieces.begin(), one.pieces.end());
     drawing.counted[i] = {static_cast<std::uint32_t>(one.edges),
                           static_cast<std::uint32_t>(one.specks)};

@@ -38,7 +38,7 @@ EdgePieceBuilder::Outcome EdgePieceBuilder::finish(std::uint32_t number,
                    model::ObjectId{edge_.other->object}, edge_.at(s.lo, origin),
                    edge_.at(s.hi, origin)});
   const std::size_t specks = absorb_specks(rule_, first, out);
-  const bool left_out = leave_out_unwanted(visibility_.job.options, first, out);
+  const UnwantedPieces left_out = leave_out_unwanted(visibility_.job.options, first, out);
   // It is asked here, where the pieces are in the cache: of a drawing of millions they no longer
   // are.
   return {left_out, specks, has_visible_specks(rule_, first, out)};

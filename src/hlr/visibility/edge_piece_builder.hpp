@@ -29,11 +29,14 @@ class EdgePieceBuilder {
   /// Returns whether nothing of the edge is clipped.
   [[nodiscard]] bool is_whole() const { return lo_.num == 0 && hi_.num == hi_.den; }
 
+  /// Returns whether all of the edge is clipped.
+  [[nodiscard]] bool is_clipped() const { return whole_ == State::clipped; }
+
   /// What finish() did with the pieces of an edge.
   struct Outcome {
-    bool left_out = false;   ///< there were hidden pieces, which it did not append
-    std::size_t specks = 0;  ///< specks that other pieces absorbed
-    bool specked = false;    ///< it appended visible specks
+    UnwantedPieces left_out;  ///< what it did not append
+    std::size_t specks = 0;   ///< specks that other pieces absorbed
+    bool specked = false;     ///< it appended visible specks
   };
   /// Appends the pieces of the current edge, which has this number within its object.
   Outcome finish(std::uint32_t number, std::span<const OcclusionInterval> intervals,

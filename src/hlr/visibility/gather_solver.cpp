@@ -433,6 +433,10 @@ class Drawer {
       : visibility_(visibility), gatherer_(visibility), piece_builder_(visibility, rule) {}
 
   SolverWork run(const EdgeRange& item, bool timed, std::vector<EdgePiece>& out) {
+    // No edge is looked at where the limits leave nothing of the body.
+    const std::uint64_t edges = item.last - item.first;
+    if (!visibility_.job.options.clipped && !item.lines && visibility_.placed[item.body].outside)
+      return {.edges = edges, .clipped = edges};
     const Stopwatch watch;
     gatherer_.start(item, timed);
     if (item.lines)
@@ -484,10 +488,14 @@ class Drawer {
         ++gatherer_.work.left_out;
         return;
       }
+    } else if (piece_builder_.is_clipped() && !visibility_.job.options.clipped) {
+      ++gatherer_.work.clipped;
+      return;
     }
     const EdgePieceBuilder::Outcome outcome = piece_builder_.finish(number, intervals, out);
     gatherer_.work.specks += outcome.specks;
-    if (outcome.left_out) ++gatherer_.work.left_out;
+    if (outcome.left_out.hidden) ++gatherer_.work.left_out;
+    gatherer_.work.clipped += outcome.left_out.clipped;
     if (outcome.specked) gatherer_.work.specked = true;
   }
 

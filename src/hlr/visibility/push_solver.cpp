@@ -232,7 +232,8 @@ Result<SpeckedObjects> solve_push(const ViewJob& job, const parallel::Context& c
           static_cast<void>(builder.begin(under.edge));
           const EdgePieceBuilder::Outcome outcome = builder.finish(e, under.intervals, out);
           work[o].specks += outcome.specks;
-          if (outcome.left_out) ++drawing.left_out[o];
+          if (outcome.left_out.hidden) ++drawing.left_out[o];
+          if (outcome.left_out.clipped > 0) drawing.clipped_left_out[o] += outcome.left_out.clipped;
           if (outcome.specked) work[o].specked = true;
         }
       });

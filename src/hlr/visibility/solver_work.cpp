@@ -46,6 +46,8 @@ Result<SolverWork> sum_up_work(const VisibilityScene& visibility, std::span<cons
           if (work[k].specked) specked[object] = 1;
           if (work[k].left_out > 0)
             drawing.left_out[object] += static_cast<std::uint32_t>(work[k].left_out);
+          if (work[k].clipped > 0)
+            drawing.clipped_left_out[object] += static_cast<std::uint32_t>(work[k].clipped);
         }
       },
       [](SolverWork& into, const SolverWork& sum) {

@@ -19,6 +19,7 @@ namespace strake::hlr {
 
 struct SolverWork {
   std::uint64_t edges = 0, covered = 0, tests = 0, wide_tests = 0, left_out = 0, specks = 0;
+  std::uint64_t clipped = 0;      ///< clipped pieces that were left out
   bool specked = false;           ///< some of the visible pieces are specks
   double own_s = 0, timed_s = 0;  ///< of timed items: in tests against their own objects, and all
 };

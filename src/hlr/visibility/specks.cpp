@@ -329,13 +329,19 @@ std::size_t absorb_specks(const SpeckRule& rule, std::size_t first,
   return specks;
 }
 
-bool leave_out_unwanted(const Options& options, std::size_t first, std::vector<EdgePiece>& pieces) {
+UnwantedPieces leave_out_unwanted(const Options& options, std::size_t first,
+                                  std::vector<EdgePiece>& pieces) {
   const auto begin = pieces.begin() + static_cast<std::ptrdiff_t>(first);
   const auto kept = std::remove_if(
       begin, pieces.end(), [&](const EdgePiece& piece) { return !keeps(options, piece.state); });
-  const bool any = kept != pieces.end();
+  UnwantedPieces unwanted{.hidden = kept != pieces.end()};
   pieces.erase(kept, pieces.end());
-  return any;
+  const auto is_clipped = [](const EdgePiece& piece) { return piece.state == State::clipped; };
+  if (!options.clipped && std::all_of(begin, pieces.end(), is_clipped)) {
+    unwanted.clipped = static_cast<std::uint32_t>(pieces.end() - begin);
+    pieces.erase(begin, pieces.end());
+  }
+  return unwanted;
 }
 
 bool has_visible_specks(const SpeckRule& rule, std::size_t first,

@@ -60,8 +60,16 @@ class SpeckRule {
 /// so, and an edge that is a speck as a whole has one state. Returns how many specks there were.
 std::size_t absorb_specks(const SpeckRule& rule, std::size_t first, std::vector<EdgePiece>& pieces);
 
-/// Removes the pieces from `first` on that the options do not request; true when there are any.
-bool leave_out_unwanted(const Options& options, std::size_t first, std::vector<EdgePiece>& pieces);
+/// Pieces of an edge that the options do not request.
+struct UnwantedPieces {
+  bool hidden = false;        ///< there were hidden ones
+  std::uint32_t clipped = 0;  ///< clipped ones
+};
+
+/// Removes the pieces of an edge, which begin at `first`, that the options do not request. Decision
+/// 0125 says why clipped ones are counted.
+UnwantedPieces leave_out_unwanted(const Options& options, std::size_t first,
+                                  std::vector<EdgePiece>& pieces);
 
 /// Returns whether any of the pieces from `first` on is a visible speck.
 [[nodiscard]] bool has_visible_specks(const SpeckRule& rule, std::size_t first,

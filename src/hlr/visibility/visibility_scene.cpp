@@ -218,6 +218,7 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
               sectioned.within,
               job.opaque[b],
               false,
+              false,
               job.forgives_rounding(b)};
     if (job.limits && !shape.box.empty()) {
       Box3l box = body.box(shape);
@@ -226,7 +227,8 @@ Status place_bodies(VisibilityScene& visibility, const parallel::Context& contex
       const geometry::Vec3l more{beyond, beyond, beyond};
       box = {box.lo - job.origin - more, box.hi - job.origin + more};
       placed.cut = !within(box, *job.limits);
-      placed.opaque = placed.opaque && box.meets(*job.limits);
+      placed.outside = !box.meets(*job.limits);
+      placed.opaque = placed.opaque && !placed.outside;
     }
     if (placed.opaque && !placed.shape->box.empty()) boxes[b] = placed.shape->box.moved(placed.at);
   };

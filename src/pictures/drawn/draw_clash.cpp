@@ -138,6 +138,7 @@ class ClashDrawer {
     const SmallScene small = small_scene(scenery_, limits.inflated(kRoom));
     hlr::Options options;
     options.hidden = options_.hidden_lines;
+    options.clipped = false;
     options.hatch_spacing_mm = 0;
     options.flush_seams = false;
     constexpr double kSagOnPaper = 0.04, kMinSag = 0.001;

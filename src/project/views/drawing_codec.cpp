@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +43,8 @@ void write_column(BlobWriter& out, std::span<const Item> items, std::size_t each
 /// What a drawing says of a range of objects, where it lies.
 struct LinesOfObjects {
   std::span<const std::uint32_t> left_out;
+  /// What is written only where the options have it counted.
+  std::optional<std::span<const std::uint32_t>> clipped_left_out;
   std::span<const hlr::LineCount> counted;
   std::span<const hlr::Hatch> hatches;
   std::span<const hlr::Curve> curves;
@@ -71,11 +74,14 @@ std::span<const T> entries_of(const std::vector<T>& by_object, ObjectRange objec
 LinesOfObjects lines_of(const hlr::Drawing& drawing, ObjectRange objects) {
   const hlr::Curves& curves = drawing.curves;
   LinesOfObjects lines{.left_out = entries_of(drawing.left_out, objects),
+                       .clipped_left_out = std::nullopt,
                        .counted = entries_of(drawing.counted, objects),
                        .hatches = entries_of(drawing.hatches, objects),
                        .curves = {},
                        .edges = lines_of(curves.edges, objects),
                        .pieces = lines_of(drawing.pieces, objects)};
+  if (!drawing.options.clipped)
+    lines.clipped_left_out = entries_of(drawing.clipped_left_out, objects);
   if (lines.edges.empty()) return lines;
   const std::span<const hlr::CurvedEdge> after =
       lines_of(curves.edges, {objects.last, drawing.account.fates.size()});
@@ -150,6 +156,7 @@ hlr::Curves read_curves(BlobReader& in, ObjectRange objects) {
 
 void write(BlobWriter& out, const LinesOfObjects& lines) {
   out.column(lines.left_out);
+  if (lines.clipped_left_out) out.column(*lines.clipped_left_out);
   write_column(out, lines.counted, 2, [](const hlr::LineCount& count, std::size_t k) {
     return static_cast<std::int64_t>(k == 0 ? count.edges : count.specks);
   });
@@ -160,12 +167,16 @@ void write(BlobWriter& out, const LinesOfObjects& lines) {
 
 /// Appends all lines, as they are.
 void write_all_lines(BlobWriter& out, const hlr::Drawing& drawing) {
-  write(out, LinesOfObjects{.left_out = drawing.left_out,
-                            .counted = drawing.counted,
-                            .hatches = drawing.hatches,
-                            .curves = drawing.curves.all,
-                            .edges = drawing.curves.edges,
-                            .pieces = drawing.pieces});
+  using Counts = std::optional<std::span<const std::uint32_t>>;
+  write(out,
+        LinesOfObjects{.left_out = drawing.left_out,
+                       .clipped_left_out =
+                           drawing.options.clipped ? Counts() : Counts(drawing.clipped_left_out),
+                       .counted = drawing.counted,
+                       .hatches = drawing.hatches,
+                       .curves = drawing.curves.all,
+                       .edges = drawing.curves.edges,
+                       .pieces = drawing.pieces});
 }
 
 std::vector<hlr::LineCount> read_line_counts(BlobReader& in, std::size_t objects) {
@@ -185,18 +196,20 @@ std::vector<hlr::LineCount> read_line_counts(BlobReader& in, std::size_t objects
 
 /// What was written of a range of objects; its pieces lie in the reader still.
 struct ReadLines {
-  std::vector<std::uint32_t> left_out;
+  std::vector<std::uint32_t> left_out, clipped_left_out;
   std::vector<hlr::LineCount> counted;
   std::vector<hlr::Hatch> hatches;
   hlr::Curves curves;  ///< numbered from the first of the range
   PieceBlocks pieces;
 };
 
-ReadLines read_lines(BlobReader& in, ObjectRange objects, bool with_hatches) {
+ReadLines read_lines(BlobReader& in, ObjectRange objects, const hlr::Options& options,
+                     bool with_hatches) {
   ReadLines lines;
   lines.left_out = in.column<std::uint32_t>();
-  if (!lines.left_out.empty() && lines.left_out.size() != objects.size())
-    in.refuse("columns are not of one length");
+  if (!options.clipped) lines.clipped_left_out = in.column<std::uint32_t>();
+  for (const std::size_t size : {lines.left_out.size(), lines.clipped_left_out.size()})
+    if (size != 0 && size != objects.size()) in.refuse("columns are not of one length");
   lines.counted = read_line_counts(in, objects.size());
   if (with_hatches) lines.hatches = read_hatches(in);
   if (!lines.hatches.empty() && lines.hatches.size() != objects.size())
@@ -226,6 +239,7 @@ Status join(std::span<const ReadLines> ranges, BlobReader& in, hlr::Drawing& dra
   drawing.curves.edges.reserve(edges);
   for (const ReadLines& lines : ranges) {
     append(drawing.left_out, lines.left_out);
+    append(drawing.clipped_left_out, lines.clipped_left_out);
     append(drawing.counted, lines.counted);
     append(drawing.hatches, lines.hatches);
     const auto before = static_cast<std::uint32_t>(drawing.curves.all.size());
@@ -237,7 +251,8 @@ Status join(std::span<const ReadLines> ranges, BlobReader& in, hlr::Drawing& dra
     blocks.push_back(lines.pieces);
   }
   const std::size_t objects = drawing.account.fates.size();
-  for (const std::size_t size : {drawing.left_out.size(), drawing.hatches.size()})
+  for (const std::size_t size :
+       {drawing.left_out.size(), drawing.clipped_left_out.size(), drawing.hatches.size()})
     if (size != 0 && size != objects) in.refuse("columns are not of one length");
   if (in.failed()) return {};
   Result<std::vector<hlr::EdgePiece>> pieces = read_pieces(blocks, objects, in, context);
@@ -291,11 +306,11 @@ struct OpenedPart {
 };
 
 Result<OpenedPart> open_part(std::span<const std::byte> blob, ObjectRange objects,
-                             const std::string& what) {
+                             const hlr::Options& options, const std::string& what) {
   Result<BlobReader> in = BlobReader::open(blob, what);
   if (!in) return in.error();
   OpenedPart part{std::move(*in), {}};
-  part.lines = read_lines(part.in, objects, true);
+  part.lines = read_lines(part.in, objects, options, true);
   if (const Status status = part.in.finish(); !status) return status.error();
   return part;
 }
@@ -336,8 +351,8 @@ Status write_lines(BlobWriter& out, const hlr::Drawing& drawing, ObjectRange obj
 Result<hlr::Drawing> read_drawing(BlobReader& in, const parallel::Context& context) {
   ReadHead head = read_head(in);
   if (head.form != kFormOfOne && head.form != kFormWithoutHatches) in.refuse(kUnknownForm);
-  const ReadLines lines =
-      read_lines(in, {0, head.drawing.account.fates.size()}, head.form == kFormOfOne);
+  const ReadLines lines = read_lines(in, {0, head.drawing.account.fates.size()},
+                                     head.drawing.options, head.form == kFormOfOne);
   if (const Status status = join(std::span(&lines, 1), in, head.drawing, context); !status)
     return status.error();
   return std::move(head.drawing);
@@ -353,11 +368,11 @@ Result<hlr::Drawing> read_parts_of_drawing(BlobReader& in,
   if (parts.size() != count_drawing_parts(objects))
     in.refuse("it has not the parts that it should have");
   if (in.failed()) return hlr::Drawing{};
-  Result<std::vector<OpenedPart>> opened =
-      parallel::transform(context, {.name = "unpack stored lines", .n = parts.size()},
-                          [&](std::size_t k) -> Result<OpenedPart> {
-                            return open_part(parts[k], objects_of_drawing_part(k, objects), what);
-                          });
+  Result<std::vector<OpenedPart>> opened = parallel::transform(
+      context, {.name = "unpack stored lines", .n = parts.size()},
+      [&](std::size_t k) -> Result<OpenedPart> {
+        return open_part(parts[k], objects_of_drawing_part(k, objects), head.drawing.options, what);
+      });
   if (!opened) return opened.error();
   std::vector<ReadLines> ranges;
   ranges.reserve(opened->size());

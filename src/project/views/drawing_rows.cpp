@@ -296,7 +296,8 @@ Result<EncodedDrawing> encode_drawing(const DrawingToStore& to_store,
   if (made_from.identities.size() != objects || made_from.signatures.size() != objects ||
       to_store.boxes.size() != objects || to_store.drawing.counted.size() != objects ||
       (to_store.touched != nullptr && lacks(to_store.touched->size())) ||
-      lacks(to_store.drawing.left_out.size()) || lacks(to_store.drawing.hatches.size()))
+      lacks(to_store.drawing.left_out.size()) || lacks(to_store.drawing.clipped_left_out.size()) ||
+      lacks(to_store.drawing.hatches.size()))
     return Error{ErrorCode::internal,
                  "a drawing and what it was solved from are not of the same objects",
                  {},

@@ -121,11 +121,15 @@ std::vector<hlr::Hatch> read_hatches(BlobReader& in) {
   return hatches;
 }
 
+/// Which pieces are kept, in one number. Clipped ones are where nothing is said of them, as in what
+/// earlier versions wrote.
+constexpr std::uint64_t kKeepsHidden = 1, kCountsClipped = 2;
+
 /// Takes all options apart: one more does not compile, here or in read_options().
 void write(BlobWriter& out, const hlr::Options& options) {
   const auto& [stage, solver, sharp_angle, smooth, contact_distance, intersections, own_polylines,
-               flush_seams, sag, culling, bucketing, hidden, keep_specks, hatch_spacing, hatches,
-               uncut] = options;
+               flush_seams, sag, culling, bucketing, hidden, clipped, keep_specks, hatch_spacing,
+               hatches, uncut] = options;
   write_enum(out, stage);
   write_enum(out, solver);
   out.real(sharp_angle);
@@ -137,7 +141,7 @@ void write(BlobWriter& out, const hlr::Options& options) {
   out.real(sag);
   out.number(culling ? 1 : 0);
   out.integer(bucketing);
-  out.number(hidden ? 1 : 0);
+  out.number((hidden ? kKeepsHidden : 0) | (clipped ? 0 : kCountsClipped));
   out.number(keep_specks ? 1 : 0);
   out.real(hatch_spacing);
   write(out, std::span<const hlr::Hatch>(hatches));
@@ -147,8 +151,8 @@ void write(BlobWriter& out, const hlr::Options& options) {
 hlr::Options read_options(BlobReader& in) {
   hlr::Options options;
   auto& [stage, solver, sharp_angle, smooth, contact_distance, intersections, own_polylines,
-         flush_seams, sag, culling, bucketing, hidden, keep_specks, hatch_spacing, hatches, uncut] =
-      options;
+         flush_seams, sag, culling, bucketing, hidden, clipped, keep_specks, hatch_spacing, hatches,
+         uncut] = options;
   stage = read_enum(in, hlr::Stage::global);
   solver = read_enum(in, hlr::Solver::push);
   sharp_angle = read_finite(in);
@@ -164,7 +168,11 @@ hlr::Options read_options(BlobReader& in) {
     in.refuse("an option has a value that this version does not know");
   else
     bucketing = static_cast<std::int32_t>(buckets);
-  hidden = in.number() != 0;
+  const std::uint64_t kept = in.number();
+  if (kept > (kKeepsHidden | kCountsClipped))
+    in.refuse("an option has a value that this version does not know");
+  hidden = (kept & kKeepsHidden) != 0;
+  clipped = (kept & kCountsClipped) == 0;
   keep_specks = in.number() != 0;
   hatch_spacing = read_finite(in);
   hatches = read_hatches(in);

@@ -2,8 +2,11 @@
 // What covers whole tiles, and what bodies of one shape share, changes the work and not the answer.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "strake/hlr/hlr.hpp"
@@ -164,6 +167,74 @@ TEST(Culling, LeavingHiddenPiecesOutChangesNoOther) {
     left_out += culled->counters.left_out;
   }
   EXPECT_GT(left_out, 16 * kSeeds);
+}
+
+/// Sections and perspective clip, too.
+hlr::View some_clipped_view(Random& random) {
+  hlr::View view{.direction = some_direction(random), .limits = some_limits(random)};
+  const auto third = static_cast<std::int64_t>(random.below(kExtent / 3));
+  if (random.one_in(3)) view.limits = geometry::Box3l{{0, third, 0}, {third, 2 * third, kExtent}};
+  if (random.one_in(4)) {
+    const Vec3l target{third, third, third}, eye = target + Vec3l{kExtent / 2, -third - 1, third};
+    view.direction = eye - target;
+    view.perspective = {.eye = eye, .target = target, .near_mm = 1, .field_of_view_deg = 40};
+  }
+  if (random.one_in(3)) view.sections.push_back({{0, 1, 0}, {0, 2 * third, 0}});
+  return view;
+}
+
+/// Removes the pieces of each edge that has nothing but clipped ones. Returns how many each object
+/// had.
+std::vector<std::uint32_t> leave_out_clipped(hlr::Drawing& drawing) {
+  std::vector<std::uint32_t> counts(drawing.account.fates.size());
+  std::vector<hlr::EdgePiece> kept;
+  for (std::size_t first = 0, last = 0; first < drawing.pieces.size(); first = last) {
+    const hlr::EdgePiece& edge = drawing.pieces[first];
+    bool clipped = true;
+    for (; last < drawing.pieces.size() && drawing.pieces[last].object == edge.object &&
+           drawing.pieces[last].edge == edge.edge;
+         ++last)
+      clipped = clipped && drawing.pieces[last].state == hlr::State::clipped;
+    const auto at = drawing.pieces.begin() + static_cast<std::ptrdiff_t>(first);
+    if (clipped)
+      counts[model::index(edge.object)] += static_cast<std::uint32_t>(last - first);
+    else
+      kept.insert(kept.end(), at, drawing.pieces.begin() + static_cast<std::ptrdiff_t>(last));
+  }
+  drawing.pieces = std::move(kept);
+  return counts;
+}
+
+TEST(Culling, LeavingClippedEdgesOutChangesNoOther) {
+  std::uint64_t left_out = 0, kept = 0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const SceneBuilder scene = crowd(seed);
+    Random random(seed * 19);
+    const hlr::View view = some_clipped_view(random);
+    hlr::Options options;
+    options.hidden = random.one_in(2);
+    options.keep_specks = random.one_in(4);
+    if (random.one_in(4)) options.contact_distance_mm = 0.5;
+    options.solver = seed % 8 == 0                        ? hlr::Solver::brute_force
+                     : seed % 8 == 4 && !view.perspective ? hlr::Solver::push
+                                                          : hlr::Solver::gather;
+    auto full = hlr::draw(scene.scene(), {}, view, options, {});
+    options.clipped = false;
+    const auto other = hlr::draw(scene.scene(), {}, view, options, {});
+    ASSERT_TRUE(full.has_value() && other.has_value()) << "seed " << seed;
+    ASSERT_TRUE(full->clipped_left_out.empty());
+    ASSERT_EQ(leave_out_clipped(*full), other->clipped_left_out) << "seed " << seed;
+    ASSERT_EQ(test::difference(full->pieces, other->pieces), "") << "seed " << seed;
+    ASSERT_EQ(full->account.fates, other->account.fates) << "seed " << seed;
+    ASSERT_EQ(full->account.defects, other->account.defects) << "seed " << seed;
+    ASSERT_EQ(full->counted, other->counted) << "seed " << seed;
+    ASSERT_EQ(full->left_out, other->left_out) << "seed " << seed;
+    for (const std::uint32_t pieces : other->clipped_left_out) left_out += pieces;
+    kept += static_cast<std::uint64_t>(
+        std::ranges::count(other->pieces, hlr::State::clipped, &hlr::EdgePiece::state));
+  }
+  EXPECT_GT(left_out, 16 * kSeeds);
+  EXPECT_GT(kept, kSeeds);
 }
 
 TEST(Culling, OneShapeIsTestedAgainstItselfOnce) {

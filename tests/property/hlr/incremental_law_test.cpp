@@ -73,6 +73,7 @@ std::string lines_of(const hlr::Drawing& drawing, const std::vector<bool>& left_
     if (left_out[o]) continue;
     put(o, drawing.counted.at(o).edges, drawing.counted.at(o).specks);
     if (!drawing.left_out.empty()) put("left out", drawing.left_out.at(o));
+    if (!drawing.clipped_left_out.empty()) put("clipped", drawing.clipped_left_out.at(o));
     if (!drawing.hatches.empty())
       put("hatch", drawing.hatches.at(o).angle_deg, drawing.hatches.at(o).spacing_mm);
   }

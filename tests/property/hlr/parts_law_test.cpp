@@ -55,7 +55,7 @@ class SplitView {
     hlr::PartJoin join(model_.objects.size());
     for (std::size_t k = 0; k < parts.size(); ++k)
       EXPECT_TRUE(join.expect(counts_of(solved[k], parts[k]), parts[k].objects));
-    EXPECT_TRUE(join.make_room(options_.hidden, {}));
+    EXPECT_TRUE(join.make_room(options_, {}));
     Diagnostics first_diagnostics;
     for (std::size_t k = 0; k < parts.size(); ++k) {
       EXPECT_TRUE(

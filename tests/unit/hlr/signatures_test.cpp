@@ -170,6 +170,8 @@ TEST(Signatures, WhatChangesTheDrawingShowsInThatOfTheView) {
   add_options([](hlr::Options& o) { o.flush_seams = false; });
   add_options([](hlr::Options& o) { o.sag_mm = 0.1; });
   add_options([](hlr::Options& o) { o.hidden = false; });
+  add_options([](hlr::Options& o) { o.clipped = false; });
+  add_options([](hlr::Options& o) { o.hidden = o.clipped = false; });
   add_options([](hlr::Options& o) { o.keep_specks = true; });
   add_options([](hlr::Options& o) { o.hatch_spacing_mm = 0; });
   all.push_back(signatures_of(changing, {}, {}, {.sag_mm = 0.4}).view);

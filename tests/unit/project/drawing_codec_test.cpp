@@ -113,12 +113,14 @@ std::vector<DrawingContent> contents_of(std::size_t objects) {
   all[2].view.direction = {0, -1, 0};
   all[2].view.limits = geometry::Box3l{{-100'000, -90'000, 0}, {900'000, 800'000, 900'000}};
   all[2].options.hidden = false;
+  all[2].options.clipped = false;
   all[2].options.sag_mm = 0.01;
   all[2].options.smooth = hlr::Smooth::all;
   all[3].view.direction = {-1, -9, 3};
   all[3].view.perspective =
       hlr::Perspective{{1'000'000, -9'000'000, 3'000'000}, {2'000'000, 0, 0}, 50, 60};
   all[3].options.intersections = hlr::Intersections::parts;
+  all[3].options.clipped = false;
   all[4].options.keep_specks = true;
   all[4].options.flush_seams = false;
   all[4].options.stage = hlr::Stage::local;
@@ -276,6 +278,10 @@ TEST(DrawingCodec, WhatCannotBeADrawingIsRefused) {
       [](hlr::Drawing& d) { d.curves.all[0].at.v.y = std::nan(""); },
       [](hlr::Drawing& d) { d.curves.all[0].origin.x = std::int64_t{1} << 61U; },
       [](hlr::Drawing& d) { d.left_out = {1, 2, 3}; },
+      [](hlr::Drawing& d) {
+        d.options.clipped = false;
+        d.clipped_left_out = {1, 2, 3};
+      },
       [](hlr::Drawing& d) { d.counted.push_back({}); },
       [](hlr::Drawing& d) { d.account.fates[0] = static_cast<hlr::Fate>(200); },
       [](hlr::Drawing& d) { d.account.defects.push_back({model::ObjectId{50}, "no-lines"}); },
@@ -300,7 +306,7 @@ TEST(DrawingCodec, WhatCannotBeADrawingIsRefused) {
         !std::ranges::is_sorted(wrong.curves.edges, {}, number) ||
         number(wrong.pieces.back()) >= 5 || number(wrong.curves.edges.back()) >= 5 ||
         wrong.counted != sound.counted || wrong.left_out != sound.left_out ||
-        !write_lines(part, wrong, {0, 5}))
+        wrong.clipped_left_out != sound.clipped_left_out || !write_lines(part, wrong, {0, 5}))
       continue;
     ++in_parts;
     const auto of_parts = read_parts_back(parts_of(wrong));
