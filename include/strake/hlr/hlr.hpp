@@ -134,9 +134,6 @@ struct Options {
   bool culling = true;  ///< changes the work, never the answer
   static constexpr std::int32_t kNoBuckets = 0, kBucketsByData = -1;
   static constexpr std::int32_t kMaxBuckets = 4096;
-  /// The former name of kMaxBuckets.
-  [[deprecated("it is called kMaxBuckets")]] static constexpr std::int32_t kMostBuckets =
-      kMaxBuckets;
   /// How the faces of a part are found. A number from 1 to kMaxBuckets: by so many buckets along
   /// the longer side of the part on paper, fewer where they would list its faces over and over.
   /// kBucketsByData: by as many as suit its faces and edges, or a tree. kNoBuckets: each face is

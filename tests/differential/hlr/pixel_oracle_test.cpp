@@ -29,9 +29,9 @@ struct ViewCase {
   Vec3l direction, up;
 };
 const std::vector<ViewCase> kSights = {{{1, -1, 1}, {0, 0, 1}},
-                                              {{0, 0, 1}, {0, 1, 0}},
-                                              {{0, -1, 0}, {0, 0, 1}},
-                                              {{7, -3, 2}, {0, 0, 1}}};
+                                       {{0, 0, 1}, {0, 1, 0}},
+                                       {{0, -1, 0}, {0, 0, 1}},
+                                       {{7, -3, 2}, {0, 0, 1}}};
 
 hlr::Drawing drawn(const model::Scene& scene, const ViewCase& sight) {
   auto drawing =
@@ -75,8 +75,8 @@ model::Model crowd(std::uint64_t seed, int objects) {
 }
 
 /// `most`: disagreements per million pixels that were asked about.
-void expect_agreement(const model::Scene& scene, const ViewCase& sight, int width,
-                      double most, const std::string& what) {
+void expect_agreement(const model::Scene& scene, const ViewCase& sight, int width, double most,
+                      const std::string& what) {
   const test::PixelCheck check = test::check_by_pixels(scene, drawn(scene, sight), width);
   const std::string reported =
       what + " from " + std::to_string(sight.direction.x) + "," +

@@ -240,8 +240,8 @@ TEST_F(SiteTest, many_clients_of_a_server_see_what_one_of_them_decides) {
   const std::string answer =
       test::Client(served.port())
           .exchange("POST /api/decide HTTP/1.1\r\n" + head +
-                "Origin: http://127.0.0.1:8123\r\nContent-Type: application/json\r\n" +
-                "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
+                    "Origin: http://127.0.0.1:8123\r\nContent-Type: application/json\r\n" +
+                    "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body);
   EXPECT_EQ(test::code_of(answer), 200) << answer;
   std::vector<std::string> found(8);
   std::vector<std::jthread> readers;
