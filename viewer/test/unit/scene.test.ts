@@ -136,7 +136,7 @@ test('a box fits into the picture, from every side and in every form', () => {
           const p = new Vector3(...(size.map((v, k) => ((i >> k) & 1 ? v : -v) / 2) as Vec)).project(camera);
           most = Math.max(most, Math.abs(p.x), Math.abs(p.y));
         }
-        assert.ok(most < 1 && most > 0.85, `${size} ${look} ${aspect}: ${most}`);
+        assert.ok(most < 1 && most > 0.85, `${size} ${view} ${aspect}: ${most}`);
       }
     }
   }
